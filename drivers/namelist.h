@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fortran namelist syntax: text -> groups of keys with values and places. Knows no group and no key by name.
+ * Strict where a Fortran READ is lax: every fault has a line and a column, and all of them are reported. */
+#ifndef DEM_NAMELIST_H
+#define DEM_NAMELIST_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct namelist_place {
+    int line, column; /* from 1 */
+} namelist_place;
+
+typedef enum namelist_kind {
+    NAMELIST_NULL, /* two separators with nothing between, or r*: keeps the default */
+    NAMELIST_INTEGER,
+    NAMELIST_REAL,
+    NAMELIST_LOGICAL,
+    NAMELIST_STRING
+} namelist_kind;
+
+typedef struct namelist_value {
+    namelist_kind kind;
+    namelist_place place;
+    int64_t integer; /* INTEGER */
+    double real;     /* REAL, and INTEGER converted */
+    bool logical;    /* LOGICAL */
+    char *text;      /* STRING: its content; otherwise as spelt in the file. Owned by the file. */
+} namelist_value;
+
+/* One assignment. `key = ...` has first = 1; `key(3) = ...` has first = 3, stride 1, and `subscript` set. */
+typedef struct namelist_key {
+    char *name; /* lower case; components joined by '%' */
+    namelist_place place;
+    bool subscript;
+    int64_t first, stride; /* element of value k is first + k * stride, from 1 */
+    size_t n_values;
+    namelist_value *values; /* repeat counts r*c expanded */
+} namelist_key;
+
+typedef struct namelist_group {
+    char *name; /* lower case */
+    namelist_place place;
+    size_t n_keys;
+    namelist_key *keys; /* in the order of the file, repeated ones included */
+} namelist_group;
+
+/* A fault, without file name: the caller prints "file:line:column: error: text". */
+typedef struct namelist_error {
+    namelist_place place;
+    char *text;
+} namelist_error;
+
+typedef struct namelist_errors {
+    size_t n, capacity;
+    namelist_error *list;
+    bool out_of_memory; /* an error could not be stored */
+} namelist_errors;
+
+typedef struct namelist {
+    size_t n_groups;
+    namelist_group *groups;
+} namelist;
+
+/* Parses `size` bytes; syntax faults are appended to `errors` and reading goes on behind them.
+ * Returns false only when memory runs out (`out` is then empty). Free `out` with namelist_free in any case. */
+bool namelist_parse(namelist *out, const char *text, size_t size, namelist_errors *errors);
+void namelist_free(namelist *list);
+
+/* Appends a fault, printf-like. */
+void namelist_errors_add(namelist_errors *errors, namelist_place place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Sorts by place, stable. */
+void namelist_errors_sort(namelist_errors *errors);
+void namelist_errors_free(namelist_errors *errors);
+
+#endif

@@ -1,0 +1,365 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** dem -- elastic bodies as spring lattices, dropped on rigid obstacles.
+ *
+ *      dem_lattice      plain arrays you may edit: nodes, springs, triangles
+ *      dem_model        compiled from a lattice and obstacles; validated, immutable, shareable
+ *      dem_simulation   owns the moving state; dem_simulation_advance() is the time loop
+ *      dem_observer     is shown the simulation at frames, accepted steps and impacts
+ *
+ *  Units are SI throughout. Node arrays are [n][2], row-major: x0 y0 x1 y1 ...
+ *  Numbers in parentheses, (1) to (10), are the equations of docs/method.md.
+ *
+ *  A function that can fail returns a dem_status; what it writes through `out` is set only on DEM_OK, and after a
+ *  failure nothing has changed. dem_status_message() then tells what happened, with names and numbers.
+ *  The library never prints, exits or aborts, and has no global state but that message, which each thread has for
+ *  itself: distinct objects may live in distinct threads. */
+#ifndef DEM_DEM_H
+#define DEM_DEM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define DEM_API __attribute__((visibility("default")))
+#else
+#define DEM_API
+#endif
+
+/* ---- status ------------------------------------------------------------------------------------------------- */
+
+typedef int64_t dem_index;
+
+typedef enum dem_status {
+    DEM_OK = 0,
+    DEM_STOPPED = 1,           /**< an observer asked to stop; the state is valid                  */
+    DEM_ERROR_MEMORY = -1,     /**< an allocation failed                                            */
+    DEM_ERROR_ARGUMENT = -2,   /**< a NULL, an unknown enum value, a number outside its range       */
+    DEM_ERROR_MODEL = -3,      /**< unphysical or inconsistent: mass <= 0, spring without length    */
+    DEM_ERROR_INTEGRATOR = -4, /**< the tolerance cannot be met; the state is the last good one     */
+    DEM_ERROR_CONTACT = -5,    /**< impacts accumulate faster than time advances                    */
+    DEM_ERROR_IO = -6          /**< a file cannot be read or written                                */
+} dem_status;
+
+/** Text of the last failure in this thread; valid until the next failing call. Never NULL. */
+DEM_API const char *dem_status_message(void);
+
+/** Library version, "MAJOR.MINOR.PATCH". */
+DEM_API const char *dem_version(void);
+
+/** Version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
+DEM_API const char *dem_version_sundials(void);
+
+/* ---- lattice: what the body is made of ------------------------------------------------------------------------ */
+
+/** An isotropic plate in plane stress. */
+typedef struct dem_material {
+    double youngs_modulus; /**< E, Pa, > 0                                                          */
+    double density;        /**< rho, kg/m^3, > 0                                                    */
+    double thickness;      /**< h, m, > 0                                                           */
+    double guard;          /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02  */
+} dem_material;
+
+enum {
+    DEM_NODE_FIXED = 1,  /**< never moves                                                           */
+    DEM_NODE_CONTACT = 2 /**< may touch obstacles                                                   */
+};
+
+/** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
+ *  comes from malloc; dem_lattice_free() frees them all. */
+typedef struct dem_lattice {
+    size_t struct_size;    /**< set by dem_lattice_init()                                           */
+    int dim;               /**< 2; 3 is reserved                                                    */
+    dem_index n_nodes;     /**< > 0                                                                 */
+    dem_index n_springs;   /**< >= 0                                                                */
+    dem_index n_triangles; /**< >= 0                                                                */
+    double *x;             /**< [n_nodes][2]     rest position, m                                   */
+    double *mass;          /**< [n_nodes]        m_i > 0, kg                                        */
+    dem_index *ends;       /**< [n_springs][2]   the two nodes, distinct                            */
+    double *rest_length;   /**< [n_springs]      d0_ij > 0, m                                   (1) */
+    double *stiffness;     /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
+    dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none                      */
+    double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none               */
+    unsigned char *flags;  /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
+                                the triangulation, on every node where there are no triangles       */
+    int32_t *body;         /**< [n_nodes]        body number from 0; NULL: one body                 */
+    double *position;      /**< [n_nodes][2]     where the motion starts, m; NULL: at x             */
+    double *velocity;      /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest            */
+} dem_lattice;
+
+/** An empty lattice: no nodes, all arrays NULL. */
+DEM_API void dem_lattice_init(dem_lattice *lattice);
+
+/** Frees the arrays and leaves an empty lattice. Accepts NULL. */
+DEM_API void dem_lattice_free(dem_lattice *lattice);
+
+/** Equilateral triangulation of a rectangle standing on the origin: -width/2 <= x <= width/2, 0 <= y <= height.
+ *  Rows alternate between round(width/spacing) + 1 nodes and one less, so that it is mirror symmetric; the spacing is
+ *  kept and the height rounded to whole rows. Nodes and triangles only: dem_lattice_assemble() makes it a solid.
+ *  \param[out] out  overwritten, not freed; caller owns it
+ *  \return DEM_ERROR_ARGUMENT unless 0 < spacing <= width, height; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing);
+
+/** Equilateral triangulation of a disc about the origin, with a node at its centre. Otherwise as
+ *  dem_lattice_rectangle(), with 0 < spacing <= radius. */
+DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing);
+
+/** Removes the nodes for which `keep` returns 0, the triangles that lose a corner, and nodes left without a triangle.
+ *  For triangulations not yet assembled; a lattice that has springs is refused.
+ *  \return DEM_ERROR_MODEL if nothing is left */
+DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
+
+/** Springs, masses and guard of a triangulation by the finite-element rule: a triangle of area A gives each edge e the
+ *  stiffness E h A/|e|^2 times the edge's length, in N, and each corner a third of its mass. A block of equilateral
+ *  triangles then has exactly E and nu = 1/3 in plane stress.                                                  (1) */
+DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
+
+/** Number of parts that springs do not connect.
+ *  \param[out] part  [n_nodes] the part of each node, numbered by their lowest nodes; may be NULL */
+DEM_API dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem_index *part);
+
+/** Keeps the nodes for which keep[i] != 0, with the springs and triangles among them.  \param keep [n_nodes] */
+DEM_API dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep);
+
+/** Turns the lattice by `angle` (radians, about the origin) and shifts it; initial positions and velocities turn too. */
+DEM_API void dem_lattice_move(dem_lattice *lattice, double angle, const double offset[2]);
+
+/** Adds `velocity` (m/s) to the initial velocity of every node. */
+DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2]);
+
+/** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
+DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);
+
+/* ---- model: validated and compiled ---------------------------------------------------------------------------- */
+
+/** A fixed polyline; bodies live on the left of each segment, the solid is on its right. Closed if the last point is
+ *  the first. The ends of an open one are free: what has passed round an end may come back from behind, unhindered. */
+typedef struct dem_obstacle {
+    dem_index n_points;   /**< >= 2                                                                 */
+    const double *points; /**< [n_points][2], m; consecutive points distinct                        */
+    double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
+} dem_obstacle;
+
+/** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
+typedef struct dem_csr {
+    dem_index n_nodes;
+    const dem_index *row;       /**< [n_nodes + 1]   slots row[i] .. row[i+1]-1 belong to node i         */
+    const dem_index *neighbour; /**< [row[n_nodes]]  node j                                              */
+    const dem_index *spring;    /**< [row[n_nodes]]  index of the spring in the lattice                  */
+    const double *stiffness;    /**< [row[n_nodes]]  E_ij, N                                         (1) */
+    const double *rest_length;  /**< [row[n_nodes]]  d0_ij, m                                        (1) */
+} dem_csr;
+
+typedef struct dem_model dem_model;
+
+/** Validates, copies and compiles. Lattice and obstacles may be freed afterwards. Node order is kept.
+ *  \return DEM_ERROR_MODEL with the first offending node, spring, triangle or segment named */
+DEM_API dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                    dem_index n_obstacles);
+
+/** Accepts NULL. Destroy its simulations first. */
+DEM_API void dem_model_destroy(dem_model *model);
+
+DEM_API dem_csr dem_model_csr(const dem_model *model);
+
+/** The lattice as the model holds it; a view, not to be freed or changed. */
+DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
+
+/** The obstacles as the model holds them, [*n_obstacles]; a view. */
+DEM_API const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles);
+
+typedef struct dem_model_size {
+    dem_index n_nodes, n_springs, n_triangles, n_bodies;
+    dem_index n_contact_nodes; /**< nodes that may touch                                                 */
+    dem_index n_obstacles, n_segments;
+} dem_model_size;
+
+DEM_API dem_model_size dem_model_sizes(const dem_model *model);
+
+/** Shortest rest length, m; 0 without springs. */
+DEM_API double dem_model_spacing(const dem_model *model);
+
+/** Rigorous upper bound of the highest angular frequency about the rest shape, rad/s; 0 without springs:
+ *  omega^2 <= max over nodes of 2 |S_i| / m_i, S_i = sum over j of (E_ij/d0_ij) n n^T, |.| the largest eigenvalue. */
+DEM_API double dem_model_omega_max(const dem_model *model);
+
+/** Total mass, kg. */
+DEM_API double dem_model_mass(const dem_model *model);
+
+/** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */
+DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
+
+/* ---- simulation: the moving state ------------------------------------------------------------------------------ */
+
+/** Explicit embedded Runge-Kutta pairs; the higher-order weights advance. */
+typedef enum dem_method {
+    DEM_METHOD_FEHLBERG45 = 0,
+    DEM_METHOD_DOPRI45,
+    DEM_METHOD_CASHKARP45,
+    DEM_METHOD_ZONNEVELD34,
+    DEM_METHOD_BS23
+} dem_method;
+
+typedef struct dem_options {
+    size_t struct_size;   /**< set by dem_options_default()                                                  */
+    dem_method method;    /**< default DEM_METHOD_FEHLBERG45                                                 */
+    double gravity[2];    /**< m/s^2, default {0, -9.81}                                                 (2) */
+    double rtol;          /**< default 1e-6: error of a position over spacing, of a velocity over v_scale    */
+    double spacing;       /**< m, default 0: shortest rest length; required for a model without springs      */
+    double v_scale;       /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed    */
+    double max_step;      /**< s, default 0: 0.5/omega_max; required for a model without springs             */
+    double fixed_step;    /**< s, default 0: adaptive; > 0: steps of this length, no error control           */
+    double skin;          /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
+                               by skin/|v_n|, and the node put back on the surface                           */
+    double rest_speed;    /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
+                               becomes a lasting contact                                                     */
+    dem_index max_impacts; /**< default 10000: impacts of one node within 1/omega_max that count as a storm  */
+} dem_options;
+
+static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
+{
+    dem_options options = {0};
+    options.struct_size = sizeof options;
+    options.gravity[1] = -9.81;
+    options.rtol = 1e-6;
+    options.max_impacts = 10000;
+    return options;
+}
+
+/** Energies in J. What a run starts with equals, up to the integrator's error,
+ *  kinetic + elastic + guard + gravity + impact - projection at any later time. */
+typedef struct dem_energy {
+    double kinetic;
+    double elastic;    /**< of the springs                                                               (1) */
+    double guard;      /**< of the folding guard                                                             */
+    double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
+    double impact;     /**< taken by impacts so far, >= 0                                                (9) */
+    double projection; /**< put in by returning nodes from the skin to the surface so far                    */
+} dem_energy;
+
+/** A lasting contact: a weighted combination of nodes held on a segment. Node against segment is one node of weight 1. */
+typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
+
+typedef struct dem_contact {
+    int32_t n_nodes;         /**< 1 to 4                                                                     */
+    dem_contact_state state;
+    dem_index nodes[4];
+    double weights[4];       /**< sum 1                                                                      */
+    dem_index obstacle;      /**< index of the obstacle                                                      */
+    dem_index segment;       /**< index of the segment within it                                             */
+    double normal[2];        /**< unit, out of the obstacle                                                  */
+    double force;            /**< N, reaction along the normal at the last accepted step, >= 0               */
+} dem_contact;
+
+/** What an impact did. */
+typedef struct dem_impact {
+    double t;            /**< s                                                                              */
+    dem_index node;
+    dem_index obstacle, segment;
+    double x[2];         /**< m, place on the surface                                                        */
+    double normal[2];    /**< unit, out of the obstacle; in a corner that of the faster approached segment   */
+    double impulse[2];   /**< N s, given to the node                                                         */
+    double before[2], after[2]; /**< m/s                                                                     */
+    int32_t closed;      /**< 1 if the contact lasts                                                         */
+} dem_impact;
+
+/** All a simulation remembers of the motion; arrays are views, valid until its next non-const call. */
+typedef struct dem_state {
+    size_t struct_size;
+    double t;                    /**< s                                                                      */
+    double step;                 /**< s, length of the last accepted step                                    */
+    const double *x, *v;         /**< [n_nodes][2] m, m/s                                                    */
+    dem_index n_contacts;
+    const dem_contact *contacts; /**< [n_contacts] closed now                                                */
+    dem_energy energy;
+} dem_state;
+
+/** Mean motion of a body. */
+typedef struct dem_body_motion {
+    double mass;             /**< kg                                                                         */
+    double centre[2];        /**< centre of mass, m                                                          */
+    double velocity[2];      /**< of the centre of mass, m/s                                                 */
+    double angular_momentum; /**< about the centre of mass, kg m^2/s                                         */
+} dem_body_motion;
+
+/** What an obstacle feels. */
+typedef struct dem_obstacle_load {
+    double reaction[2]; /**< N, instantaneous sum over its lasting contacts, as it acts on the bodies        */
+    double impulse[2];  /**< N s, given to the bodies so far: impacts plus time integral of the reaction     */
+    dem_index contacts; /**< closed now                                                                      */
+} dem_obstacle_load;
+
+typedef struct dem_counts {
+    dem_index steps;        /**< accepted by the integrator                                                  */
+    dem_index rejected;     /**< by its error test                                                           */
+    dem_index evaluations;  /**< of the right-hand side (4)                                                  */
+    dem_index events;       /**< stops at contact events                                                     */
+    dem_index impacts;      /**< of single nodes                                                             */
+    dem_index closings, releases; /**< contacts that began and ceased to last                                */
+    dem_index passings;     /**< of a segment's end by a lasting contact                                     */
+    dem_index late;         /**< contact events that the root finder had not seen, found by the check after each step */
+    dem_index retries;      /**< attempts repeated with a smaller step after a non-finite force              */
+    dem_index behind;       /**< nodes that have passed round the end of an open obstacle, now               */
+} dem_counts;
+
+/** Extremes over the springs and triangles, at one instant. */
+typedef struct dem_strain {
+    double min, max;               /**< (d - d0)/d0                                                          */
+    dem_index spring_min, spring_max; /**< where; -1 without springs                                         */
+    double area_min;               /**< smallest area over rest area; 1 without triangles, < 0: inverted     */
+    dem_index guarded;             /**< triangles on which the guard acts                                    */
+} dem_strain;
+
+typedef struct dem_simulation dem_simulation;
+
+/** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
+ *  DEM_ERROR_MODEL names the node. The model is borrowed and must outlive the simulation. */
+DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
+
+/** Accepts NULL. */
+DEM_API void dem_simulation_destroy(dem_simulation *simulation);
+
+/** Integrates (4) to t_end, with (9) at every impact. The state there is interpolated, never stepped to, so a run to
+ *  t1 continued to t2 is a run to t2.
+ *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state */
+DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
+
+DEM_API void dem_simulation_state(const dem_simulation *simulation, dem_state *state);
+DEM_API dem_energy dem_simulation_energy(const dem_simulation *simulation);
+DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
+DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
+
+/** \param body  0 <= body < n_bodies */
+DEM_API dem_body_motion dem_simulation_body(const dem_simulation *simulation, dem_index body);
+
+/** \param obstacle  0 <= obstacle < n_obstacles */
+DEM_API dem_obstacle_load dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle);
+
+DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
+
+/** The options in force: those of dem_simulation_create() with every default replaced by its value. */
+DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
+
+/* ---- observers -------------------------------------------------------------------------------------------------- */
+
+/** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK
+ *  ends the advance and is returned by it. */
+typedef struct dem_observer {
+    double interval; /**< s between frames, the first at t = 0; <= 0: no frames                          */
+    dem_status (*frame)(void *context, const dem_simulation *simulation);  /**< state interpolated to the frame   */
+    dem_status (*step)(void *context, const dem_simulation *simulation);   /**< after every accepted step and at t = 0 */
+    dem_status (*impact)(void *context, const dem_simulation *simulation, const dem_impact *impact);
+    void *context;
+} dem_observer;
+
+/** Copies `observer`. At most 8; to be called before the first advance. */
+DEM_API dem_status dem_simulation_observe(dem_simulation *simulation, const dem_observer *observer);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

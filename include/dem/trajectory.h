@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** dem/trajectory.h -- a run as one HDF5 file that ParaView opens (VTKHDF), and lattices from such files.
+ *
+ *  A trajectory is an observer: create it, hand dem_trajectory_observer() to the simulation, advance, finish.
+ *  docs/output.md lists every dataset. HDF5 is confined to the two source files behind this header. */
+#ifndef DEM_TRAJECTORY_H
+#define DEM_TRAJECTORY_H
+
+#include <dem/dem.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct dem_trajectory dem_trajectory;
+
+typedef struct dem_trajectory_options {
+    size_t struct_size;    /**< set by dem_trajectory_options_default()                                       */
+    double frame_interval; /**< s between frames; <= 0: none, only the history                                */
+    int double_precision;  /**< 0: displacement, velocity, strain, force in single precision; 1: in double    */
+    int deflate;           /**< compression 0 (none) to 9; default 1                                          */
+} dem_trajectory_options;
+
+static inline dem_trajectory_options dem_trajectory_options_default(void)
+{
+    dem_trajectory_options options = {0};
+    options.struct_size = sizeof options;
+    options.deflate = 1;
+    return options;
+}
+
+/** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed after
+ *  every frame so that it can be looked at while the run goes on; an older part is overwritten.
+ *  Writes the lattice group and the obstacle file NAME.obstacle.vtkhdf (none without obstacles). */
+DEM_API dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                         const dem_trajectory_options *options);
+
+/** The observer to hand to dem_simulation_observe(); borrows the trajectory. */
+DEM_API dem_observer dem_trajectory_observer(dem_trajectory *trajectory);
+
+/** Stores a string in /provenance under `name`. */
+DEM_API dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text);
+
+/** Writes what is buffered, syncs, and renames the part to its final name, replacing a file of that name. */
+DEM_API dem_status dem_trajectory_finish(dem_trajectory *trajectory);
+
+/** Accepts NULL. Without a finish before it the part file stays as of its last frame. */
+DEM_API void dem_trajectory_destroy(dem_trajectory *trajectory);
+
+/** Reads back a string of /provenance into `text`, terminated.
+ *  \return DEM_ERROR_IO if the file or the string is not there, DEM_ERROR_ARGUMENT if `size` is too small */
+DEM_API dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size);
+
+/** Reads the group /lattice of any HDF5 file into a new lattice: every output file carries one. Types, ranks and extents
+ *  are checked before anything is allocated; external and soft links and filters other than deflate and shuffle are
+ *  refused.
+ *  \param[out] out  overwritten, not freed; caller owns it
+ *  \return DEM_ERROR_IO with the file, dataset and reason; DEM_ERROR_MODEL for inconsistent extents */
+DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);
+
+/** Version of the HDF5 library in use, "MAJOR.MINOR.PATCH". */
+DEM_API const char *dem_version_hdf5(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
