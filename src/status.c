@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The message of the last failure, one per thread. */
+/* The message of the last failure, one per thread; the version. */
 #include "status.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
 static _Thread_local char last_message[512];
+
+const char *dem_version(void)
+{
+    return DEM_VERSION;
+}
 
 const char *dem_status_message(void)
 {

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Energies, mean motions and strains of a state. */
+#include "diagnostics.h"
+
+dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v)
+{
+    dem_energy energy = {.elastic = springs_energy(&model->springs, x),
+                         .guard = triangles_energy(&model->triangles, x)};
+    const vec2 g = {gravity[0], gravity[1]};
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
+        const double m = model->lattice.mass[i];
+        const vec2 vi = vec2_at(v, i);
+        energy.kinetic += 0.5 * m * vec2_dot(vi, vi);
+        energy.gravity -= m * vec2_dot(g, vec2_at(x, i));
+    }
+    return energy;
+}
+
+dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
+{
+    const dem_lattice *l = &model->lattice;
+    double mass = 0.0, spin = 0.0;
+    vec2 centre = {0.0, 0.0}, momentum = {0.0, 0.0};
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (l->body[i] != body) continue;
+        mass += l->mass[i];
+        centre = vec2_along(centre, l->mass[i], vec2_at(x, i));
+        momentum = vec2_along(momentum, l->mass[i], vec2_at(v, i));
+    }
+    centre = vec2_scale(1.0 / mass, centre);
+    const vec2 velocity = vec2_scale(1.0 / mass, momentum);
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (l->body[i] == body)
+            spin += l->mass[i] * vec2_cross(vec2_sub(vec2_at(x, i), centre), vec2_sub(vec2_at(v, i), velocity));
+    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, spin};
+}
+
+static void measure_triangles(const dem_model *model, const double *x, dem_strain *strain)
+{
+    const dem_lattice *l = &model->lattice;
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *c = &l->triangles[3 * k];
+        const double rest = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double ratio = triangles_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest;
+        strain->area_min = fmin(strain->area_min, ratio);
+        strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
+    }
+}
+
+dem_strain diagnostics_strain(const dem_model *model, const double *x)
+{
+    const springs *s = &model->springs;
+    dem_strain strain = {.spring_min = -1, .spring_max = -1, .area_min = 1.0};
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            if (s->neighbour[p] < i) continue;
+            const double here = springs_strain(s, i, p, x);
+            if (strain.spring_min < 0 || here < strain.min) {
+                strain.min = here;
+                strain.spring_min = s->spring[p];
+            }
+            if (strain.spring_max < 0 || here > strain.max) {
+                strain.max = here;
+                strain.spring_max = s->spring[p];
+            }
+        }
+    measure_triangles(model, x, &strain);
+    return strain;
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is measured on a state: energies, mean motions, strains. Sums run in the order of the model. */
+#ifndef DEM_DIAGNOSTICS_H
+#define DEM_DIAGNOSTICS_H
+
+#include "model.h"
+
+/** Kinetic, elastic, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
+dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v);
+
+dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v);
+
+dem_strain diagnostics_strain(const dem_model *model, const double *x);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What an impact does, and which contacts last: pure functions of normals, velocities and forces. */
+#ifndef DEM_IMPACT_H
+#define DEM_IMPACT_H
+
+#include "vec2.h"
+
+/** A surface that a node touches. */
+typedef struct impact_surface {
+    vec2 normal;        /* unit, out of the obstacle */
+    double restitution; /* eta, 0 to 1 */
+} impact_surface;
+
+/** Velocity after an impact with one or two surfaces. For one it is (9), v - (1 + eta) n (n.v) if n.v < 0, with (8) as
+ *  eta = 1. For two it is Moreau's law: v - sum (1 + eta_s) p_s n_s, where sum p_s n_s, p_s <= 0, is the part of v that
+ *  the cone of the inward normals holds. */
+vec2 impact_rebound(const impact_surface *surface, int n, vec2 v);
+
+/** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls and
+ *  nothing accelerates inwards. Bit s is set if surface s holds; reaction[s] is then its force, N, else 0. */
+int impact_holding(const impact_surface *surface, int n, vec2 force, double *reaction);
+
+#endif

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* ERKStep in one-step mode. Nothing is left to ARKODE's defaults, which differ between its versions. */
+#include "integrator.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <arkode/arkode_erkstep.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_version.h>
+
+#include "status.h"
+
+enum { max_retries = 10 };
+
+struct integrator {
+    integrator_problem problem;
+    SUNContext sundials;
+    void *arkode;
+    N_Vector y;          /* what ARKODE returns */
+    N_Vector y1, f0, f1; /* the accepted step for the path */
+    double *y0, *arrays; /* [4 n] each: y0, then those behind the vectors */
+    double *inside;      /* [4 n] state at a root function's time */
+    double t;            /* last accepted time, of y0 */
+    double t1;           /* end of the step that y1, f0, f1 hold */
+    bool holds_step;     /* y1, f0, f1 are those of the step that ends at t1 */
+    bool at_end;         /* the path was handed out: y1 is the start of the next step */
+    dem_counts counts;
+    char message[256]; /* ARKODE's last complaint */
+};
+
+/* ---- callbacks ---- */
+
+static int call_derivative(realtype t, N_Vector y, N_Vector f, void *user)
+{
+    integrator *I = user;
+    I->counts.evaluations++;
+    return I->problem.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f), I->problem.context) == 0 ? 0 : -1;
+}
+
+/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation derivatives there are the stored ones. */
+static int fetch_step(integrator *I)
+{
+    double now;
+    if (ERKStepGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
+    if (I->holds_step && I->t1 == now) return 0;
+    if (ERKStepGetDky(I->arkode, now, 0, I->y1) != ARK_SUCCESS) return -1;
+    if (ERKStepGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS) return -1;
+    if (ERKStepGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS) return -1;
+    I->t1 = now;
+    I->holds_step = true;
+    return 0;
+}
+
+static path held_path(const integrator *I)
+{
+    return (path){.n_nodes = I->problem.n_nodes,
+                  .t0 = I->t,
+                  .t1 = I->t1,
+                  .end = I->t1,
+                  .y0 = I->y0,
+                  .f0 = N_VGetArrayPointer(I->f0),
+                  .y1 = N_VGetArrayPointer(I->y1),
+                  .f1 = N_VGetArrayPointer(I->f1)};
+}
+
+/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in for ARKODE's
+ * cubic, so that the root is one of the state which the event is then taken from. */
+static int call_guards(realtype t, N_Vector y, realtype *g, void *user)
+{
+    integrator *I = user;
+    double now;
+    const double *state = N_VGetArrayPointer(y);
+    if (ERKStepGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
+    if (t > I->t && t < now) {
+        if (fetch_step(I) != 0) return -1;
+        const path step = held_path(I);
+        path_state(&step, t, I->inside);
+        state = I->inside;
+    }
+    I->problem.guards(state, g, I->problem.context);
+    for (dem_index k = 0; k < I->problem.n_guards; k++)
+        if (!isfinite(g[k])) return -1;
+    return 0;
+}
+
+static int call_weights(N_Vector y, N_Vector weights, void *user)
+{
+    const integrator *I = user;
+    const dem_index n = 2 * I->problem.n_nodes;
+    double *w = N_VGetArrayPointer(weights);
+    (void)y;
+    for (dem_index k = 0; k < n; k++) w[k] = 1.0 / I->problem.position_error;
+    for (dem_index k = n; k < 2 * n; k++) w[k] = 1.0 / I->problem.velocity_error;
+    return 0;
+}
+
+static void keep_message(int code, const char *module, const char *function, char *text, void *user)
+{
+    integrator *I = user;
+    (void)module;
+    (void)function;
+    if (code < 0) (void)snprintf(I->message, sizeof I->message, "%s", text);
+}
+
+/* ---- set-up ---- */
+
+static const char *table_name(dem_method method)
+{
+    switch (method) {
+    case DEM_METHOD_FEHLBERG45:
+        return "ARKODE_FEHLBERG_6_4_5";
+    case DEM_METHOD_DOPRI45:
+        return "ARKODE_DORMAND_PRINCE_7_4_5";
+    case DEM_METHOD_CASHKARP45:
+        return "ARKODE_CASH_KARP_6_4_5";
+    case DEM_METHOD_ZONNEVELD34:
+        return "ARKODE_ZONNEVELD_5_3_4";
+    case DEM_METHOD_BS23:
+        return "ARKODE_BOGACKI_SHAMPINE_4_2_3";
+    }
+    return NULL;
+}
+
+static dem_status allocate(integrator *I)
+{
+    const dem_index n = 4 * I->problem.n_nodes;
+    I->arrays = calloc(6 * (size_t)n, sizeof *I->arrays);
+    CHECK(I->arrays != NULL, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+          (long long)I->problem.n_nodes);
+    I->y0 = I->arrays;
+    I->inside = I->arrays + n;
+    CHECK(SUNContext_Create(NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
+    I->y = N_VMake_Serial(n, I->arrays + 2 * n, I->sundials);
+    I->y1 = N_VMake_Serial(n, I->arrays + 3 * n, I->sundials);
+    I->f0 = N_VMake_Serial(n, I->arrays + 4 * n, I->sundials);
+    I->f1 = N_VMake_Serial(n, I->arrays + 5 * n, I->sundials);
+    CHECK(I->y && I->y1 && I->f0 && I->f1, DEM_ERROR_MEMORY, "out of memory for SUNDIALS vectors");
+    return DEM_OK;
+}
+
+static int set_adaptivity(integrator *I)
+{
+    void *a = I->arkode;
+    const double h = I->problem.fixed_step;
+    if (h > 0.0) return ERKStepSetFixedStep(a, h);
+    int failed = ERKStepSetAdaptivityMethod(a, ARK_ADAPT_PI, 1, 0, NULL);
+    failed |= ERKStepSetSafetyFactor(a, 0.9);
+    failed |= ERKStepSetErrorBias(a, 1.0);
+    failed |= ERKStepSetMaxGrowth(a, 10.0);
+    failed |= ERKStepSetMinReduction(a, 0.1);
+    failed |= ERKStepSetFixedStepBounds(a, 1.0, 1.0); /* else growth below 1.5 is ignored and the step count is luck */
+    failed |= ERKStepSetMaxFirstGrowth(a, 10.0);
+    failed |= ERKStepSetMaxEFailGrowth(a, 0.3);
+    failed |= ERKStepSetSmallNumEFails(a, 2);
+    failed |= ERKStepSetMaxErrTestFails(a, 30);
+    failed |= ERKStepSetInitStep(a, 0.1 * I->problem.max_step);
+    failed |= ERKStepSetMinStep(a, 1e-9 * I->problem.max_step);
+    failed |= ERKStepSetMaxStep(a, I->problem.max_step);
+    return failed;
+}
+
+static int set_guards(integrator *I)
+{
+    const dem_index n = I->problem.n_guards;
+    if (n == 0) return 0;
+    int *falling = malloc((size_t)n * sizeof *falling);
+    if (falling == NULL) return ARK_MEM_FAIL;
+    for (dem_index k = 0; k < n; k++) falling[k] = -1;
+    int failed = ERKStepRootInit(I->arkode, (int)n, call_guards);
+    failed |= ERKStepSetRootDirection(I->arkode, falling);
+    failed |= ERKStepSetNoInactiveRootWarn(I->arkode);
+    free(falling);
+    return failed;
+}
+
+static dem_status set_up(integrator *I, double t, const double *y)
+{
+    CHECK(table_name(I->problem.method) != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)I->problem.method);
+    CHECK(I->problem.n_guards <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld guards are too many for ARKODE",
+          (long long)I->problem.n_guards);
+    TRY(allocate(I));
+    memcpy(I->y0, y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    memcpy(N_VGetArrayPointer(I->y), I->y0, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    I->t = t;
+    I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
+    CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
+    int failed = ERKStepSetErrHandlerFn(I->arkode, keep_message, I);
+    failed |= ERKStepSetUserData(I->arkode, I);
+    failed |= ERKStepSetTableName(I->arkode, table_name(I->problem.method));
+    failed |=
+        ERKStepSetInterpolantDegree(I->arkode, 3); /* 4 and more would call the derivative at every root iteration */
+    failed |= ERKStepWFtolerances(I->arkode, call_weights);
+    failed |= ERKStepSetMaxNumSteps(I->arkode, -1);
+    failed |= ERKStepSetMaxHnilWarns(I->arkode, -1);
+    failed |= set_adaptivity(I);
+    failed |= set_guards(I);
+    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its settings: %s", I->message);
+    return DEM_OK;
+}
+
+/* ---- public ---- */
+
+dem_status integrator_create(integrator **out, const integrator_problem *problem, double t, const double *y)
+{
+    integrator *I = calloc(1, sizeof *I);
+    CHECK_MEMORY(I);
+    I->problem = *problem;
+    const dem_status status = set_up(I, t, y);
+    if (status == DEM_OK)
+        *out = I;
+    else
+        integrator_destroy(I);
+    return status;
+}
+
+void integrator_destroy(integrator *I)
+{
+    if (I == NULL) return;
+    if (I->arkode != NULL) ERKStepFree(&I->arkode);
+    if (I->y != NULL) N_VDestroy(I->y);
+    if (I->y1 != NULL) N_VDestroy(I->y1);
+    if (I->f0 != NULL) N_VDestroy(I->f0);
+    if (I->f1 != NULL) N_VDestroy(I->f1);
+    if (I->sundials != NULL) SUNContext_Free(&I->sundials);
+    free(I->arrays);
+    free(I);
+}
+
+/* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. */
+static dem_status retry(integrator *I, double *h)
+{
+    if (*h == 0.0 && ERKStepGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
+    *h *= 0.1;
+    I->counts.retries++;
+    CHECK(ERKStepSetInitStep(I->arkode, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    return integrator_restart(I, I->t, I->y0);
+}
+
+dem_status integrator_step(integrator *I, path *step, bool *rooted)
+{
+    if (I->at_end) { /* go on from the end of the path handed out */
+        memcpy(I->y0, N_VGetArrayPointer(I->y1), 4 * (size_t)I->problem.n_nodes * sizeof *I->y0);
+        I->t = I->t1;
+        I->at_end = false;
+    }
+    double reached, h = 0.0;
+    int flag = ARK_RHSFUNC_FAIL;
+    for (int attempt = 0; attempt <= max_retries; attempt++) {
+        I->holds_step = false;
+        flag = ERKStepEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
+        if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
+        if (I->problem.fixed_step > 0.0 || attempt == max_retries)
+            return DEM_ERROR_INTEGRATOR; /* message: derivative's */
+        TRY(retry(I, &h));
+    }
+    CHECK(flag == ARK_SUCCESS || flag == ARK_ROOT_RETURN, DEM_ERROR_INTEGRATOR,
+          "the step from t = %.9g s fails, rtol may be out of reach: %s", I->t, I->message);
+    CHECK(fetch_step(I) == 0, DEM_ERROR_INTEGRATOR, "ARKODE does not give the step: %s", I->message);
+    I->counts.steps++;
+    I->at_end = true;
+    *rooted = flag == ARK_ROOT_RETURN;
+    *step = held_path(I);
+    if (*rooted) step->end = reached;
+    return DEM_OK;
+}
+
+dem_status integrator_restart(integrator *I, double t, const double *y)
+{
+    const size_t size = 4 * (size_t)I->problem.n_nodes * sizeof *y;
+    if (y != I->y0) memcpy(I->y0, y, size);
+    memcpy(N_VGetArrayPointer(I->y), I->y0, size);
+    I->t = t;
+    I->at_end = I->holds_step = false;
+    CHECK(ERKStepReset(I->arkode, t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
+          "ARKODE does not restart at t = %.9g s: %s", t, I->message);
+    return DEM_OK;
+}
+
+dem_counts integrator_counts(const integrator *I)
+{
+    dem_counts counts = I->counts;
+    long rejected = 0;
+    if (ERKStepGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected = rejected;
+    return counts;
+}
+
+const char *dem_version_sundials(void)
+{
+    return SUNDIALS_VERSION;
+}

@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Validates a lattice and obstacles, copies them and compiles CSR, triangle rows, segments and contact sites. */
+#include "model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lattice.h"
+#include "sides.h"
+#include "status.h"
+
+/* ---- validation ---- */
+
+static dem_status check_pairs(const char *what, const double *array, dem_index n)
+{
+    for (dem_index i = 0; array != NULL && i < n; i++)
+        CHECK(isfinite(array[2 * i]) && isfinite(array[2 * i + 1]), DEM_ERROR_MODEL,
+              "node %lld: %s (%g, %g) is not finite", (long long)i, what, array[2 * i], array[2 * i + 1]);
+    return DEM_OK;
+}
+
+static dem_status check_nodes(const dem_lattice *l)
+{
+    CHECK(l->n_nodes > 0, DEM_ERROR_MODEL, "the lattice has no nodes");
+    CHECK(l->x != NULL && l->mass != NULL, DEM_ERROR_ARGUMENT, "the lattice has no array of %s",
+          l->x == NULL ? "positions" : "masses");
+    TRY(check_pairs("rest position", l->x, l->n_nodes));
+    TRY(check_pairs("initial position", l->position, l->n_nodes));
+    TRY(check_pairs("initial velocity", l->velocity, l->n_nodes));
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        CHECK(isfinite(l->mass[i]) && l->mass[i] > 0.0, DEM_ERROR_MODEL, "node %lld: mass must be > 0, got %g kg",
+              (long long)i, l->mass[i]);
+        CHECK(l->body == NULL || (l->body[i] >= 0 && l->body[i] < l->n_nodes), DEM_ERROR_MODEL,
+              "node %lld: body number %d is not in 0 to %lld", (long long)i, l->body[i], (long long)(l->n_nodes - 1));
+    }
+    return DEM_OK;
+}
+
+static dem_status check_springs(const dem_lattice *l)
+{
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index i = l->ends[2 * k], j = l->ends[2 * k + 1];
+        CHECK(i != j, DEM_ERROR_MODEL, "spring %lld joins node %lld to itself", (long long)k, (long long)i);
+        CHECK(isfinite(l->rest_length[k]) && l->rest_length[k] > 0.0, DEM_ERROR_MODEL,
+              "spring %lld: rest length must be > 0, got %g m", (long long)k, l->rest_length[k]);
+        CHECK(isfinite(l->stiffness[k]) && l->stiffness[k] > 0.0, DEM_ERROR_MODEL,
+              "spring %lld: stiffness must be > 0, got %g N", (long long)k, l->stiffness[k]);
+        CHECK(l->body == NULL || l->body[i] == l->body[j], DEM_ERROR_MODEL, "spring %lld joins bodies %d and %d",
+              (long long)k, l->body[i], l->body[j]);
+    }
+    return DEM_OK;
+}
+
+static dem_status check_triangles(const dem_lattice *l)
+{
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *c = &l->triangles[3 * k];
+        const double area = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        CHECK(area > 0.0, DEM_ERROR_MODEL, "triangle %lld (nodes %lld, %lld, %lld): area must be > 0, got %g m^2",
+              (long long)k, (long long)c[0], (long long)c[1], (long long)c[2], area);
+        CHECK(l->guard == NULL || (isfinite(l->guard[k]) && l->guard[k] >= 0.0), DEM_ERROR_MODEL,
+              "triangle %lld: guard must be >= 0, got %g N/m", (long long)k, l->guard[k]);
+    }
+    return DEM_OK;
+}
+
+static dem_status check_lattice(const dem_lattice *l)
+{
+    CHECK(l->dim == 2, DEM_ERROR_ARGUMENT, "the lattice has dimension %d, only 2 is supported", l->dim);
+    TRY(check_nodes(l));
+    TRY(lattice_check(l));
+    TRY(check_springs(l));
+    return check_triangles(l);
+}
+
+/* A node without springs is legal only as a body of its own. */
+static dem_status check_loose_nodes(const dem_model *m)
+{
+    dem_index *size = lattice_zeros(m->n_bodies, sizeof *size);
+    CHECK_MEMORY(size);
+    const dem_lattice *l = &m->lattice;
+    dem_index loose = -1;
+    for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
+    for (dem_index i = l->n_nodes - 1; i >= 0; i--)
+        if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1) loose = i;
+    free(size);
+    CHECK(loose < 0, DEM_ERROR_MODEL, "node %lld at (%g, %g) m has no springs, though body %d has other nodes",
+          (long long)loose, l->x[2 * loose], l->x[2 * loose + 1], l->body[loose]);
+    return DEM_OK;
+}
+
+/* ---- compilation ---- */
+
+static dem_status fill_defaults(dem_lattice *l)
+{
+    const dem_index n = l->n_nodes;
+    const size_t pairs = 2 * (size_t)n * sizeof(double);
+    if (l->body == NULL) CHECK_MEMORY(l->body = lattice_zeros(n, sizeof *l->body));
+    if (l->velocity == NULL) CHECK_MEMORY(l->velocity = lattice_zeros(2 * n, sizeof *l->velocity));
+    if (l->position == NULL) {
+        CHECK_MEMORY(l->position = malloc(pairs));
+        memcpy(l->position, l->x, pairs);
+    }
+    if (l->flags == NULL) {
+        CHECK_MEMORY(l->flags = lattice_zeros(n, sizeof *l->flags));
+        TRY(sides_contact_flags(l->flags, l));
+    }
+    for (dem_index i = 0; i < n; i++)
+        if (l->flags[i] & DEM_NODE_FIXED) vec2_put(l->velocity, i, (vec2){0.0, 0.0});
+    return DEM_OK;
+}
+
+static dem_status compile_nodes(dem_model *m)
+{
+    const dem_lattice *l = &m->lattice;
+    m->inverse_mass = lattice_zeros(l->n_nodes, sizeof *m->inverse_mass);
+    m->sites = lattice_zeros(l->n_nodes, sizeof *m->sites);
+    CHECK(m->inverse_mass && m->sites, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const int fixed = l->flags[i] & DEM_NODE_FIXED;
+        m->inverse_mass[i] = fixed ? 0.0 : 1.0 / l->mass[i];
+        if ((l->flags[i] & DEM_NODE_CONTACT) && !fixed) m->sites[m->n_sites++] = i;
+        if (l->body[i] >= m->n_bodies) m->n_bodies = l->body[i] + 1;
+        m->mass += l->mass[i];
+    }
+    return DEM_OK;
+}
+
+static void compile_scales(dem_model *m)
+{
+    const dem_lattice *l = &m->lattice;
+    for (dem_index k = 0; k < l->n_springs; k++)
+        m->spacing = k == 0 ? l->rest_length[0] : fmin(m->spacing, l->rest_length[k]);
+    m->omega_max = sqrt(springs_frequency_bound(&m->springs, l->x, m->inverse_mass));
+}
+
+static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
+{
+    TRY(check_lattice(lattice));
+    dem_lattice_init(&m->lattice);
+    TRY(dem_lattice_append(&m->lattice, lattice));
+    TRY(fill_defaults(&m->lattice));
+    TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(obstacles_compile(&m->obstacles, list, n));
+    TRY(compile_nodes(m));
+    compile_scales(m);
+    return check_loose_nodes(m);
+}
+
+double model_node_energy(const dem_model *model, const double gravity[2], dem_index i, const double *x)
+{
+    const double weight = model->lattice.mass[i] * (gravity[0] * x[2 * i] + gravity[1] * x[2 * i + 1]);
+    return springs_node_energy(&model->springs, i, x) + triangles_node_energy(&model->triangles, i, x) - weight;
+}
+
+/* ---- public ---- */
+
+dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                            dem_index n_obstacles)
+{
+    CHECK(out != NULL && lattice != NULL, DEM_ERROR_ARGUMENT, "dem_model_create: %s is NULL", out ? "lattice" : "out");
+    CHECK(n_obstacles >= 0 && (n_obstacles == 0 || obstacles != NULL), DEM_ERROR_ARGUMENT,
+          "dem_model_create: %lld obstacles, obstacles is %s", (long long)n_obstacles, obstacles ? "given" : "NULL");
+    dem_model *model = calloc(1, sizeof *model);
+    CHECK_MEMORY(model);
+    const dem_status status = compile(model, lattice, obstacles, n_obstacles);
+    if (status == DEM_OK)
+        *out = model;
+    else
+        dem_model_destroy(model);
+    return status;
+}
+
+void dem_model_destroy(dem_model *model)
+{
+    if (model == NULL) return;
+    dem_lattice_free(&model->lattice);
+    springs_free(&model->springs);
+    triangles_free(&model->triangles);
+    obstacles_free(&model->obstacles);
+    free(model->inverse_mass);
+    free(model->sites);
+    free(model);
+}
+
+dem_csr dem_model_csr(const dem_model *model)
+{
+    const springs *s = &model->springs;
+    return (dem_csr){s->n_nodes, s->row, s->neighbour, s->spring, s->stiffness, s->rest_length};
+}
+
+const dem_lattice *dem_model_lattice(const dem_model *model)
+{
+    return &model->lattice;
+}
+
+const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles)
+{
+    *n_obstacles = model->obstacles.n;
+    return model->obstacles.list;
+}
+
+dem_model_size dem_model_sizes(const dem_model *model)
+{
+    return (dem_model_size){.n_nodes = model->lattice.n_nodes,
+                            .n_springs = model->lattice.n_springs,
+                            .n_triangles = model->lattice.n_triangles,
+                            .n_bodies = model->n_bodies,
+                            .n_contact_nodes = model->n_sites,
+                            .n_obstacles = model->obstacles.n,
+                            .n_segments = model->obstacles.n_segments};
+}
+
+double dem_model_spacing(const dem_model *model)
+{
+    return model->spacing;
+}
+
+double dem_model_omega_max(const dem_model *model)
+{
+    return model->omega_max;
+}
+
+double dem_model_mass(const dem_model *model)
+{
+    return model->mass;
+}
+
+double dem_model_gap(const dem_model *model, const double x[2])
+{
+    return obstacles_gap(&model->obstacles, vec2_at(x, 0), -1, -1).distance;
+}

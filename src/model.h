@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The compiled, immutable problem: nodes, springs in CSR, triangles, obstacles; and the force on a node. */
+#ifndef DEM_MODEL_H
+#define DEM_MODEL_H
+
+#include "obstacle.h"
+#include "springs.h"
+#include "triangles.h"
+
+struct dem_model {
+    dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
+    springs springs;
+    triangles triangles;
+    obstacle_set obstacles;
+    double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
+    dem_index n_sites;
+    dem_index *sites; /* [n_sites] nodes that may touch, ascending */
+    dem_index n_bodies;
+    double spacing;   /* m */
+    double omega_max; /* rad/s */
+    double mass;      /* kg */
+};
+
+/** Elastic force on node i at positions x [n][2], N: (1) over its springs, and the guard. */
+static inline vec2 model_force(const dem_model *model, dem_index i, const double *x)
+{
+    const vec2 bonds = springs_force(&model->springs, i, x);
+    if (model->triangles.row[i] == model->triangles.row[i + 1]) return bonds;
+    return vec2_add(bonds, triangles_force(&model->triangles, i, x));
+}
+
+/** Acceleration of node i, m/s^2, free of contact: (4). A fixed node has none. */
+static inline vec2 model_acceleration(const dem_model *model, const double gravity[2], dem_index i, const double *x)
+{
+    const double inverse_mass = model->inverse_mass[i];
+    if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
+    return vec2_along((vec2){gravity[0], gravity[1]}, inverse_mass, model_force(model, i, x));
+}
+
+/** Energy that hangs on the position of node i, J: its springs, its triangles and its weight. */
+double model_node_energy(const dem_model *model, const double gravity[2], dem_index i, const double *x);
+
+#endif

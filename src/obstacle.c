@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Polylines compiled to segments with normals and neighbours; every query goes through all of them. */
+#include "obstacle.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "status.h"
+
+static const double straight_below = 1e-9; /* sine of the bend */
+
+static dem_status check_obstacle(const dem_obstacle *obstacle, dem_index o)
+{
+    CHECK(obstacle->n_points >= 2 && obstacle->points != NULL, DEM_ERROR_MODEL,
+          "obstacle %lld has %lld points, at least 2 are needed", (long long)o, (long long)obstacle->n_points);
+    CHECK(obstacle->restitution >= 0.0 && obstacle->restitution <= 1.0, DEM_ERROR_MODEL,
+          "obstacle %lld: restitution must be in [0, 1], got %g", (long long)o, obstacle->restitution);
+    for (dem_index k = 0; k < 2 * obstacle->n_points; k++)
+        CHECK(isfinite(obstacle->points[k]), DEM_ERROR_MODEL, "obstacle %lld: point %lld is not finite", (long long)o,
+              (long long)(k / 2));
+    for (dem_index k = 0; k + 1 < obstacle->n_points; k++) {
+        const double length = vec2_norm(vec2_sub(vec2_at(obstacle->points, k + 1), vec2_at(obstacle->points, k)));
+        CHECK(length > 0.0 && isfinite(length), DEM_ERROR_MODEL, "obstacle %lld: segment %lld has length %g m",
+              (long long)o, (long long)k, length);
+    }
+    return DEM_OK;
+}
+
+static bool closed(const dem_obstacle *obstacle)
+{
+    const vec2 first = vec2_at(obstacle->points, 0), last = vec2_at(obstacle->points, obstacle->n_points - 1);
+    return obstacle->n_points > 3 && first.x == last.x && first.y == last.y;
+}
+
+static void compile_segments(segment *s, dem_index first, const dem_obstacle *obstacle, dem_index o)
+{
+    const dem_index n = obstacle->n_points - 1;
+    const bool ring = closed(obstacle);
+    for (dem_index k = 0; k < n; k++) {
+        const vec2 a = vec2_at(obstacle->points, k), b = vec2_at(obstacle->points, k + 1), d = vec2_sub(b, a);
+        const double length = vec2_norm(d);
+        const vec2 t = vec2_scale(1.0 / length, d);
+        s[first + k] = (segment){.start = a,
+                                 .end = b,
+                                 .tangent = t,
+                                 .normal = {-t.y, t.x},
+                                 .length = length,
+                                 .restitution = obstacle->restitution,
+                                 .obstacle = o,
+                                 .index = k,
+                                 .before = k > 0 ? first + k - 1 : (ring ? first + n - 1 : -1),
+                                 .after = k + 1 < n ? first + k + 1 : (ring ? first : -1)};
+    }
+}
+
+static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
+{
+    const size_t size = 2 * (size_t)obstacle->n_points * sizeof(double);
+    double *points = malloc(size);
+    CHECK_MEMORY(points);
+    memcpy(points, obstacle->points, size);
+    *copy = *obstacle;
+    copy->points = points;
+    return DEM_OK;
+}
+
+dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
+{
+    obstacle_set o = {0};
+    for (dem_index k = 0; k < n; k++) {
+        TRY(check_obstacle(&list[k], k));
+        o.n_segments += list[k].n_points - 1;
+    }
+    o.list = calloc((size_t)n + 1, sizeof *o.list);
+    o.segments = malloc(((size_t)o.n_segments + 1) * sizeof *o.segments);
+    dem_status status = o.list && o.segments ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for obstacles");
+    for (dem_index first = 0; status == DEM_OK && o.n < n; first += list[o.n++].n_points - 1) {
+        compile_segments(o.segments, first, &list[o.n], o.n);
+        status = copy_points(&o.list[o.n], &list[o.n]);
+    }
+    if (status == DEM_OK)
+        *out = o;
+    else
+        obstacles_free(&o);
+    return status;
+}
+
+void obstacles_free(obstacle_set *o)
+{
+    for (dem_index k = 0; k < o->n && o->list; k++) free((void *)(uintptr_t)o->list[k].points);
+    free(o->list);
+    free(o->segments);
+    *o = (obstacle_set){0};
+}
+
+/* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
+static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
+{
+    return neighbour < 0 ? (vec2){0.0, 0.0} : vec2_add(s->normal, o->segments[neighbour].normal);
+}
+
+/* Takes segment k for the nearest if it is nearer than what was nearest so far. */
+static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, obstacle_gap *nearest)
+{
+    const segment *s = &o->segments[k];
+    const double place = segment_place(s, x), height = segment_height(s, x);
+    if (place >= 0.0 && place <= s->length) {
+        if (fabs(height) < fabs(nearest->distance)) *nearest = (obstacle_gap){height, k, s->normal};
+        return;
+    }
+    const vec2 from = vec2_sub(x, place < 0.0 ? s->start : s->end);
+    const double distance = vec2_norm(from);
+    if (distance >= fabs(nearest->distance)) return;
+    const vec2 mean = vertex_normal(o, s, place < 0.0 ? s->before : s->after);
+    const double signed_distance = vec2_dot(mean, from) >= 0.0 ? distance : -distance;
+    *nearest = (obstacle_gap){signed_distance, k, s->normal};
+    if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
+}
+
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without_segment, dem_index without_obstacle)
+{
+    obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
+    for (dem_index k = 0; k < o->n_segments; k++)
+        if (k != without_segment && o->segments[k].obstacle != without_obstacle) take_nearer(o, k, x, &nearest);
+    return nearest;
+}
+
+obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle)
+{
+    obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
+    for (dem_index k = 0; k < o->n_segments; k++)
+        if (o->segments[k].obstacle == obstacle) take_nearer(o, k, x, &nearest);
+    return nearest;
+}
+
+int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_index without_obstacle, dem_index *hits,
+                       int capacity)
+{
+    int n = 0;
+    for (dem_index k = 0; k < o->n_segments && n < capacity; k++) {
+        const segment *s = &o->segments[k];
+        const double place = segment_place(s, x);
+        if (s->obstacle == without_obstacle || fabs(segment_height(s, x)) > tolerance) continue;
+        if (place >= -tolerance && place <= s->length + tolerance) hits[n++] = k;
+    }
+    return n;
+}
+
+bool obstacles_open(const obstacle_set *o, dem_index obstacle)
+{
+    return !closed(&o->list[obstacle]);
+}
+
+obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond)
+{
+    const segment *here = &o->segments[s];
+    *beyond = backwards ? here->before : here->after;
+    if (*beyond < 0) return OBSTACLE_FREE_END;
+    const segment *there = &o->segments[*beyond];
+    const double turn =
+        backwards ? vec2_cross(there->tangent, here->tangent) : vec2_cross(here->tangent, there->tangent);
+    const double along = vec2_dot(here->tangent, there->tangent);
+    if (fabs(turn) < straight_below && along > 0.0) return OBSTACLE_STRAIGHT;
+    return turn < 0.0 ? OBSTACLE_CONVEX : OBSTACLE_CONCAVE;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles compiled to segments: signed gap, nearest feature, what a point touches. Bodies live on the left. */
+#ifndef DEM_OBSTACLE_H
+#define DEM_OBSTACLE_H
+
+#include <stdbool.h>
+
+#include "vec2.h"
+
+typedef struct segment {
+    vec2 start, end;
+    vec2 tangent, normal;      /* unit; the normal points out of the solid, to the left */
+    double length;             /* m */
+    double restitution;        /* eta of its obstacle */
+    dem_index obstacle, index; /* which obstacle, which segment of it */
+    dem_index before, after;   /* neighbouring segments, -1 at a free end */
+} segment;
+
+typedef struct obstacle_set {
+    dem_index n, n_segments;
+    dem_obstacle *list; /* [n] with its own copies of the points */
+    segment *segments;  /* [n_segments] obstacle by obstacle, in order */
+} obstacle_set;
+
+/** Nearest feature of the obstacles to a point. */
+typedef struct obstacle_gap {
+    double distance;   /* m, > 0 in front, < 0 inside; infinity where there is no obstacle */
+    dem_index segment; /* the nearest segment; -1 where there is none */
+    vec2 normal;       /* unit, from the nearest point in front: the gradient of the distance */
+} obstacle_gap;
+
+/** How a polyline turns from one segment into the next, seen by a body that slides along it. */
+typedef enum obstacle_bend {
+    OBSTACLE_FREE_END, /* nothing follows */
+    OBSTACLE_STRAIGHT, /* the next segment goes on in line */
+    OBSTACLE_CONVEX,   /* the next segment falls away */
+    OBSTACLE_CONCAVE   /* the next segment stands in the way */
+} obstacle_bend;
+
+/** Validates, copies and compiles; DEM_ERROR_MODEL names the obstacle and the segment. Free with obstacles_free. */
+dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n);
+void obstacles_free(obstacle_set *o);
+
+/** Signed distance of x, leaving out one segment and one whole obstacle (-1: none). Where two segments meet, a point
+ *  nearest to the vertex is in front if it is on the vertex's mean normal's side; nearest to a free end, it is in front. */
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without_segment, dem_index without_obstacle);
+
+/** Signed distance of x to one obstacle alone. */
+obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle);
+
+/** Segments of which x is within `tolerance` (m), measured to the line and along it; at most `capacity` of them. */
+int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_index without_obstacle, dem_index *hits,
+                       int capacity);
+
+/** Whether an obstacle has free ends. */
+bool obstacles_open(const obstacle_set *o, dem_index obstacle);
+
+/** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
+obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond);
+
+/** Signed distance to the segment's line, and place along it from its start, m. */
+static inline double segment_height(const segment *s, vec2 x)
+{
+    return vec2_dot(vec2_sub(x, s->start), s->normal);
+}
+
+static inline double segment_place(const segment *s, vec2 x)
+{
+    return vec2_dot(vec2_sub(x, s->start), s->tangent);
+}
+
+#endif

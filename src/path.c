@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Quintic Hermite interpolation of x'' = a, written as the cubic of the velocities plus a bump that closes the positions. */
+#include "path.h"
+
+#include <float.h>
+#include <string.h>
+
+/* Coefficients at s = (t - t0)/h.  With v(s) the cubic through v0, h a0, v1, h a1 and C its integral over the step,
+ *   x(s) = x0 + h int_0^s v + D B(s),  v += D B'(s)/h,  D = x1 - x0 - h C,  B = 10 s^3 - 15 s^4 + 6 s^5. */
+typedef struct basis {
+    double h;
+    double v0, a0, v1, a1;     /* of the velocity */
+    double iv0, ia0, iv1, ia1; /* of its integral */
+    double bump, slope;        /* B, B' */
+} basis;
+
+static basis basis_at(const path *p, double t)
+{
+    const double h = p->t1 - p->t0, s = (t - p->t0) / h, s2 = s * s, s3 = s2 * s;
+    return (basis){.h = h,
+                   .v0 = 1.0 - s2 * (3.0 - 2.0 * s),
+                   .a0 = s * (1.0 - s) * (1.0 - s),
+                   .v1 = s2 * (3.0 - 2.0 * s),
+                   .a1 = -s2 * (1.0 - s),
+                   .iv0 = s - s3 * (1.0 - 0.5 * s),
+                   .ia0 = s2 * (0.5 - s * (2.0 / 3.0 - 0.25 * s)),
+                   .iv1 = s3 * (1.0 - 0.5 * s),
+                   .ia1 = -s3 * (1.0 / 3.0 - 0.25 * s),
+                   .bump = s3 * (10.0 - s * (15.0 - 6.0 * s)),
+                   .slope = 30.0 * s2 * (1.0 - s) * (1.0 - s)};
+}
+
+/* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the bump's
+ * slope would turn into velocity when h is tiny. */
+static double defect(const path *p, dem_index k, double h)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double x0 = p->y0[k], x1 = p->y1[k], v0 = p->y0[n + k], v1 = p->y1[n + k];
+    const double d = x1 - x0 - h * (0.5 * (v0 + v1) + h * (p->f0[n + k] - p->f1[n + k]) / 12.0);
+    return fabs(d) > 4.0 * DBL_EPSILON * fmax(fabs(x0), fabs(x1)) ? d : 0.0;
+}
+
+static double position(const path *p, const basis *b, dem_index k)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = b->h;
+    return p->y0[k] + h * (b->iv0 * p->y0[n + k] + b->iv1 * p->y1[n + k]) +
+           h * h * (b->ia0 * p->f0[n + k] + b->ia1 * p->f1[n + k]) + b->bump * defect(p, k, h);
+}
+
+static double velocity(const path *p, const basis *b, dem_index k)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = b->h;
+    return b->v0 * p->y0[n + k] + b->v1 * p->y1[n + k] + h * (b->a0 * p->f0[n + k] + b->a1 * p->f1[n + k]) +
+           b->slope * defect(p, k, h) / h;
+}
+
+vec2 path_position(const path *p, double t, dem_index i)
+{
+    if (t == p->t0) return vec2_at(p->y0, i);
+    if (t == p->t1) return vec2_at(p->y1, i);
+    const basis b = basis_at(p, t);
+    return (vec2){position(p, &b, 2 * i), position(p, &b, 2 * i + 1)};
+}
+
+vec2 path_velocity(const path *p, double t, dem_index i)
+{
+    const dem_index n = p->n_nodes;
+    if (t == p->t0) return vec2_at(p->y0, n + i);
+    if (t == p->t1) return vec2_at(p->y1, n + i);
+    const basis b = basis_at(p, t);
+    return (vec2){velocity(p, &b, 2 * i), velocity(p, &b, 2 * i + 1)};
+}
+
+void path_state(const path *p, double t, double *y)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const size_t size = 2 * (size_t)n * sizeof *y;
+    if (t == p->t0 || t == p->t1) {
+        memcpy(y, t == p->t0 ? p->y0 : p->y1, size);
+        return;
+    }
+    const basis b = basis_at(p, t);
+    for (dem_index k = 0; k < n; k++) {
+        y[k] = position(p, &b, k);
+        y[n + k] = velocity(p, &b, k);
+    }
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The motion within one accepted step: the quintic that matches position, velocity and acceleration at both ends. */
+#ifndef DEM_PATH_H
+#define DEM_PATH_H
+
+#include "vec2.h"
+
+typedef struct path {
+    dem_index n_nodes;
+    double t0, t1;    /* the accepted step, s */
+    double end;       /* the motion holds up to here, t0 <= end <= t1: an event cuts it short */
+    const double *y0; /* [4 n] state (x, v) at t0 */
+    const double *f0; /* [4 n] its derivative (v, a) */
+    const double *y1, *f1;
+} path;
+
+vec2 path_position(const path *p, double t, dem_index i);
+vec2 path_velocity(const path *p, double t, dem_index i);
+
+/** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit. */
+void path_state(const path *p, double t, double *y);
+
+#endif

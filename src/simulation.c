@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The moving state and the time loop. An accepted step is first taken (`path` is then in hand), shown to the observers whose
+ * frames fall into it, and committed: its end becomes the state, the contacts change, and the next step is taken. An advance
+ * to t_end stops within a step in hand, which the next advance goes on with: t_end is never stepped to. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "contact.h"
+#include "diagnostics.h"
+#include "integrator.h"
+#include "status.h"
+
+enum { max_observers = 8 };
+
+typedef struct watcher {
+    dem_observer observer;
+    dem_index next_frame; /* the frame at next_frame * interval comes next */
+} watcher;
+
+struct dem_simulation {
+    const dem_model *model;
+    dem_options options; /* every default replaced */
+    contact contact;
+    integrator *integrator;
+    double t;      /* s, of y */
+    double step;   /* s, length of the last committed step */
+    double *y;     /* [4 n] state (x, v) after the last committed step */
+    double *frame; /* [4 n] state interpolated to a frame or to t_end */
+    path path;     /* the step in hand */
+    bool in_hand;  /* whether there is one */
+    bool at_event; /* whether it ends with one */
+    bool started;
+    double seen_t;         /* s, of what observers and callers see: */
+    const double *seen;    /* y or frame */
+    dem_contact *contacts; /* [2 n_sites] closed ones, as seen */
+    dem_index n_contacts;
+    dem_index events;
+    watcher watchers[max_observers];
+    int n_watchers;
+};
+
+static dem_index unknowns(const dem_model *model)
+{
+    return 2 * model->lattice.n_nodes; /* of positions, and as many of velocities */
+}
+
+/* ---- what the integrator asks ---- */
+
+static dem_status name_culprit(const dem_simulation *s, double t, const double *x, const double *f)
+{
+    const double *a = f + unknowns(s->model);
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
+        if (!isfinite(f[2 * i]) || !isfinite(f[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
+            return status_fail(DEM_ERROR_INTEGRATOR,
+                               "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i,
+                               x[2 * i], x[2 * i + 1], t);
+    return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
+}
+
+/* y = (x, v), f = (v, a) with m a = F(x) + m g, less what the closed contacts hold                       (3), (4) */
+static int derivative(double t, const double *y, double *f, void *context)
+{
+    const dem_simulation *s = context;
+    const dem_index n = unknowns(s->model);
+    double *a = f + n, sum = 0.0;
+    for (dem_index k = 0; k < n; k++) sum += f[k] = y[n + k];
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {
+        const vec2 ai = model_acceleration(s->model, s->options.gravity, i, y);
+        sum += ai.x + ai.y;
+        vec2_put(a, i, ai);
+    }
+    contact_constrain(&s->contact, a);
+    if (isfinite(sum)) return 0;
+    (void)name_culprit(s, t, y, f);
+    return 1;
+}
+
+static void guards(const double *y, double *g, void *context)
+{
+    const dem_simulation *s = context;
+    contact_guards(&s->contact, y, g);
+}
+
+/* ---- what observers see ---- */
+
+static void look_at(dem_simulation *s, double t, const double *y)
+{
+    s->seen_t = t;
+    s->seen = y;
+    s->n_contacts = contact_list(&s->contact, s->contacts);
+}
+
+static dem_status tell_impact(void *context, const dem_impact *impact)
+{
+    dem_simulation *s = context;
+    dem_status status = DEM_OK;
+    for (int k = 0; k < s->n_watchers && status == DEM_OK; k++)
+        if (s->watchers[k].observer.impact != NULL)
+            status = s->watchers[k].observer.impact(s->watchers[k].observer.context, s, impact);
+    return status;
+}
+
+static dem_status tell_step(dem_simulation *s)
+{
+    look_at(s, s->t, s->y);
+    for (int k = 0; k < s->n_watchers; k++)
+        if (s->watchers[k].observer.step != NULL) TRY(s->watchers[k].observer.step(s->watchers[k].observer.context, s));
+    return DEM_OK;
+}
+
+/* The watcher whose frame is due first in the step in hand, up to t_end; a frame at t_end is not lost to rounding. */
+static watcher *next_due(dem_simulation *s, double t_end, double *t)
+{
+    watcher *first = NULL;
+    for (int k = 0; k < s->n_watchers; k++) {
+        watcher *w = &s->watchers[k];
+        if (w->observer.frame == NULL || !(w->observer.interval > 0.0)) continue;
+        const double due = (double)w->next_frame * w->observer.interval;
+        if (due > s->path.end || due > t_end + 1e-9 * w->observer.interval) continue;
+        if (first != NULL && due >= *t) continue;
+        first = w;
+        *t = due;
+    }
+    return first;
+}
+
+static void interpolate(dem_simulation *s, double t)
+{
+    path_state(&s->path, t, s->frame);
+    look_at(s, t, s->frame);
+}
+
+static dem_status tell_frames(dem_simulation *s, double t_end)
+{
+    double t;
+    for (watcher *w = next_due(s, t_end, &t); w != NULL; w = next_due(s, t_end, &t)) {
+        interpolate(s, t);
+        w->next_frame++;
+        TRY(w->observer.frame(w->observer.context, s));
+    }
+    return DEM_OK;
+}
+
+/* ---- the loop ---- */
+
+static dem_status take_step(dem_simulation *s)
+{
+    bool rooted;
+    TRY(integrator_step(s->integrator, &s->path, &rooted));
+    s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
+    s->in_hand = true;
+    return DEM_OK;
+}
+
+static dem_status commit_step(dem_simulation *s)
+{
+    const contact_listener listener = {tell_impact, s};
+    path_state(&s->path, s->path.end, s->y);
+    s->step = s->path.end - s->t;
+    s->t = s->path.end;
+    s->in_hand = false;
+    contact_accumulate(&s->contact, s->step, s->y);
+    if (s->at_event) {
+        s->events++;
+        look_at(s, s->t, s->y);
+        const dem_status status = contact_resolve(&s->contact, s->t, s->y, &listener); /* (8), (9) */
+        TRY(integrator_restart(s->integrator, s->t, s->y));                            /* v has jumped */
+        TRY(status);
+    }
+    return tell_step(s);
+}
+
+/* Contacts of the initial state come before the first step, when the observers are there to be told. */
+static dem_status start(dem_simulation *s)
+{
+    const contact_listener listener = {tell_impact, s};
+    s->started = true;
+    TRY(contact_start(&s->contact, s->t, s->y, &listener));
+    TRY(integrator_restart(s->integrator, s->t, s->y));
+    return tell_step(s);
+}
+
+dem_status dem_simulation_advance(dem_simulation *s, double t_end)
+{
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
+    CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
+          t_end, s->seen_t);
+    if (!s->started) TRY(start(s));
+    for (;;) {
+        if (!s->in_hand) TRY(take_step(s));
+        TRY(tell_frames(s, t_end));
+        if (t_end < s->path.end) break;
+        TRY(commit_step(s));
+    }
+    interpolate(s, t_end);
+    return DEM_OK;
+}
+
+/* ---- set-up ---- */
+
+static dem_status check_options(const dem_options *o)
+{
+    const double lengths[] = {o->spacing, o->v_scale, o->max_step, o->fixed_step, o->skin, o->rest_speed};
+    static const char *const names[] = {"spacing", "v_scale", "max_step", "fixed_step", "skin", "rest_speed"};
+    CHECK(o->struct_size == sizeof *o, DEM_ERROR_ARGUMENT, "dem_options: struct_size is %zu, %zu expected",
+          o->struct_size, sizeof *o);
+    CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
+          o->gravity[0], o->gravity[1]);
+    CHECK(o->rtol >= 1e-13 && o->rtol <= 0.1, DEM_ERROR_ARGUMENT, "rtol must be in [1e-13, 0.1], got %g", o->rtol);
+    for (int k = 0; k < 6; k++)
+        CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],
+              lengths[k]);
+    CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
+    return DEM_OK;
+}
+
+/* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound, which is
+ * omega_max a/2 in a chain of spacing a. */
+static double default_v_scale(const dem_simulation *s)
+{
+    const dem_lattice *l = &s->model->lattice;
+    double speed = 1e-3 * 0.5 * s->model->omega_max * s->options.spacing, drop = INFINITY;
+    for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
+    for (dem_index k = 0; k < s->model->n_sites; k++)
+        drop = fmin(drop, dem_model_gap(s->model, &l->position[2 * s->model->sites[k]]));
+    const double g = hypot(s->options.gravity[0], s->options.gravity[1]);
+    return isfinite(drop) && drop > 0.0 ? fmax(speed, sqrt(2.0 * g * drop)) : speed;
+}
+
+static dem_status fill_options(dem_simulation *s)
+{
+    dem_options *o = &s->options;
+    if (o->spacing == 0.0) o->spacing = s->model->spacing;
+    CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
+    if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
+    if (o->max_step == 0.0 && s->model->omega_max > 0.0) o->max_step = 0.5 / s->model->omega_max;
+    CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
+    if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
+    if (o->v_scale == 0.0) o->v_scale = default_v_scale(s);
+    CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
+    return DEM_OK;
+}
+
+static dem_status allocate(dem_simulation *s)
+{
+    const size_t n = 2 * (size_t)unknowns(s->model);
+    s->y = malloc(n * sizeof *s->y);
+    s->frame = malloc(n * sizeof *s->frame);
+    s->contacts = calloc(2 * (size_t)s->model->n_sites + 1, sizeof *s->contacts);
+    CHECK(s->y && s->frame && s->contacts, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+          (long long)s->model->lattice.n_nodes);
+    return DEM_OK;
+}
+
+static dem_status set_up(dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const size_t block = (size_t)unknowns(model) * sizeof *s->y;
+    TRY(fill_options(s));
+    TRY(allocate(s));
+    memcpy(s->y, model->lattice.position, block);
+    memcpy(s->y + unknowns(model), model->lattice.velocity, block);
+    const dem_options *o = &s->options;
+    const contact_rule rule = {.skin = o->skin,
+                               .position_error = o->rtol * o->spacing,
+                               .rest_speed = o->rest_speed,
+                               .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
+                               .max_impacts = o->max_impacts,
+                               .gravity = {o->gravity[0], o->gravity[1]}};
+    TRY(contact_create(&s->contact, model, &rule));
+    TRY(contact_admissible(&s->contact, s->y));
+    const integrator_problem problem = {.n_nodes = model->lattice.n_nodes,
+                                        .n_guards = model->obstacles.n > 0 ? CONTACT_GUARDS * model->n_sites : 0,
+                                        .derivative = derivative,
+                                        .guards = guards,
+                                        .context = s,
+                                        .method = o->method,
+                                        .position_error = o->rtol * o->spacing,
+                                        .velocity_error = o->rtol * o->v_scale,
+                                        .max_step = o->max_step,
+                                        .fixed_step = o->fixed_step};
+    TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
+    look_at(s, 0.0, s->y);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
+{
+    CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
+          out == NULL ? "out" : (model == NULL ? "model" : "options"));
+    TRY(check_options(options));
+    dem_simulation *s = calloc(1, sizeof *s);
+    CHECK_MEMORY(s);
+    s->model = model;
+    s->options = *options;
+    const dem_status status = set_up(s);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        dem_simulation_destroy(s);
+    return status;
+}
+
+void dem_simulation_destroy(dem_simulation *s)
+{
+    if (s == NULL) return;
+    integrator_destroy(s->integrator);
+    contact_destroy(&s->contact);
+    free(s->y);
+    free(s->frame);
+    free(s->contacts);
+    free(s);
+}
+
+dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observer)
+{
+    CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
+          s == NULL ? "simulation" : "observer");
+    CHECK(!s->started, DEM_ERROR_ARGUMENT, "observers come before the first advance");
+    CHECK(s->n_watchers < max_observers, DEM_ERROR_ARGUMENT, "at most %d observers", (int)max_observers);
+    s->watchers[s->n_watchers++] = (watcher){.observer = *observer};
+    return DEM_OK;
+}
+
+/* ---- looking ---- */
+
+void dem_simulation_state(const dem_simulation *s, dem_state *state)
+{
+    *state = (dem_state){.struct_size = sizeof *state,
+                         .t = s->seen_t,
+                         .step = s->step,
+                         .x = s->seen,
+                         .v = s->seen + unknowns(s->model),
+                         .n_contacts = s->n_contacts,
+                         .contacts = s->contacts,
+                         .energy = dem_simulation_energy(s)};
+}
+
+dem_energy dem_simulation_energy(const dem_simulation *s)
+{
+    dem_energy energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
+    energy.impact = s->contact.impact_energy;
+    energy.projection = s->contact.projection_energy;
+    return energy;
+}
+
+dem_strain dem_simulation_strain(const dem_simulation *s)
+{
+    return diagnostics_strain(s->model, s->seen);
+}
+
+dem_counts dem_simulation_counts(const dem_simulation *s)
+{
+    const dem_counts of_integrator = integrator_counts(s->integrator);
+    dem_counts counts = s->contact.counts;
+    counts.steps = of_integrator.steps;
+    counts.rejected = of_integrator.rejected;
+    counts.evaluations = of_integrator.evaluations;
+    counts.retries = of_integrator.retries;
+    counts.events = s->events;
+    return counts;
+}
+
+dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
+{
+    return diagnostics_body(s->model, body, s->seen, s->seen + unknowns(s->model));
+}
+
+dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
+{
+    const double *impulse = &s->contact.impulse[2 * obstacle];
+    dem_obstacle_load load = {.impulse = {impulse[0], impulse[1]}};
+    for (dem_index k = 0; k < s->n_contacts; k++) {
+        const dem_contact *closed = &s->contacts[k];
+        if (closed->obstacle != obstacle) continue;
+        load.contacts++;
+        load.reaction[0] += closed->force * closed->normal[0];
+        load.reaction[1] += closed->force * closed->normal[1];
+    }
+    return load;
+}
+
+const dem_model *dem_simulation_model(const dem_simulation *s)
+{
+    return s->model;
+}
+
+dem_options dem_simulation_options(const dem_simulation *s)
+{
+    return s->options;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs in CSR and the bond force (1). The only place that divides by a rest length. */
+#ifndef DEM_SPRINGS_H
+#define DEM_SPRINGS_H
+
+#include "vec2.h"
+
+typedef struct springs {
+    dem_index n_nodes, n_springs;
+    dem_index *row;       /* [n_nodes + 1] */
+    dem_index *neighbour; /* [2 n_springs] ascending within a row */
+    dem_index *spring;    /* [2 n_springs] index in the lattice */
+    double *stiffness;    /* [2 n_springs] E_ij, N */
+    double *rest_length;  /* [2 n_springs] d0_ij, m */
+} springs;
+
+/** Compiles triplets whose indices are known to be valid; names a pair of nodes joined twice. Free with springs_free. */
+dem_status springs_compile(springs *out, const dem_lattice *lattice);
+void springs_free(springs *s);
+
+/** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
+static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
+{
+    const vec2 xi = vec2_at(x, i);
+    vec2 force = {0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
+        const double length = vec2_norm(d), rest = s->rest_length[p];
+        force = vec2_along(force, s->stiffness[p] * (length - rest) / (rest * length),
+                           d); /* E_ij (d - d0)/d0, along d/|d| */
+    }
+    return force;
+}
+
+/** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
+double springs_node_energy(const springs *s, dem_index i, const double *x);
+
+/** Energy of all springs, J. */
+double springs_energy(const springs *s, const double *x);
+
+/** (d - d0)/d0 of the spring in slot p of row i. */
+double springs_strain(const springs *s, dem_index i, dem_index p, const double *x);
+
+/** Upper bound of 2 |S_i|/m_i over the nodes that have mass and may move, 1/s^2; see dem_model_omega_max(). */
+double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass);
+
+#endif
