@@ -249,6 +249,14 @@ static dem_status strike(contact *c, contact_site *site, const dem_index *s, int
 
 /* ---- which reset is due ---- */
 
+/* How deep a node can be at an impact, m: the skin, and how far it moves in the time to which events are located, 100 units of
+ * rounding of t and of the step. */
+static double contact_depth(const contact *c, const contact_site *site, const moment *now)
+{
+    const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->rule.max_step);
+    return 2.0 * c->rule.skin + located * vec2_norm(vec2_at(now->v, site->node));
+}
+
 /* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the one
  * approached faster, on a tie the one that ends there. */
 static bool yields(const contact *c, dem_index s, dem_index to, vec2 v)
@@ -269,12 +277,14 @@ static bool corner(const contact *c, dem_index s, dem_index other)
 }
 
 /* The one or two segments that a touching node meets, the one approached faster first. */
-static int met(const contact *c, const contact_site *site, vec2 x, vec2 v, dem_index out[2])
+static int met(const contact *c, const contact_site *site, const moment *now, dem_index out[2])
 {
     enum { capacity = 8 };
     dem_index hits[capacity];
     int n_met = 0;
-    const int n = obstacles_touching(&c->model->obstacles, x, 2.0 * c->rule.skin, site->behind, hits, capacity);
+    const vec2 x = vec2_at(now->x, site->node), v = vec2_at(now->v, site->node);
+    const int n =
+        obstacles_touching(&c->model->obstacles, x, contact_depth(c, site, now), site->behind, hits, capacity);
     for (int k = 0; k < n; k++) {
         bool meets = true;
         for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[k], hits[q], v);
@@ -298,15 +308,18 @@ static void release(contact *c, contact_site *site, const dem_index *kept, int n
     c->counts.releases++;
 }
 
-/* A gap that jumps to well inside comes from a free end passed round. */
+/* A node deeper inside than an impact can be has passed round the free end that it is at; else something is wrong. */
 static dem_status go_behind(contact *c, contact_site *site, obstacle_gap gap, const moment *now)
 {
     const vec2 x = vec2_at(now->x, site->node);
-    const dem_index o = segment_of(c, gap.segment)->obstacle;
-    CHECK(obstacles_open(&c->model->obstacles, o) && site->behind < 0, DEM_ERROR_CONTACT,
+    const segment *s = segment_of(c, gap.segment);
+    const double place = segment_place(s, x), tolerance = contact_depth(c, site, now);
+    const bool at_free_end =
+        (s->before < 0 && fabs(place) <= tolerance) || (s->after < 0 && fabs(place - s->length) <= tolerance);
+    CHECK(at_free_end && site->behind < 0, DEM_ERROR_CONTACT,
           "node %lld at (%g, %g) m is %g m inside obstacle %lld at t = %.9g s", (long long)site->node, x.x, x.y,
-          -gap.distance, (long long)o, now->t);
-    site->behind = o;
+          -gap.distance, (long long)s->obstacle, now->t);
+    site->behind = s->obstacle;
     c->counts.behind++;
     return DEM_OK;
 }
@@ -314,12 +327,11 @@ static dem_status go_behind(contact *c, contact_site *site, obstacle_gap gap, co
 /* Free node: is it deep enough to count as touching? */
 static dem_status settle_free(contact *c, contact_site *site, moment *now, bool *changed)
 {
-    const vec2 x = vec2_at(now->x, site->node), v = vec2_at(now->v, site->node);
-    const obstacle_gap gap = gap_without(c, site, x, -1);
+    const obstacle_gap gap = gap_without(c, site, vec2_at(now->x, site->node), -1);
     if (gap.distance > -touch_share * c->rule.skin) return DEM_OK;
     *changed = true;
     dem_index s[2];
-    const int n = gap.distance >= -2.0 * c->rule.skin ? met(c, site, x, v, s) : 0;
+    const int n = gap.distance >= -contact_depth(c, site, now) ? met(c, site, now, s) : 0;
     if (n > 0) return strike(c, site, s, n, now);
     return go_behind(c, site, gap, now);
 }
@@ -354,7 +366,7 @@ static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bo
     const int passed = end_passed(c, site, now->x, now->v);
     if (passed != 0) return pass(c, site, passed < 0, now);
     const obstacle_gap other = gap_without(c, site, x, site->segments[0]);
-    if (other.distance <= -2.0 * c->rule.skin) return go_behind(c, site, other, now);
+    if (other.distance < -contact_depth(c, site, now)) return go_behind(c, site, other, now);
     if (other.distance <= -touch_share * c->rule.skin) {
         const dem_index s[2] = {other.segment, site->segments[0]};
         return strike(c, site, s, corner(c, s[0], s[1]) ? 2 : 1, now);
@@ -535,10 +547,9 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
     moment now = {t, y, y + 2 * c->model->lattice.n_nodes, listener};
     for (dem_index k = 0; k < c->model->n_sites; k++) {
         contact_site *site = &c->sites[k];
-        const vec2 x = vec2_at(now.x, site->node), v = vec2_at(now.v, site->node);
-        if (gap_without(c, site, x, -1).distance > 0.0) continue;
+        if (gap_without(c, site, vec2_at(now.x, site->node), -1).distance > 0.0) continue;
         dem_index s[2];
-        const int n = met(c, site, x, v, s);
+        const int n = met(c, site, &now, s);
         if (n > 0) TRY(strike(c, site, s, n, &now));
     }
     return contact_resolve(c, t, y, listener);

@@ -26,6 +26,7 @@ typedef struct contact_rule {
     double skin;           /* m, depth at which an impact is taken */
     double position_error; /* m, tolerance of positions: hops below it are rest */
     double rest_speed;     /* m/s, 0: by the rule */
+    double max_step;       /* s, longest step: with t it sets how exactly an event is located */
     double storm_time;     /* s */
     dem_index max_impacts; /* within storm_time at one node */
     double gravity[2];     /* m/s^2 */

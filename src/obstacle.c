@@ -146,11 +146,6 @@ int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_inde
     return n;
 }
 
-bool obstacles_open(const obstacle_set *o, dem_index obstacle)
-{
-    return !closed(&o->list[obstacle]);
-}
-
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond)
 {
     const segment *here = &o->segments[s];

@@ -52,9 +52,6 @@ obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle)
 int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_index without_obstacle, dem_index *hits,
                        int capacity);
 
-/** Whether an obstacle has free ends. */
-bool obstacles_open(const obstacle_set *o, dem_index obstacle);
-
 /** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond);
 

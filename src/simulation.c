@@ -17,6 +17,13 @@ typedef struct watcher {
     dem_index next_frame; /* the frame at next_frame * interval comes next */
 } watcher;
 
+/* What was measured on the state as seen; each is measured once, when first asked for. */
+typedef struct measures {
+    bool has_energy, has_strain;
+    dem_energy energy;
+    dem_strain strain;
+} measures;
+
 struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
@@ -34,6 +41,7 @@ struct dem_simulation {
     const double *seen;    /* y or frame */
     dem_contact *contacts; /* [2 n_sites] closed ones, as seen */
     dem_index n_contacts;
+    measures *measures;
     dem_index events;
     watcher watchers[max_observers];
     int n_watchers;
@@ -87,6 +95,7 @@ static void look_at(dem_simulation *s, double t, const double *y)
 {
     s->seen_t = t;
     s->seen = y;
+    *s->measures = (measures){0};
     s->n_contacts = contact_list(&s->contact, s->contacts);
 }
 
@@ -247,7 +256,8 @@ static dem_status allocate(dem_simulation *s)
     s->y = malloc(n * sizeof *s->y);
     s->frame = malloc(n * sizeof *s->frame);
     s->contacts = calloc(2 * (size_t)s->model->n_sites + 1, sizeof *s->contacts);
-    CHECK(s->y && s->frame && s->contacts, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+    s->measures = calloc(1, sizeof *s->measures);
+    CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
@@ -264,6 +274,7 @@ static dem_status set_up(dem_simulation *s)
     const contact_rule rule = {.skin = o->skin,
                                .position_error = o->rtol * o->spacing,
                                .rest_speed = o->rest_speed,
+                               .max_step = o->max_step,
                                .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                                .max_impacts = o->max_impacts,
                                .gravity = {o->gravity[0], o->gravity[1]}};
@@ -309,6 +320,7 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->y);
     free(s->frame);
     free(s->contacts);
+    free(s->measures);
     free(s);
 }
 
@@ -338,15 +350,21 @@ void dem_simulation_state(const dem_simulation *s, dem_state *state)
 
 dem_energy dem_simulation_energy(const dem_simulation *s)
 {
-    dem_energy energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
-    energy.impact = s->contact.impact_energy;
-    energy.projection = s->contact.projection_energy;
-    return energy;
+    measures *m = s->measures;
+    if (!m->has_energy)
+        m->energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
+    m->has_energy = true;
+    m->energy.impact = s->contact.impact_energy;
+    m->energy.projection = s->contact.projection_energy;
+    return m->energy;
 }
 
 dem_strain dem_simulation_strain(const dem_simulation *s)
 {
-    return diagnostics_strain(s->model, s->seen);
+    measures *m = s->measures;
+    if (!m->has_strain) m->strain = diagnostics_strain(s->model, s->seen);
+    m->has_strain = true;
+    return m->strain;
 }
 
 dem_counts dem_simulation_counts(const dem_simulation *s)

@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Editable lists of nodes, springs and triangles: selecting, moving and joining them, and the parts they form. What a
+ * lattice must satisfy to move is model.c's business; here only what is needed to stay inside the arrays is checked. */
+#include "lattice.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sides.h"
+#include "status.h"
+#include "vec2.h"
+
+static dem_status check_corners(const char *what, dem_index n, int arity, const dem_index *corner, dem_index n_nodes)
+{
+    CHECK(n >= 0, DEM_ERROR_ARGUMENT, "the number of %ss is negative: %lld", what, (long long)n);
+    CHECK(n == 0 || corner != NULL, DEM_ERROR_ARGUMENT, "%lld %ss, but their nodes are NULL", (long long)n, what);
+    for (dem_index k = 0; k < n * arity; k++)
+        CHECK(corner[k] >= 0 && corner[k] < n_nodes, DEM_ERROR_MODEL, "%s %lld has node %lld, but there are %lld nodes",
+              what, (long long)(k / arity), (long long)corner[k], (long long)n_nodes);
+    return DEM_OK;
+}
+
+/* ---- parts ---- */
+
+static dem_index root_of(dem_index *parent, dem_index i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+/* A part's root is its lowest node. */
+static void unite(dem_index *parent, dem_index i, dem_index j)
+{
+    const dem_index a = root_of(parent, i), b = root_of(parent, j);
+    if (a < b)
+        parent[b] = a;
+    else
+        parent[a] = b;
+}
+
+/* ---- selection: arrays shrink in place ---- */
+
+static void pack(void *array, size_t size, dem_index n, const unsigned char *keep)
+{
+    unsigned char *bytes = array;
+    dem_index kept = 0;
+    for (dem_index i = 0; array != NULL && i < n; i++)
+        if (keep[i]) memmove(bytes + size * (size_t)kept++, bytes + size * (size_t)i, size);
+}
+
+/* Drops the tuples that lost a node, renumbers the others. \param[out] whole  [n] which stayed */
+static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const dem_index *number, unsigned char *whole)
+{
+    dem_index kept = 0;
+    for (dem_index k = 0; k < n; k++) {
+        whole[k] = 1;
+        for (int c = 0; c < arity; c++) whole[k] = whole[k] && number[corner[arity * k + c]] >= 0;
+        if (!whole[k]) continue;
+        for (int c = 0; c < arity; c++) corner[arity * kept + c] = number[corner[arity * k + c]];
+        kept++;
+    }
+    return kept;
+}
+
+static void pack_nodes(dem_lattice *lattice, const unsigned char *keep)
+{
+    const dem_index n = lattice->n_nodes;
+    pack(lattice->x, 2 * sizeof *lattice->x, n, keep);
+    pack(lattice->mass, sizeof *lattice->mass, n, keep);
+    pack(lattice->flags, sizeof *lattice->flags, n, keep);
+    pack(lattice->body, sizeof *lattice->body, n, keep);
+    pack(lattice->position, 2 * sizeof *lattice->position, n, keep);
+    pack(lattice->velocity, 2 * sizeof *lattice->velocity, n, keep);
+}
+
+static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
+{
+    const dem_index n = lattice->n_springs;
+    lattice->n_springs = pack_corners(lattice->ends, 2, n, number, whole);
+    pack(lattice->rest_length, sizeof *lattice->rest_length, n, whole);
+    pack(lattice->stiffness, sizeof *lattice->stiffness, n, whole);
+}
+
+static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
+{
+    const dem_index n = lattice->n_triangles;
+    lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
+    pack(lattice->guard, sizeof *lattice->guard, n, whole);
+}
+
+/* ---- moving ---- */
+
+static void turn(double *array, dem_index n, double angle, vec2 shift)
+{
+    const double c = cos(angle), s = sin(angle);
+    for (dem_index i = 0; array != NULL && i < n; i++) {
+        const vec2 a = vec2_at(array, i);
+        vec2_put(array, i, (vec2){c * a.x - s * a.y + shift.x, s * a.x + c * a.y + shift.y});
+    }
+}
+
+/* ---- joining ---- */
+
+/* n items of `a` and m of `b` one behind the other; zeros in place of NULL. */
+static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t size)
+{
+    unsigned char *joined = lattice_zeros(n + m, size);
+    if (joined != NULL && a != NULL) memcpy(joined, a, (size_t)n * size);
+    if (joined != NULL && b != NULL) memcpy(joined + (size_t)n * size, b, (size_t)m * size);
+    return joined;
+}
+
+static dem_index count_bodies(const dem_lattice *lattice)
+{
+    int32_t last = 0;
+    for (dem_index i = 0; lattice->body != NULL && i < lattice->n_nodes; i++)
+        if (lattice->body[i] > last) last = lattice->body[i];
+    return lattice->n_nodes > 0 ? last + 1 : 0;
+}
+
+static dem_status copy_flags(unsigned char *flags, const dem_lattice *lattice)
+{
+    if (lattice->flags == NULL) return sides_contact_flags(flags, lattice);
+    memcpy(flags, lattice->flags, (size_t)lattice->n_nodes);
+    return DEM_OK;
+}
+
+static dem_status join_flags(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const bool same_rule = (a->n_triangles == 0) == (b->n_triangles == 0);
+    if (a->flags == NULL && b->flags == NULL && (same_rule || a->n_nodes == 0 || b->n_nodes == 0)) return DEM_OK;
+    out->flags = lattice_zeros(a->n_nodes + b->n_nodes, sizeof *out->flags);
+    CHECK_MEMORY(out->flags);
+    TRY(copy_flags(out->flags, a));
+    return copy_flags(out->flags + a->n_nodes, b);
+}
+
+static dem_status join_bodies(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_nodes, shift = count_bodies(a);
+    if (b->n_nodes == 0 && a->body == NULL) return DEM_OK;
+    if (n == 0 && b->body == NULL) return DEM_OK;
+    CHECK(shift + count_bodies(b) <= INT32_MAX, DEM_ERROR_MODEL, "more than %ld bodies", (long)INT32_MAX);
+    out->body = join(a->body, n, b->body, b->n_nodes, sizeof *out->body);
+    CHECK_MEMORY(out->body);
+    for (dem_index i = n; i < n + b->n_nodes; i++) out->body[i] += (int32_t)shift;
+    return DEM_OK;
+}
+
+static dem_status join_nodes(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_nodes, m = b->n_nodes;
+    const size_t scalar = sizeof(double), vector = 2 * sizeof(double);
+    out->n_nodes = n + m;
+    out->x = join(a->x, n, b->x, m, vector);
+    CHECK_MEMORY(out->x);
+    if (a->mass != NULL || b->mass != NULL) {
+        out->mass = join(a->mass, n, b->mass, m, scalar);
+        CHECK_MEMORY(out->mass);
+    }
+    if (a->position != NULL || b->position != NULL) {
+        out->position = join(a->position ? a->position : a->x, n, b->position ? b->position : b->x, m, vector);
+        CHECK_MEMORY(out->position);
+    }
+    if (a->velocity != NULL || b->velocity != NULL) {
+        out->velocity = join(a->velocity, n, b->velocity, m, vector);
+        CHECK_MEMORY(out->velocity);
+    }
+    return DEM_OK;
+}
+
+static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_springs, m = b->n_springs;
+    out->n_springs = n + m;
+    if (n + m == 0) return DEM_OK;
+    out->ends = join(a->ends, n, b->ends, m, 2 * sizeof *out->ends);
+    out->rest_length = join(a->rest_length, n, b->rest_length, m, sizeof *out->rest_length);
+    out->stiffness = join(a->stiffness, n, b->stiffness, m, sizeof *out->stiffness);
+    CHECK_MEMORY(out->ends);
+    CHECK_MEMORY(out->rest_length);
+    CHECK_MEMORY(out->stiffness);
+    for (dem_index k = 2 * n; k < 2 * (n + m); k++) out->ends[k] += a->n_nodes;
+    return DEM_OK;
+}
+
+static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_triangles, m = b->n_triangles;
+    out->n_triangles = n + m;
+    if (n + m == 0) return DEM_OK;
+    out->triangles = join(a->triangles, n, b->triangles, m, 3 * sizeof *out->triangles);
+    CHECK_MEMORY(out->triangles);
+    for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
+    if (a->guard == NULL && b->guard == NULL) return DEM_OK;
+    out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
+    CHECK_MEMORY(out->guard);
+    return DEM_OK;
+}
+
+static dem_status join_all(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    TRY(join_nodes(out, a, b));
+    TRY(join_flags(out, a, b));
+    TRY(join_bodies(out, a, b));
+    TRY(join_springs(out, a, b));
+    return join_triangles(out, a, b);
+}
+
+/* ---- public ---- */
+
+void *lattice_zeros(dem_index n, size_t size)
+{
+    return calloc(n > 0 ? (size_t)n : 1, size);
+}
+
+dem_status lattice_check(const dem_lattice *lattice)
+{
+    CHECK(lattice != NULL, DEM_ERROR_ARGUMENT, "lattice is NULL");
+    CHECK(lattice->n_nodes >= 0, DEM_ERROR_ARGUMENT, "the number of nodes is negative: %lld",
+          (long long)lattice->n_nodes);
+    CHECK(lattice->n_nodes == 0 || lattice->x != NULL, DEM_ERROR_ARGUMENT, "%lld nodes, but x is NULL",
+          (long long)lattice->n_nodes);
+    TRY(check_corners("spring", lattice->n_springs, 2, lattice->ends, lattice->n_nodes));
+    CHECK(lattice->n_springs == 0 || (lattice->rest_length != NULL && lattice->stiffness != NULL), DEM_ERROR_ARGUMENT,
+          "%lld springs, but rest_length or stiffness is NULL", (long long)lattice->n_springs);
+    return check_corners("triangle", lattice->n_triangles, 3, lattice->triangles, lattice->n_nodes);
+}
+
+void dem_lattice_init(dem_lattice *lattice)
+{
+    *lattice = (dem_lattice){.struct_size = sizeof *lattice, .dim = 2};
+}
+
+void dem_lattice_free(dem_lattice *lattice)
+{
+    if (lattice == NULL) return;
+    free(lattice->x);
+    free(lattice->mass);
+    free(lattice->ends);
+    free(lattice->rest_length);
+    free(lattice->stiffness);
+    free(lattice->triangles);
+    free(lattice->guard);
+    free(lattice->flags);
+    free(lattice->body);
+    free(lattice->position);
+    free(lattice->velocity);
+    dem_lattice_init(lattice);
+}
+
+dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem_index *part)
+{
+    TRY(lattice_check(lattice));
+    CHECK(n_parts != NULL, DEM_ERROR_ARGUMENT, "n_parts is NULL");
+    dem_index *parent = lattice_zeros(lattice->n_nodes, sizeof *parent), n = 0;
+    CHECK_MEMORY(parent);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) parent[i] = i;
+    for (dem_index k = 0; k < lattice->n_springs; k++) unite(parent, lattice->ends[2 * k], lattice->ends[2 * k + 1]);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        const dem_index root = root_of(parent, i);
+        if (part != NULL) part[i] = root == i ? n : part[root];
+        n += root == i;
+    }
+    free(parent);
+    *n_parts = n;
+    return DEM_OK;
+}
+
+dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep)
+{
+    TRY(lattice_check(lattice));
+    CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
+    dem_status status = DEM_OK;
+    dem_index *number = lattice_zeros(lattice->n_nodes, sizeof *number), n = 0;
+    unsigned char *whole = lattice_zeros(lattice->n_springs + lattice->n_triangles, sizeof *whole);
+    if (number == NULL || whole == NULL) {
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory");
+        goto out;
+    }
+    for (dem_index i = 0; i < lattice->n_nodes; i++) number[i] = keep[i] ? n++ : -1;
+    if (n == 0) {
+        status = status_fail(DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)lattice->n_nodes);
+        goto out;
+    }
+    pack_springs(lattice, number, whole);
+    pack_triangles(lattice, number, whole);
+    pack_nodes(lattice, keep);
+    lattice->n_nodes = n;
+out:
+    free(number);
+    free(whole);
+    return status;
+}
+
+void dem_lattice_move(dem_lattice *lattice, double angle, const double offset[2])
+{
+    const vec2 shift = {offset[0], offset[1]}, none = {0.0, 0.0};
+    turn(lattice->x, lattice->n_nodes, angle, shift);
+    turn(lattice->position, lattice->n_nodes, angle, shift);
+    turn(lattice->velocity, lattice->n_nodes, angle, none);
+}
+
+dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
+{
+    TRY(lattice_check(lattice));
+    CHECK(velocity != NULL && isfinite(velocity[0]) && isfinite(velocity[1]), DEM_ERROR_ARGUMENT,
+          "the velocity must be two finite numbers");
+    if (lattice->velocity == NULL) lattice->velocity = lattice_zeros(lattice->n_nodes, 2 * sizeof *lattice->velocity);
+    CHECK_MEMORY(lattice->velocity);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        lattice->velocity[2 * i] += velocity[0];
+        lattice->velocity[2 * i + 1] += velocity[1];
+    }
+    return DEM_OK;
+}
+
+dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
+{
+    dem_lattice joined;
+    TRY(lattice_check(lattice));
+    TRY(lattice_check(other));
+    const bool both = lattice->n_nodes > 0 && other->n_nodes > 0;
+    CHECK(!both || (lattice->mass == NULL) == (other->mass == NULL), DEM_ERROR_MODEL,
+          "one lattice has masses, the other has none");
+    dem_lattice_init(&joined);
+    const dem_status status = join_all(&joined, lattice, other);
+    if (status == DEM_OK) {
+        dem_lattice_free(lattice);
+        *lattice = joined;
+    } else {
+        dem_lattice_free(&joined);
+    }
+    return status;
+}

@@ -1,0 +1,573 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run as a VTKHDF file: which dataset is where, and when it is written. docs/output.md lists them all. */
+#include <dem/trajectory.h>
+
+#include "hdf5_file.h"
+#include "history.h"
+#include "lattice_file.h"
+#include "status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define GRID  "/VTKHDF/"
+#define STEPS "/VTKHDF/Steps/"
+
+struct dem_trajectory {
+    char *path, *part, *obstacle, *obstacle_part; /* names: one allocation */
+    dem_trajectory_options options;
+    dem_index n_nodes, n_springs, n_obstacles;
+    dem_index frames;
+    double last; /* t of the last frame, s */
+    int finished;
+    double *scratch; /* [3 max(n_nodes, n_springs)] */
+    history history;
+};
+
+static const char suffix[] = ".vtkhdf";
+enum { VTK_LINE = 3 };
+
+/* ---- an UnstructuredGrid of lines --------------------------------------------------------------------------------- */
+
+typedef struct grid {
+    dem_index n_points, n_cells;
+    const dem_index *ends; /* [n_cells][2] */
+} grid;
+
+static dem_status write_numbers(const hdf5_file *file, const char *name, int deflate, dem_index count,
+                                const dem_index *data)
+{
+    return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, deflate}, (hsize_t)count, data);
+}
+
+static dem_status write_offsets(const hdf5_file *file, const grid *g, int deflate)
+{
+    dem_index *offsets = malloc((size_t)(g->n_cells + 1) * sizeof *offsets);
+    CHECK_MEMORY(offsets);
+    for (dem_index k = 0; k <= g->n_cells; k++) offsets[k] = 2 * k;
+    const dem_status status = write_numbers(file, GRID "Offsets", deflate, g->n_cells + 1, offsets);
+    free(offsets);
+    return status;
+}
+
+static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
+{
+    unsigned char *types = malloc((size_t)g->n_cells + 1);
+    CHECK_MEMORY(types);
+    memset(types, VTK_LINE, (size_t)g->n_cells);
+    const hdf5_rows rows = {GRID "Types", HDF5_U8, 1, {0}, 0, deflate};
+    const dem_status status = hdf5_write(file, rows, (hsize_t)g->n_cells, types);
+    free(types);
+    return status;
+}
+
+static dem_status write_grid(const hdf5_file *file, const grid *g, int deflate)
+{
+    static const dem_index version[2] = {2, 0};
+    const dem_index n_ends = 2 * g->n_cells;
+    TRY(hdf5_write_attribute(file, "/VTKHDF", "Version", HDF5_I64, 2, version));
+    TRY(hdf5_write_attribute_text(file, "/VTKHDF", "Type", "UnstructuredGrid"));
+    TRY(write_numbers(file, GRID "NumberOfPoints", 0, 1, &g->n_points));
+    TRY(write_numbers(file, GRID "NumberOfCells", 0, 1, &g->n_cells));
+    TRY(write_numbers(file, GRID "NumberOfConnectivityIds", 0, 1, &n_ends));
+    TRY(write_numbers(file, GRID "Connectivity", deflate, n_ends, g->ends));
+    TRY(write_offsets(file, g, deflate));
+    return write_types(file, g, deflate);
+}
+
+/* ---- obstacles ---------------------------------------------------------------------------------------------------- */
+
+static dem_status write_obstacle_group(const hdf5_file *file, const dem_model *model)
+{
+    dem_index n_obstacles = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
+    for (dem_index o = 0; o < n_obstacles; o++) {
+        char group[48], points[64];
+        (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)o);
+        (void)snprintf(points, sizeof points, "%s/points", group);
+        const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
+        TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
+        TRY(hdf5_write_attribute(file, group, "restitution", HDF5_F64, 1, &obstacles[o].restitution));
+    }
+    return DEM_OK;
+}
+
+/* The polylines as one grid. */
+typedef struct outline {
+    grid grid;
+    double *points; /* [n_points][3] */
+    dem_index *ends;
+    int32_t *owner; /* [n_cells] the obstacle of each segment */
+} outline;
+
+static void free_outline(outline *o)
+{
+    free(o->points);
+    free(o->ends);
+    free(o->owner);
+}
+
+static dem_status allocate_outline(outline *out, dem_index n_points, dem_index n_segments)
+{
+    outline o = {.grid = {n_points, n_segments, NULL}};
+    o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
+    o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
+    o.owner = calloc((size_t)n_segments, sizeof *o.owner);
+    o.grid.ends = o.ends;
+    *out = o;
+    if (o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
+    free_outline(&o);
+    return status_fail(DEM_ERROR_MEMORY, "out of memory");
+}
+
+static dem_status make_outline(outline *out, const dem_model *model)
+{
+    dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
+    for (dem_index o = 0; o < n_obstacles; o++) n_points += obstacles[o].n_points;
+    TRY(allocate_outline(out, n_points, n_points - n_obstacles));
+    for (dem_index o = 0; o < n_obstacles; o++)
+        for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
+            memcpy(out->points + 3 * point, obstacles[o].points + 2 * p, 2 * sizeof *out->points);
+            if (p == 0) continue;
+            out->ends[2 * segment] = point - 1;
+            out->ends[2 * segment + 1] = point;
+            out->owner[segment++] = (int32_t)o;
+        }
+    return DEM_OK;
+}
+
+static dem_status write_outline(const hdf5_file *file, const outline *o, int deflate)
+{
+    const hdf5_rows points = {GRID "Points", HDF5_F64, 2, {3}, 0, deflate};
+    const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
+    TRY(write_grid(file, &o->grid, deflate));
+    TRY(hdf5_write(file, points, (hsize_t)o->grid.n_points, o->points));
+    return hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner);
+}
+
+static dem_status write_obstacle_file(const dem_trajectory *t, const dem_model *model)
+{
+    outline o;
+    hdf5_file file;
+    TRY(make_outline(&o, model));
+    dem_status status = hdf5_open_new(&file, t->obstacle_part, 64 * (hsize_t)o.grid.n_points);
+    if (status == DEM_OK) status = hdf5_close(&file, write_outline(&file, &o, t->options.deflate));
+    if (status == DEM_OK) status = hdf5_publish(t->obstacle_part, t->obstacle);
+    if (status != DEM_OK) (void)unlink(t->obstacle_part);
+    free_outline(&o);
+    return status;
+}
+
+/* ---- what is written at every frame --------------------------------------------------------------------------------- */
+
+enum of { NONE, ONE, NODES, SPRINGS };
+
+enum array { POINTS, DISPLACEMENT, VELOCITY, STRAIN, FORCE, BROKEN, N_ARRAYS };
+
+static const struct array_layout {
+    const char *name;
+    hdf5_kind kind; /* HDF5_F32: as the options say */
+    enum of of;
+    int components;
+} arrays[N_ARRAYS] = {
+    [POINTS] = {GRID "Points", HDF5_F64, NODES, 3},
+    [DISPLACEMENT] = {GRID "PointData/displacement", HDF5_F32, NODES, 3},
+    [VELOCITY] = {GRID "PointData/velocity", HDF5_F32, NODES, 3},
+    [STRAIN] = {GRID "CellData/strain", HDF5_F32, SPRINGS, 1},
+    [FORCE] = {GRID "CellData/force", HDF5_F32, SPRINGS, 1},
+    [BROKEN] = {GRID "CellData/broken", HDF5_U8, SPRINGS, 1},
+};
+
+/* In the order of field_values(). */
+static const char *const fields[] = {
+    GRID "FieldData/kinetic_energy", GRID "FieldData/elastic_energy", GRID "FieldData/guard_energy",
+    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",  GRID "FieldData/projection_energy",
+    GRID "FieldData/contacts",
+};
+enum { N_FIELDS = sizeof fields / sizeof fields[0] };
+
+/* Where the data of frame f begin: at row f times the number of what they tell of. */
+static const struct offset {
+    const char *name;
+    int rank;
+    enum of of;
+} offsets[] = {
+    {STEPS "PartOffsets", 1, NONE},
+    {STEPS "PointOffsets", 1, NODES},
+    {STEPS "CellOffsets", 2, NONE},
+    {STEPS "ConnectivityIdOffsets", 2, NONE},
+    {STEPS "PointDataOffsets/displacement", 1, NODES},
+    {STEPS "PointDataOffsets/velocity", 1, NODES},
+    {STEPS "PointDataOffsets/id", 1, NONE},
+    {STEPS "PointDataOffsets/body", 1, NONE},
+    {STEPS "CellDataOffsets/strain", 1, SPRINGS},
+    {STEPS "CellDataOffsets/force", 1, SPRINGS},
+    {STEPS "CellDataOffsets/broken", 1, SPRINGS},
+    {STEPS "FieldDataOffsets/kinetic_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/elastic_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/guard_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/gravity_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/impact_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/projection_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/contacts", 1, ONE},
+};
+enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
+
+static dem_index count_of(const dem_trajectory *t, enum of of)
+{
+    const dem_index count[] = {[NONE] = 0, [ONE] = 1, [NODES] = t->n_nodes, [SPRINGS] = t->n_springs};
+    return count[of];
+}
+
+/* A chunk is a frame, so that no frame touches another's. */
+static hdf5_rows array_rows(const dem_trajectory *t, enum array a)
+{
+    const struct array_layout *l = &arrays[a];
+    const hdf5_kind kind = l->kind == HDF5_F32 && t->options.double_precision ? HDF5_F64 : l->kind;
+    return (hdf5_rows){
+        l->name,           kind, l->components > 1 ? 2 : 1, {(hsize_t)l->components}, (hsize_t)count_of(t, l->of),
+        t->options.deflate};
+}
+
+/* One row a frame. Chunks of several rows, stored plain, are rewritten in place with the same bytes. */
+static hdf5_rows frame_rows(const char *name, hdf5_kind kind, int rank)
+{
+    return (hdf5_rows){name, kind, rank, {1}, 64, 0};
+}
+
+static dem_status create_frames(const dem_trajectory *t, const hdf5_file *file)
+{
+    for (int a = 0; a < N_ARRAYS; a++) {
+        const hdf5_rows rows = array_rows(t, (enum array)a);
+        TRY(hdf5_create(file, &rows));
+    }
+    for (int f = 0; f < N_FIELDS; f++) {
+        const hdf5_rows rows = frame_rows(fields[f], HDF5_F64, 1);
+        TRY(hdf5_create(file, &rows));
+    }
+    for (int o = 0; o < N_OFFSETS; o++) {
+        const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        TRY(hdf5_create(file, &rows));
+    }
+    const hdf5_rows values = frame_rows(STEPS "Values", HDF5_F64, 1);
+    const hdf5_rows parts = frame_rows(STEPS "NumberOfParts", HDF5_I64, 1);
+    TRY(hdf5_create(file, &values));
+    TRY(hdf5_create(file, &parts));
+    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &(dem_index){0});
+}
+
+static dem_status append_array(const dem_trajectory *t, const hdf5_file *file, enum array a)
+{
+    const hdf5_rows rows = array_rows(t, a);
+    const hsize_t count = (hsize_t)count_of(t, arrays[a].of);
+    return hdf5_append(file, &rows, (hsize_t)t->frames * count, count, t->scratch);
+}
+
+/* The plane lies at z = 0 of space. */
+static void spread(double *out, dem_index n, const double *values, const double *less)
+{
+    for (dem_index i = 0; i < n; i++)
+        for (int d = 0; d < 3; d++)
+            out[3 * i + d] = d == 2 ? 0.0 : values[2 * i + d] - (less != NULL ? less[2 * i + d] : 0.0);
+}
+
+static void strains(double *out, const dem_lattice *lattice, const double *x)
+{
+    for (dem_index k = 0; k < lattice->n_springs; k++) {
+        const double *a = x + 2 * lattice->ends[2 * k], *b = x + 2 * lattice->ends[2 * k + 1];
+        const double rest = lattice->rest_length[k];
+        out[k] = (sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])) - rest) / rest;
+    }
+}
+
+static dem_status append_arrays(const dem_trajectory *t, const hdf5_file *file, const dem_lattice *lattice,
+                                const dem_state *state)
+{
+    spread(t->scratch, t->n_nodes, state->x, NULL);
+    TRY(append_array(t, file, POINTS));
+    spread(t->scratch, t->n_nodes, state->x, lattice->x);
+    TRY(append_array(t, file, DISPLACEMENT));
+    spread(t->scratch, t->n_nodes, state->v, NULL);
+    TRY(append_array(t, file, VELOCITY));
+    strains(t->scratch, lattice, state->x);
+    TRY(append_array(t, file, STRAIN));
+    for (dem_index k = 0; k < t->n_springs; k++) t->scratch[k] *= lattice->stiffness[k];
+    TRY(append_array(t, file, FORCE));
+    memset(t->scratch, 0, (size_t)t->n_springs); /* springs do not break yet */
+    return append_array(t, file, BROKEN);
+}
+
+static dem_status append_fields(const dem_trajectory *t, const hdf5_file *file, const dem_state *state)
+{
+    const dem_energy *e = &state->energy;
+    const double values[] = {
+        e->kinetic, e->elastic, e->guard, e->gravity, e->impact, e->projection, (double)state->n_contacts};
+    for (int f = 0; f < N_FIELDS; f++) {
+        const hdf5_rows rows = frame_rows(fields[f], HDF5_F64, 1);
+        TRY(hdf5_append(file, &rows, (hsize_t)t->frames, 1, &values[f]));
+    }
+    return DEM_OK;
+}
+
+static dem_status append_steps(const dem_trajectory *t, const hdf5_file *file, double time)
+{
+    const hdf5_rows values = frame_rows(STEPS "Values", HDF5_F64, 1);
+    const hdf5_rows parts = frame_rows(STEPS "NumberOfParts", HDF5_I64, 1);
+    for (int o = 0; o < N_OFFSETS; o++) {
+        const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        const dem_index begin = t->frames * count_of(t, offsets[o].of);
+        TRY(hdf5_append(file, &rows, (hsize_t)t->frames, 1, &begin));
+    }
+    TRY(hdf5_append(file, &parts, (hsize_t)t->frames, 1, &(dem_index){1}));
+    return hdf5_append(file, &values, (hsize_t)t->frames, 1, &time);
+}
+
+/* The count of steps comes last: readers believe it. */
+static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation,
+                               const dem_state *state)
+{
+    const dem_index steps = t->frames + 1;
+    TRY(history_flush(&t->history, file));
+    TRY(append_arrays(t, file, dem_model_lattice(dem_simulation_model(simulation)), state));
+    TRY(append_fields(t, file, state));
+    TRY(append_steps(t, file, state->t));
+    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &steps);
+}
+
+/* Bounds of what is added, in bytes: deflate never lengthens. */
+static hsize_t frame_bytes(const dem_trajectory *t)
+{
+    return history_bytes(&t->history) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
+}
+
+static hsize_t start_bytes(const dem_model *model)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    return 104 * (hsize_t)size.n_nodes + 57 * (hsize_t)size.n_springs + 32 * (hsize_t)size.n_triangles +
+           32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles;
+}
+
+static dem_status on_frame(void *context, const dem_simulation *simulation)
+{
+    dem_trajectory *t = context;
+    dem_state state = {.struct_size = sizeof state};
+    hdf5_file file;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", t->path);
+    dem_simulation_state(simulation, &state);
+    if (t->frames > 0 && state.t == t->last) return DEM_OK;
+    TRY(hdf5_open_write(&file, t->part, frame_bytes(t)));
+    TRY(hdf5_close(&file, append_frame(t, &file, simulation, &state)));
+    t->frames++;
+    t->last = state.t;
+    return DEM_OK;
+}
+
+static dem_status flush(dem_trajectory *t)
+{
+    hdf5_file file;
+    TRY(hdf5_open_write(&file, t->part, history_bytes(&t->history)));
+    return hdf5_close(&file, history_flush(&t->history, &file));
+}
+
+static dem_status on_step(void *context, const dem_simulation *simulation)
+{
+    dem_trajectory *t = context;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", t->path);
+    if (t->history.buffered == HISTORY_ROWS) TRY(flush(t));
+    history_record(&t->history, simulation);
+    return DEM_OK;
+}
+
+/* ---- creation ------------------------------------------------------------------------------------------------------- */
+
+static dem_status write_constants(const hdf5_file *file, const dem_lattice *lattice, int deflate)
+{
+    const size_t n = (size_t)lattice->n_nodes;
+    const hdf5_rows body = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, deflate};
+    dem_index *id = malloc(n * sizeof *id);
+    CHECK_MEMORY(id);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) id[i] = i;
+    const dem_status status = write_numbers(file, GRID "PointData/id", deflate, lattice->n_nodes, id);
+    free(id);
+    TRY(status);
+    return hdf5_write(file, body, n, lattice->body);
+}
+
+static dem_status write_vtk(const dem_trajectory *t, const hdf5_file *file, const dem_lattice *lattice)
+{
+    const grid g = {t->n_nodes, t->n_springs, lattice->ends};
+    TRY(write_grid(file, &g, t->options.deflate));
+    TRY(write_constants(file, lattice, t->options.deflate));
+    return create_frames(t, file);
+}
+
+static dem_status write_start(const dem_trajectory *t, const hdf5_file *file, const dem_model *model)
+{
+    const dem_lattice *lattice = dem_model_lattice(model);
+    if (t->options.frame_interval > 0.0) TRY(write_vtk(t, file, lattice));
+    TRY(lattice_file_write(file, lattice, t->options.deflate));
+    TRY(write_obstacle_group(file, model));
+    return history_create(&t->history, file);
+}
+
+static dem_status start(const dem_trajectory *t, const dem_model *model)
+{
+    hdf5_file file;
+    dem_status status = hdf5_open_new(&file, t->part, start_bytes(model));
+    if (status == DEM_OK) status = hdf5_close(&file, write_start(t, &file, model));
+    if (status == DEM_OK && t->n_obstacles > 0) status = write_obstacle_file(t, model);
+    if (status != DEM_OK) (void)unlink(t->part);
+    return status;
+}
+
+static dem_status check_options(const char *path, const dem_trajectory_options *options)
+{
+    const size_t length = strlen(path), end = sizeof suffix - 1;
+    CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
+          "%s: the name of a trajectory ends in %s", path, suffix);
+    CHECK(options->struct_size == sizeof *options, DEM_ERROR_ARGUMENT,
+          "the options are not from dem_trajectory_options_default()");
+    CHECK(isfinite(options->frame_interval), DEM_ERROR_ARGUMENT, "frame_interval is not a finite number");
+    CHECK(options->deflate >= 0 && options->deflate <= 9, DEM_ERROR_ARGUMENT, "deflate is %d, not in 0 to 9",
+          options->deflate);
+    return DEM_OK;
+}
+
+static dem_status make_names(dem_trajectory *t, const char *path)
+{
+    const size_t size = strlen(path) + sizeof ".obstacle.part";
+    const int stem = (int)(strlen(path) - (sizeof suffix - 1));
+    t->path = malloc(4 * size);
+    CHECK_MEMORY(t->path);
+    t->part = t->path + size;
+    t->obstacle = t->part + size;
+    t->obstacle_part = t->obstacle + size;
+    (void)snprintf(t->path, size, "%s", path);
+    (void)snprintf(t->part, size, "%.*s.part%s", stem, path, suffix);
+    (void)snprintf(t->obstacle, size, "%.*s.obstacle%s", stem, path, suffix);
+    (void)snprintf(t->obstacle_part, size, "%.*s.obstacle.part%s", stem, path, suffix);
+    return DEM_OK;
+}
+
+static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *model)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    const dem_index largest = size.n_nodes > size.n_springs ? size.n_nodes : size.n_springs;
+    t->n_nodes = size.n_nodes;
+    t->n_springs = size.n_springs;
+    t->n_obstacles = size.n_obstacles;
+    TRY(make_names(t, path));
+    t->scratch = calloc((size_t)largest, 3 * sizeof *t->scratch);
+    CHECK_MEMORY(t->scratch);
+    return history_init(&t->history, model);
+}
+
+/* ---- the end -------------------------------------------------------------------------------------------------------- */
+
+static dem_status verify_counts(const dem_trajectory *t, const hdf5_file *file)
+{
+    TRY(history_verify(&t->history, file));
+    if (t->options.frame_interval <= 0.0) return DEM_OK;
+    for (int a = 0; a < N_ARRAYS; a++)
+        TRY(hdf5_expect_rows(file, arrays[a].name, (hsize_t)(t->frames * count_of(t, arrays[a].of))));
+    return hdf5_expect_attribute(file, "/VTKHDF/Steps", "NSteps", t->frames);
+}
+
+static dem_status verify(const dem_trajectory *t)
+{
+    hdf5_file file;
+    TRY(hdf5_open_read(&file, t->part));
+    return hdf5_close(&file, verify_counts(t, &file));
+}
+
+/* ---- notes ------------------------------------------------------------------------------------------------------------ */
+
+static dem_status name_note(char *out, size_t size, const char *name)
+{
+    CHECK(*name != '\0' && strpbrk(name, "/.") == NULL && strlen(name) < 64, DEM_ERROR_ARGUMENT,
+          "\"%s\" cannot name a note: 1 to 63 characters, none of them / or .", name);
+    (void)snprintf(out, size, "/provenance/%s", name);
+    return DEM_OK;
+}
+
+/* ---- public ----------------------------------------------------------------------------------------------------------- */
+
+dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                 const dem_trajectory_options *options)
+{
+    CHECK(out != NULL && path != NULL && simulation != NULL && options != NULL, DEM_ERROR_ARGUMENT,
+          "dem_trajectory_create: an argument is NULL");
+    TRY(check_options(path, options));
+    const dem_model *model = dem_simulation_model(simulation);
+    dem_trajectory *t = calloc(1, sizeof *t);
+    CHECK_MEMORY(t);
+    t->options = *options;
+    dem_status status = prepare(t, path, model);
+    if (status == DEM_OK) status = start(t, model);
+    if (status == DEM_OK)
+        *out = t;
+    else
+        dem_trajectory_destroy(t);
+    return status;
+}
+
+dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
+{
+    return (dem_observer){trajectory->options.frame_interval, on_frame, on_step, NULL, trajectory};
+}
+
+dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
+{
+    char path[96];
+    hdf5_file file;
+    CHECK(trajectory != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
+          "dem_trajectory_note: an argument is NULL");
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", trajectory->path);
+    TRY(name_note(path, sizeof path, name));
+    TRY(hdf5_open_write(&file, trajectory->part, strlen(text)));
+    return hdf5_close(&file, hdf5_write_text(&file, path, text));
+}
+
+dem_status dem_trajectory_finish(dem_trajectory *trajectory)
+{
+    CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", trajectory->path);
+    TRY(flush(trajectory));
+    TRY(verify(trajectory));
+    TRY(hdf5_publish(trajectory->part, trajectory->path));
+    trajectory->finished = 1;
+    return DEM_OK;
+}
+
+void dem_trajectory_destroy(dem_trajectory *trajectory)
+{
+    if (trajectory == NULL) return;
+    history_free(&trajectory->history);
+    free(trajectory->scratch);
+    free(trajectory->path);
+    free(trajectory);
+}
+
+dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size)
+{
+    char full[96];
+    hdf5_file file;
+    CHECK(path != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
+          "dem_trajectory_read_note: an argument is NULL");
+    TRY(name_note(full, sizeof full, name));
+    TRY(hdf5_open_read(&file, path));
+    return hdf5_close(&file, hdf5_read_text(&file, full, text, size));
+}
+
+const char *dem_version_hdf5(void)
+{
+    static _Thread_local char version[32];
+    unsigned major = 0, minor = 0, release = 0;
+    (void)H5get_libversion(&major, &minor, &release);
+    (void)snprintf(version, sizeof version, "%u.%u.%u", major, minor, release);
+    return version;
+}

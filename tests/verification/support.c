@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* See support.h. */
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *copy(const void *from, size_t size)
+{
+    void *to = malloc(size > 0 ? size : 1);
+    assert_non_null(to);
+    memcpy(to, from, size);
+    return to;
+}
+
+void support_lattice(dem_lattice *out, dem_index n, const double *x, const double *mass, dem_index n_springs,
+                     const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed)
+{
+    dem_lattice_init(out);
+    out->n_nodes = n;
+    out->x = copy(x, 2 * (size_t)n * sizeof *x);
+    out->mass = copy(mass, (size_t)n * sizeof *mass);
+    out->flags = malloc((size_t)n);
+    assert_non_null(out->flags);
+    for (dem_index i = 0; i < n; i++)
+        out->flags[i] = (unsigned char)(DEM_NODE_CONTACT | (fixed && fixed[i] ? DEM_NODE_FIXED : 0));
+    if (n_springs == 0) return;
+    out->n_springs = n_springs;
+    out->ends = copy(ends, 2 * (size_t)n_springs * sizeof *ends);
+    out->rest_length = malloc((size_t)n_springs * sizeof(double));
+    out->stiffness = malloc((size_t)n_springs * sizeof(double));
+    assert_true(out->rest_length != NULL && out->stiffness != NULL);
+    for (dem_index k = 0; k < n_springs; k++) {
+        out->rest_length[k] = rest_length;
+        out->stiffness[k] = stiffness;
+    }
+}
+
+void support_start(dem_lattice *lattice, const double *position, const double *velocity)
+{
+    const size_t size = 2 * (size_t)lattice->n_nodes * sizeof(double);
+    if (position != NULL) lattice->position = copy(position, size);
+    if (velocity != NULL) lattice->velocity = copy(velocity, size);
+}
+
+static dem_status record(void *context, const dem_simulation *simulation, const dem_impact *impact)
+{
+    support_run *run = context;
+    (void)simulation;
+    if (run->n_impacts < SUPPORT_IMPACTS) run->impacts[run->n_impacts] = *impact;
+    run->n_impacts++;
+    return DEM_OK;
+}
+
+void support_open(support_run *run, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles,
+                  const dem_options *options)
+{
+    *run = (support_run){0};
+    const dem_observer observer = {.impact = record, .context = run};
+    assert_ok(dem_model_create(&run->model, lattice, obstacles, n_obstacles));
+    assert_ok(dem_simulation_create(&run->simulation, run->model, options));
+    assert_ok(dem_simulation_observe(run->simulation, &observer));
+}
+
+void support_close(support_run *run)
+{
+    dem_simulation_destroy(run->simulation);
+    dem_model_destroy(run->model);
+}
+
+dem_state support_at(support_run *run, double t)
+{
+    dem_state state;
+    assert_ok(dem_simulation_advance(run->simulation, t));
+    dem_simulation_state(run->simulation, &state);
+    return state;
+}
+
+void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
+                   dem_index n_points, double restitution)
+{
+    dem_lattice lattice;
+    const dem_obstacle obstacle = {.n_points = n_points, .points = points, .restitution = restitution};
+    dem_options options = dem_options_default();
+    options.spacing = 1.0;
+    options.max_step = 0.01;
+    options.rtol = 1e-12;
+    options.skin = 1e-13;
+    options.v_scale = 1.0;
+    support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
+    support_start(&lattice, NULL, v);
+    support_open(run, &lattice, &obstacle, 1, &options);
+    dem_lattice_free(&lattice);
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Small bodies from literal arrays, and a run that records its impacts. */
+#ifndef DEM_TEST_SUPPORT_H
+#define DEM_TEST_SUPPORT_H
+
+#include <dem/dem.h>
+
+#include "../unit/close.h"
+
+/** Fails the test with the library's message unless the expression is DEM_OK. */
+#define assert_ok(expression)                                                                                          \
+    do {                                                                                                               \
+        if ((expression) != DEM_OK) fail_msg("%s: %s", #expression, dem_status_message());                             \
+    } while (0)
+
+/** A body of n nodes at x [n][2] with masses, joined by n_springs springs of one rest length and stiffness; every node may touch.
+ *  `fixed` [n] or NULL. Arrays are copied; free with dem_lattice_free. */
+void support_lattice(dem_lattice *out, dem_index n, const double *x, const double *mass, dem_index n_springs,
+                     const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed);
+
+/** Sets where the nodes start and with which velocities [n][2]; NULL leaves it. */
+void support_start(dem_lattice *lattice, const double *position, const double *velocity);
+
+enum { SUPPORT_IMPACTS = 4096 };
+
+typedef struct support_run {
+    dem_model *model;
+    dem_simulation *simulation;
+    dem_index n_impacts; /* all of them; the first SUPPORT_IMPACTS are kept */
+    dem_impact impacts[SUPPORT_IMPACTS];
+} support_run;
+
+/** Model and simulation of a lattice, impacts recorded. */
+void support_open(support_run *run, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles,
+                  const dem_options *options);
+void support_close(support_run *run);
+
+/** The state at t, reached by advancing. */
+dem_state support_at(support_run *run, double t);
+
+/** One node of mass m at (x, y) with velocity (u, v), over one open or closed polyline. Tolerances fit a scale of 1 m and the
+ *  accuracy of the exact tests: rtol 1e-12, skin 1e-13 m, steps of at most 0.01 s. */
+void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
+                   dem_index n_points, double restitution);
+
+#endif
