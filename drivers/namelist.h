@@ -17,7 +17,9 @@ typedef enum namelist_kind {
     NAMELIST_INTEGER,
     NAMELIST_REAL,
     NAMELIST_LOGICAL,
-    NAMELIST_STRING
+    NAMELIST_STRING,
+    NAMELIST_WORD, /* unquoted text that is none of these: the one to report it is who knows what was expected */
+    NAMELIST_FAULT /* could not be read, and has been reported */
 } namelist_kind;
 
 typedef struct namelist_value {
@@ -34,9 +36,9 @@ typedef struct namelist_key {
     char *name; /* lower case; components joined by '%' */
     namelist_place place;
     bool subscript;
-    int64_t first, stride; /* element of value k is first + k * stride, from 1 */
-    size_t n_values;
-    namelist_value *values; /* repeat counts r*c expanded */
+    int64_t first, stride;  /* element of value k is first + k * stride, from 1 */
+    size_t n_values;        /* 0: there is a fault, and it has been reported */
+    namelist_value *values; /* repeat counts r*c expanded; the values of one share their text */
 } namelist_key;
 
 typedef struct namelist_group {
@@ -68,7 +70,7 @@ typedef struct namelist {
 bool namelist_parse(namelist *out, const char *text, size_t size, namelist_errors *errors);
 void namelist_free(namelist *list);
 
-/* Appends a fault, printf-like. */
+/* Appends a fault, printf-like. From the 1000th on they are counted as one. */
 void namelist_errors_add(namelist_errors *errors, namelist_place place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Sorts by place, stable. */

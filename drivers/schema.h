@@ -13,13 +13,14 @@ typedef enum schema_type { SCHEMA_REAL, SCHEMA_INTEGER, SCHEMA_LOGICAL, SCHEMA_S
 typedef struct schema_key {
     const char *name;
     schema_type type;
-    int min_count, max_count;  /* of values; max_count 0: any number */
-    const char *unit;          /* "m", "Pa", "-" */
-    const char *initial;       /* default as a deck would spell it; NULL: must be given; "": none, stays not given */
-    const char *range;         /* "> 0", ">= 0", "[0, 1]", ">= 1", "" any; applies to each value */
-    const char *choices;       /* CHOICE: "a|b|c"; else NULL */
-    bool physics;              /* part of what makes two decks the same problem */
-    const char *sentence;      /* documentation */
+    int min_count, max_count; /* of values; max_count 0: any number */
+    const char *unit;         /* "m", "Pa", "-" */
+    const char *initial;      /* default as a deck would spell it; NULL: must be given; "": none, stays not given */
+    const char *range;        /* "> 0", ">= 0", "[0, 1]", ">= 1", "" any; applies to each value */
+    const char *choices;      /* CHOICE: "a|b|c"; else NULL */
+    bool physics;             /* part of what makes two decks the same problem */
+    const char *sentence;     /* documentation */
+    const char *example;      /* in the template, as a deck would spell it; NULL: the default, or a comment line */
 } schema_key;
 
 typedef struct schema_group {
@@ -68,8 +69,8 @@ const schema_instance *schema_get(const schema_deck *deck, const char *group, si
 
 /* A value by key name; the key must be in the table. */
 const schema_value *schema_value_of(const schema_instance *instance, const char *key);
-double schema_real(const schema_instance *instance, const char *key);      /* first real */
-const char *schema_text(const schema_instance *instance, const char *key); /* first text */
+double schema_real(const schema_instance *instance, const char *key);      /* first real; 0 if not given */
+const char *schema_text(const schema_instance *instance, const char *key); /* first text; "" if not given */
 
 /* Writes the deck with every key, "! default" behind what was not given. Reals are printed so that they read back to the
  * same bits; the result is itself a valid deck that resolves to the same values. physics_only: only the keys that make the
@@ -82,7 +83,8 @@ void schema_template(FILE *file);
 /* docs/deck.md, generated: one table per group. */
 void schema_document(FILE *file);
 
-/* The name in `names` ("a|b|c") nearest to `word` (Levenshtein distance at most 1 + length/3), or NULL. */
+/* Finds the name nearest to `word`: Levenshtein distance at most 1 + length/3, in any case; a name that `word` begins, from
+ * three letters on, is at distance 1. Returns false if none is that near. */
 bool schema_nearest(const char *word, const char *const *names, size_t n_names, size_t *nearest);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The automaton FREE - sliding - held of every contact site: its guards and its resets. */
+/* The automaton FREE - sliding - held of every contact site: its resets, and the books kept of them. */
 #include "contact.h"
 
 #include <float.h>
@@ -18,93 +18,14 @@ typedef struct moment {
     const contact_listener *listener;
 } moment;
 
-static const segment *segment_of(const contact *c, dem_index s)
-{
-    return &c->model->obstacles.segments[s];
-}
-
-/* Force on a node free of contact: elastic and weight, N. */
-static vec2 free_force(const contact *c, dem_index i, const double *x)
-{
-    const double m = c->model->lattice.mass[i];
-    return vec2_scale(m, model_acceleration(c->model, c->rule.gravity, i, x));
-}
-
 static impact_surface surface_of(const contact *c, dem_index s)
 {
-    return (impact_surface){segment_of(c, s)->normal, segment_of(c, s)->restitution};
+    return (impact_surface){scene_segment(&c->scene, s)->normal, scene_segment(&c->scene, s)->restitution};
 }
-
-static obstacle_gap gap_without(const contact *c, const contact_site *site, vec2 x, dem_index segment_left_out)
-{
-    return obstacles_gap(&c->model->obstacles, x, segment_left_out, site->behind);
-}
-
-/* ---- guards ---- */
-
-/* Reaction of each closed contact, N: what balances the force along its normal; < 0 pulls. */
-static void reactions(const contact *c, const contact_site *site, const double *x, double reaction[2])
-{
-    const vec2 f = free_force(c, site->node, x), n0 = segment_of(c, site->segments[0])->normal;
-    reaction[0] = -vec2_dot(f, n0);
-    reaction[1] = 0.0;
-    if (site->n_closed < 2) return;
-    vec2_parts(vec2_scale(-1.0, f), n0, segment_of(c, site->segments[1])->normal, reaction);
-}
-
-static void site_guards(const contact *c, const contact_site *site, const double *x, double *g)
-{
-    const vec2 at = vec2_at(x, site->node);
-    g[0] = g[1] = g[2] = 1.0;
-    if (site->n_closed == 0) {
-        g[0] = fmin(gap_without(c, site, at, -1).distance, 1.0) + c->rule.skin;
-        return;
-    }
-    double reaction[2];
-    reactions(c, site, x, reaction);
-    g[0] = reaction[0];
-    if (site->n_closed == 2) {
-        g[1] = reaction[1];
-        return;
-    }
-    const segment *s = segment_of(c, site->segments[0]);
-    const double place = segment_place(s, at);
-    g[1] = fmin(place, s->length - place);
-    g[2] = fmin(gap_without(c, site, at, site->segments[0]).distance, 1.0) + c->rule.skin;
-}
-
-/* -1 or 1 if a sliding node is at or beyond the start or the end of its segment and heads out, else 0. */
-static int end_passed(const contact *c, const contact_site *site, const double *x, const double *v)
-{
-    const segment *s = segment_of(c, site->segments[0]);
-    const double place = segment_place(s, vec2_at(x, site->node)), speed = vec2_dot(vec2_at(v, site->node), s->tangent);
-    if (place > 0.0 && place < s->length) return 0;
-    const double heading = speed != 0.0 ? speed : vec2_dot(free_force(c, site->node, x), s->tangent);
-    if (place <= 0.0 && heading < 0.0) return -1;
-    return place >= s->length && heading > 0.0 ? 1 : 0;
-}
-
-void contact_guards(const contact *c, const double *y, double *g)
-{
-    for (dem_index k = 0; k < c->model->n_sites; k++) site_guards(c, &c->sites[k], y, &g[CONTACT_GUARDS * k]);
-}
-
-void contact_constrain(const contact *c, double *a)
-{
-    for (dem_index k = 0; k < c->model->n_sites; k++) {
-        const contact_site *site = &c->sites[k];
-        if (site->n_closed == 0) continue;
-        const vec2 n = segment_of(c, site->segments[0])->normal, free_a = vec2_at(a, site->node);
-        const vec2 held = site->n_closed == 2 ? (vec2){0.0, 0.0} : vec2_along(free_a, -vec2_dot(free_a, n), n);
-        vec2_put(a, site->node, held);
-    }
-}
-
-/* ---- resets ---- */
 
 static dem_contact describe(const contact *c, const contact_site *site, dem_index s)
 {
-    const segment *seg = segment_of(c, s);
+    const segment *seg = scene_segment(&c->scene, s);
     return (dem_contact){.n_nodes = 1,
                          .state = DEM_CONTACT_SLIP,
                          .nodes = {site->node},
@@ -128,26 +49,26 @@ static void close_on(contact *c, contact_site *site, const dem_index *s, int n)
 static void project(contact *c, const contact_site *site, const dem_index *s, int n, moment *now)
 {
     const dem_index i = site->node;
-    const segment *a = segment_of(c, s[0]);
+    const segment *a = scene_segment(&c->scene, s[0]);
     const vec2 x = vec2_at(now->x, i);
     vec2 shift = vec2_scale(-segment_height(a, x), a->normal);
     if (n == 2) {
-        const segment *b = segment_of(c, s[1]); /* n0.shift = -h0 and n1.shift = -h1 */
+        const segment *b = scene_segment(&c->scene, s[1]); /* n0.shift = -h0 and n1.shift = -h1 */
         const double h0 = segment_height(a, x), h1 = segment_height(b, x), d = vec2_cross(a->tangent, b->tangent);
         shift = vec2_scale(1.0 / d, vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
     }
-    const double before = model_node_energy(c->model, c->rule.gravity, i, now->x);
+    const double before = model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x);
     vec2_put(now->x, i, vec2_add(x, shift));
-    c->projection_energy += model_node_energy(c->model, c->rule.gravity, i, now->x) - before;
+    c->projection_energy += model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x) - before;
 }
 
 /* Rebound speed at or below which a contact with acceleration a_n towards the surface lasts: the next hop would be lower than
  * the position tolerance, or than what rounding leaves of the coordinates. */
 static double resting_speed(const contact *c, vec2 x, double a_n)
 {
-    if (c->rule.rest_speed > 0.0) return c->rule.rest_speed;
+    if (c->scene.rule.rest_speed > 0.0) return c->scene.rule.rest_speed;
     const double rounding = 64.0 * DBL_EPSILON * fmax(fabs(x.x), fabs(x.y));
-    return sqrt(2.0 * a_n * fmax(c->rule.position_error, rounding));
+    return sqrt(2.0 * a_n * fmax(c->scene.rule.position_error, rounding));
 }
 
 /* Of the surfaces touched, those on which the node comes to rest and that push it; their number into held[]. */
@@ -157,7 +78,7 @@ static int lasting(const contact *c, const dem_index *s, int n, vec2 x, vec2 v, 
     dem_index which[2];
     int n_slow = 0, n_held = 0;
     for (int k = 0; k < n; k++) {
-        const vec2 normal = segment_of(c, s[k])->normal;
+        const vec2 normal = scene_segment(&c->scene, s[k])->normal;
         const double a_n = -vec2_dot(a, normal);
         if (vec2_dot(v, normal) > resting_speed(c, x, fmax(a_n, 0.0))) continue;
         which[n_slow] = s[k];
@@ -174,7 +95,7 @@ static vec2 without_normals(const contact *c, const contact_site *site, vec2 v)
 {
     if (site->n_closed == 2) return (vec2){0.0, 0.0};
     if (site->n_closed == 0) return v;
-    const vec2 n = segment_of(c, site->segments[0])->normal;
+    const vec2 n = scene_segment(&c->scene, site->segments[0])->normal;
     return vec2_along(v, -vec2_dot(v, n), n);
 }
 
@@ -182,13 +103,13 @@ static vec2 without_normals(const contact *c, const contact_site *site, vec2 v)
 static void book_impulse(contact *c, const dem_index *s, int n, vec2 impulse)
 {
     double parts[2] = {0.0, 0.0};
-    const vec2 n0 = segment_of(c, s[0])->normal;
+    const vec2 n0 = scene_segment(&c->scene, s[0])->normal;
     if (n == 2)
-        vec2_parts(impulse, n0, segment_of(c, s[1])->normal, parts);
+        vec2_parts(impulse, n0, scene_segment(&c->scene, s[1])->normal, parts);
     else
         parts[0] = vec2_dot(impulse, n0);
     for (int k = 0; k < n; k++) {
-        const segment *seg = segment_of(c, s[k]);
+        const segment *seg = scene_segment(&c->scene, s[k]);
         c->impulse[2 * seg->obstacle] += parts[k] * seg->normal.x;
         c->impulse[2 * seg->obstacle + 1] += parts[k] * seg->normal.y;
     }
@@ -199,8 +120,8 @@ static dem_status report(const contact *c, const contact_site *site, dem_index s
     if (now->listener->impact == NULL) return DEM_OK;
     const dem_index i = site->node;
     const vec2 after = vec2_at(now->v, i), x = vec2_at(now->x, i);
-    const vec2 impulse = vec2_scale(c->model->lattice.mass[i], vec2_sub(after, before));
-    const segment *seg = segment_of(c, s);
+    const vec2 impulse = vec2_scale(c->scene.model->lattice.mass[i], vec2_sub(after, before));
+    const segment *seg = scene_segment(&c->scene, s);
     const dem_impact impact = {.t = now->t,
                                .node = i,
                                .obstacle = seg->obstacle,
@@ -219,7 +140,7 @@ static dem_status book_impact(contact *c, const contact_site *site, const dem_in
                               const moment *now)
 {
     const vec2 after = vec2_at(now->v, site->node);
-    const double m = c->model->lattice.mass[site->node];
+    const double m = c->scene.model->lattice.mass[site->node];
     if (after.x == before.x && after.y == before.y) return DEM_OK;
     c->counts.impacts++;
     c->impact_energy += 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after));
@@ -238,7 +159,7 @@ static dem_status strike(contact *c, contact_site *site, const dem_index *s, int
     for (int k = 0; k < n; k++) surface[k] = surface_of(c, s[k]);
     project(c, site, s, n, now);
     const vec2 after = impact_rebound(surface, n, before);
-    const vec2 a = model_acceleration(c->model, c->rule.gravity, i, now->x);
+    const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, i, now->x);
     const int n_held = lasting(c, s, n, vec2_at(now->x, i), after, a, held);
     close_on(c, site, held, n_held);
     vec2_put(now->v, i, without_normals(c, site, after));
@@ -253,8 +174,8 @@ static dem_status strike(contact *c, contact_site *site, const dem_index *s, int
  * rounding of t and of the step. */
 static double contact_depth(const contact *c, const contact_site *site, const moment *now)
 {
-    const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->rule.max_step);
-    return 2.0 * c->rule.skin + located * vec2_norm(vec2_at(now->v, site->node));
+    const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
+    return 2.0 * c->scene.rule.skin + located * vec2_norm(vec2_at(now->v, site->node));
 }
 
 /* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the one
@@ -262,18 +183,19 @@ static double contact_depth(const contact *c, const contact_site *site, const mo
 static bool yields(const contact *c, dem_index s, dem_index to, vec2 v)
 {
     dem_index after, before;
-    const obstacle_bend ahead = obstacles_bend(&c->model->obstacles, s, false, &after);
-    const obstacle_bend behind = obstacles_bend(&c->model->obstacles, s, true, &before);
+    const obstacle_bend ahead = obstacles_bend(&c->scene.model->obstacles, s, false, &after);
+    const obstacle_bend behind = obstacles_bend(&c->scene.model->obstacles, s, true, &before);
     const bool follows = before == to && behind != OBSTACLE_CONCAVE, leads = after == to && ahead != OBSTACLE_CONCAVE;
     if (!follows && !leads) return false;
-    const double mine = vec2_dot(v, segment_of(c, s)->normal), other = vec2_dot(v, segment_of(c, to)->normal);
+    const double mine = vec2_dot(v, scene_segment(&c->scene, s)->normal),
+                 other = vec2_dot(v, scene_segment(&c->scene, to)->normal);
     return mine > other || (mine == other && follows);
 }
 
 /* Whether two segments form a corner, rather than one nearly straight surface or a channel. */
 static bool corner(const contact *c, dem_index s, dem_index other)
 {
-    return fabs(vec2_cross(segment_of(c, s)->tangent, segment_of(c, other)->tangent)) > 0.01;
+    return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
 }
 
 /* The one or two segments that a touching node meets, the one approached faster first. */
@@ -284,17 +206,17 @@ static int met(const contact *c, const contact_site *site, const moment *now, de
     int n_met = 0;
     const vec2 x = vec2_at(now->x, site->node), v = vec2_at(now->v, site->node);
     const int n =
-        obstacles_touching(&c->model->obstacles, x, contact_depth(c, site, now), site->behind, hits, capacity);
+        obstacles_touching(&c->scene.model->obstacles, x, contact_depth(c, site, now), site->behind, hits, capacity);
     for (int k = 0; k < n; k++) {
         bool meets = true;
         for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[k], hits[q], v);
         if (!meets) continue;
-        const double speed = vec2_dot(v, segment_of(c, hits[k])->normal);
-        const bool faster = n_met > 0 && speed < vec2_dot(v, segment_of(c, out[0])->normal);
+        const double speed = vec2_dot(v, scene_segment(&c->scene, hits[k])->normal);
+        const bool faster = n_met > 0 && speed < vec2_dot(v, scene_segment(&c->scene, out[0])->normal);
         if (n_met == 0 || faster) {
             if (n_met > 0) out[1] = out[0];
             out[0] = hits[k];
-        } else if (n_met == 1 || speed < vec2_dot(v, segment_of(c, out[1])->normal)) {
+        } else if (n_met == 1 || speed < vec2_dot(v, scene_segment(&c->scene, out[1])->normal)) {
             out[1] = hits[k];
         }
         n_met = n_met < 2 ? n_met + 1 : 2;
@@ -312,7 +234,7 @@ static void release(contact *c, contact_site *site, const dem_index *kept, int n
 static dem_status go_behind(contact *c, contact_site *site, obstacle_gap gap, const moment *now)
 {
     const vec2 x = vec2_at(now->x, site->node);
-    const segment *s = segment_of(c, gap.segment);
+    const segment *s = scene_segment(&c->scene, gap.segment);
     const double place = segment_place(s, x), tolerance = contact_depth(c, site, now);
     const bool at_free_end =
         (s->before < 0 && fabs(place) <= tolerance) || (s->after < 0 && fabs(place - s->length) <= tolerance);
@@ -327,8 +249,8 @@ static dem_status go_behind(contact *c, contact_site *site, obstacle_gap gap, co
 /* Free node: is it deep enough to count as touching? */
 static dem_status settle_free(contact *c, contact_site *site, moment *now, bool *changed)
 {
-    const obstacle_gap gap = gap_without(c, site, vec2_at(now->x, site->node), -1);
-    if (gap.distance > -touch_share * c->rule.skin) return DEM_OK;
+    const obstacle_gap gap = site_free_gap(&c->scene, site, vec2_at(now->x, site->node));
+    if (gap.distance > -touch_share * c->scene.rule.skin) return DEM_OK;
     *changed = true;
     dem_index s[2];
     const int n = gap.distance >= -contact_depth(c, site, now) ? met(c, site, now, s) : 0;
@@ -340,7 +262,7 @@ static dem_status settle_free(contact *c, contact_site *site, moment *now, bool 
 static dem_status pass(contact *c, contact_site *site, bool backwards, moment *now)
 {
     dem_index s[2] = {site->segments[0], -1};
-    const obstacle_bend bend = obstacles_bend(&c->model->obstacles, s[0], backwards, &s[1]);
+    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, s[0], backwards, &s[1]);
     c->counts.passings++;
     if (bend == OBSTACLE_CONCAVE) return strike(c, site, s, 2, now);
     if (bend == OBSTACLE_STRAIGHT) {
@@ -356,18 +278,18 @@ static dem_status pass(contact *c, contact_site *site, bool backwards, moment *n
 /* Sliding node: release comes first, then the segment's end, then another segment in the way. */
 static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bool *changed)
 {
-    const segment *seg = segment_of(c, site->segments[0]);
-    const vec2 x = vec2_at(now->x, site->node), f = free_force(c, site->node, now->x);
+    const segment *seg = scene_segment(&c->scene, site->segments[0]);
+    const vec2 x = vec2_at(now->x, site->node), f = site_force(&c->scene, site, now->x);
     *changed = true;
     if (vec2_dot(f, seg->normal) >= 0.0) {
         release(c, site, NULL, 0);
         return DEM_OK;
     }
-    const int passed = end_passed(c, site, now->x, now->v);
+    const int passed = site_end_passed(&c->scene, site, now->x, now->v);
     if (passed != 0) return pass(c, site, passed < 0, now);
-    const obstacle_gap other = gap_without(c, site, x, site->segments[0]);
+    const obstacle_gap other = site_other_gap(&c->scene, site, x);
     if (other.distance < -contact_depth(c, site, now)) return go_behind(c, site, other, now);
-    if (other.distance <= -touch_share * c->rule.skin) {
+    if (other.distance <= -touch_share * c->scene.rule.skin) {
         const dem_index s[2] = {other.segment, site->segments[0]};
         return strike(c, site, s, corner(c, s[0], s[1]) ? 2 : 1, now);
     }
@@ -380,7 +302,7 @@ static void settle_held(contact *c, contact_site *site, const moment *now, bool 
 {
     const dem_index s[2] = {site->segments[0], site->segments[1]};
     double reaction[2];
-    reactions(c, site, now->x, reaction);
+    site_reactions(&c->scene, site, now->x, reaction);
     if (reaction[0] > 0.0 && reaction[1] > 0.0) return;
     *changed = true;
     const bool first = reaction[0] > 0.0, second = reaction[1] > 0.0;
@@ -398,24 +320,24 @@ static dem_status settle(contact *c, contact_site *site, moment *now, bool *chan
         settle_held(c, site, now, &here);
     if (!here) return DEM_OK;
     *changed = true;
-    if (now->t - site->storm_start > c->rule.storm_time) {
+    if (now->t - site->storm_start > c->scene.rule.storm_time) {
         site->storm_start = now->t;
         site->storm = 0;
     }
-    CHECK(++site->storm <= c->rule.max_impacts, DEM_ERROR_CONTACT,
+    CHECK(++site->storm <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
           "node %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s", (long long)site->node,
-          now->x[2 * site->node], now->x[2 * site->node + 1], (long long)c->rule.max_impacts, c->rule.storm_time,
-          now->t);
+          now->x[2 * site->node], now->x[2 * site->node + 1], (long long)c->scene.rule.max_impacts,
+          c->scene.rule.storm_time, now->t);
     return DEM_OK;
 }
 
 static void refresh_forces(contact *c, const double *x)
 {
-    for (dem_index k = 0; k < c->model->n_sites; k++) {
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
         contact_site *site = &c->sites[k];
         if (site->n_closed == 0) continue;
         double reaction[2];
-        reactions(c, site, x, reaction);
+        site_reactions(&c->scene, site, x, reaction);
         for (int q = 0; q < site->n_closed; q++) site->closed[q].force = reaction[q];
     }
 }
@@ -423,81 +345,38 @@ static void refresh_forces(contact *c, const double *x)
 /* A node that came back from behind to the front, or round the free end again, is in front. */
 static void refresh_behind(contact *c, const double *x)
 {
-    for (dem_index k = 0; k < c->model->n_sites && c->counts.behind > 0; k++) {
+    for (dem_index k = 0; k < c->scene.model->n_sites && c->counts.behind > 0; k++) {
         contact_site *site = &c->sites[k];
         if (site->behind < 0) continue;
-        if (obstacles_gap_of(&c->model->obstacles, vec2_at(x, site->node), site->behind).distance <= 0.0) continue;
+        if (obstacles_gap_of(&c->scene.model->obstacles, vec2_at(x, site->node), site->behind).distance <= 0.0)
+            continue;
         site->behind = -1;
         c->counts.behind--;
     }
 }
 
-/* ---- what the root finder did not see ---- */
-
-static double free_guard(const contact *c, const contact_site *site, const path *p, double t)
-{
-    return gap_without(c, site, path_position(p, t, site->node), -1).distance + c->rule.skin;
-}
-
-/* First time in the step at which a free site is as deep as the skin; infinity if never. Sites that stay further away than they
- * can move are passed over; a dip within the step is found if it is as long as a sample interval. */
-static double first_crossing(const contact *c, const contact_site *site, const path *p, bool rooted)
-{
-    enum { samples = 8 };
-    const double h = p->end - p->t0;
-    const double reach =
-        h * fmax(vec2_norm(path_velocity(p, p->t0, site->node)), vec2_norm(path_velocity(p, p->end, site->node)));
-    const double last = free_guard(c, site, p, p->end);
-    if (last > 0.0 && fmin(last, free_guard(c, site, p, p->t0)) > 2.0 * reach) return INFINITY;
-    double clear = p->t0, deep = INFINITY;
-    for (int k = 1; k <= samples && isinf(deep); k++) {
-        const double t = k == samples ? p->end : p->t0 + h * k / samples;
-        if (k == samples && rooted) return INFINITY;
-        if (free_guard(c, site, p, t) <= 0.0)
-            deep = t;
-        else
-            clear = t;
-    }
-    while (!isinf(deep) && deep - clear > 100.0 * DBL_EPSILON * (fabs(deep) + h)) {
-        const double middle = 0.5 * (clear + deep);
-        if (free_guard(c, site, p, middle) <= 0.0)
-            deep = middle;
-        else
-            clear = middle;
-    }
-    return deep;
-}
-
-/* Whether a closed site has left the range of its guards: what settle() would change. */
-static bool due(const contact *c, const contact_site *site, const double *y)
-{
-    double g[CONTACT_GUARDS];
-    site_guards(c, site, y, g);
-    if (g[0] <= 0.0) return true;
-    if (site->n_closed == 2) return g[1] <= 0.0;
-    return g[2] <= 0.0 || end_passed(c, site, y, y + 2 * c->model->lattice.n_nodes) != 0;
-}
-
-/* First time at which a closed site is due, known to be so at the end of the step. */
-static double first_due(const contact *c, const contact_site *site, const path *p, double *state)
-{
-    double before = p->t0, after = p->end;
-    while (after - before > 100.0 * DBL_EPSILON * (fabs(after) + p->end - p->t0)) {
-        const double middle = 0.5 * (before + after);
-        path_state(p, middle, state);
-        if (due(c, site, state))
-            after = middle;
-        else
-            before = middle;
-    }
-    return after;
-}
-
 /* ---- public ---- */
+
+void contact_guards(const contact *c, const double *y, double *g)
+{
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++)
+        site_guards(&c->scene, &c->sites[k], y, &g[SITE_GUARDS * k]);
+}
+
+void contact_constrain(const contact *c, double *a)
+{
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
+        const contact_site *site = &c->sites[k];
+        if (site->n_closed == 0) continue;
+        const vec2 n = scene_segment(&c->scene, site->segments[0])->normal, free_a = vec2_at(a, site->node);
+        const vec2 held = site->n_closed == 2 ? (vec2){0.0, 0.0} : vec2_along(free_a, -vec2_dot(free_a, n), n);
+        vec2_put(a, site->node, held);
+    }
+}
 
 dem_status contact_create(contact *out, const dem_model *model, const contact_rule *rule)
 {
-    contact c = {.model = model, .rule = *rule};
+    contact c = {.scene = {model, *rule}};
     c.sites = calloc((size_t)model->n_sites + 1, sizeof *c.sites);
     c.impulse = calloc(2 * (size_t)model->obstacles.n + 1, sizeof *c.impulse);
     if (c.sites == NULL || c.impulse == NULL) {
@@ -518,12 +397,11 @@ void contact_destroy(contact *c)
 
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener)
 {
-    moment now = {t, y, y + 2 * c->model->lattice.n_nodes, listener};
+    moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener};
     bool changed = true;
-    refresh_behind(c, now.x);
     while (changed) {
         changed = false;
-        for (dem_index k = 0; k < c->model->n_sites; k++) TRY(settle(c, &c->sites[k], &now, &changed));
+        for (dem_index k = 0; k < c->scene.model->n_sites; k++) TRY(settle(c, &c->sites[k], &now, &changed));
     }
     refresh_forces(c, now.x);
     return DEM_OK;
@@ -531,23 +409,23 @@ dem_status contact_resolve(contact *c, double t, double *y, const contact_listen
 
 dem_status contact_admissible(const contact *c, const double *x)
 {
-    for (dem_index k = 0; k < c->model->n_sites; k++) {
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
         const vec2 at = vec2_at(x, c->sites[k].node);
-        const obstacle_gap gap = gap_without(c, &c->sites[k], at, -1);
-        CHECK(gap.distance >= -c->rule.skin, DEM_ERROR_MODEL,
+        const obstacle_gap gap = site_free_gap(&c->scene, &c->sites[k], at);
+        CHECK(gap.distance >= -c->scene.rule.skin, DEM_ERROR_MODEL,
               "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the skin of %g m",
-              (long long)c->sites[k].node, at.x, at.y, -gap.distance, (long long)segment_of(c, gap.segment)->obstacle,
-              c->rule.skin);
+              (long long)c->sites[k].node, at.x, at.y, -gap.distance,
+              (long long)scene_segment(&c->scene, gap.segment)->obstacle, c->scene.rule.skin);
     }
     return DEM_OK;
 }
 
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener)
 {
-    moment now = {t, y, y + 2 * c->model->lattice.n_nodes, listener};
-    for (dem_index k = 0; k < c->model->n_sites; k++) {
+    moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener};
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
         contact_site *site = &c->sites[k];
-        if (gap_without(c, site, vec2_at(now.x, site->node), -1).distance > 0.0) continue;
+        if (site_free_gap(&c->scene, site, vec2_at(now.x, site->node)).distance > 0.0) continue;
         dem_index s[2];
         const int n = met(c, site, &now, s);
         if (n > 0) TRY(strike(c, site, s, n, &now));
@@ -558,13 +436,13 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
 bool contact_check(contact *c, path *p, bool rooted, double *state)
 {
     double first = INFINITY;
-    for (dem_index k = 0; k < c->model->n_sites; k++)
-        if (c->sites[k].n_closed == 0) first = fmin(first, first_crossing(c, &c->sites[k], p, rooted));
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++)
+        if (c->sites[k].n_closed == 0) first = fmin(first, site_first_crossing(&c->scene, &c->sites[k], p, rooted));
     path_state(p, p->end, state);
-    for (dem_index k = 0; k < c->model->n_sites && !rooted; k++) {
+    for (dem_index k = 0; k < c->scene.model->n_sites && !rooted; k++) {
         const contact_site *site = &c->sites[k];
-        if (site->n_closed == 0 || !due(c, site, state)) continue;
-        first = fmin(first, first_due(c, site, p, state));
+        if (site->n_closed == 0 || !site_due(&c->scene, site, state)) continue;
+        first = fmin(first, site_first_due(&c->scene, site, p, state));
         path_state(p, p->end, state);
     }
     if (isinf(first)) return false;
@@ -573,23 +451,24 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     return true;
 }
 
-void contact_accumulate(contact *c, double h, const double *y)
+void contact_follow(contact *c, double h, const double *y)
 {
     for (int end = 0; end < 2; end++) { /* trapezoidal rule: forces at the start of the step, then at its end */
         if (end == 1) refresh_forces(c, y);
-        for (dem_index k = 0; k < c->model->n_sites; k++)
+        for (dem_index k = 0; k < c->scene.model->n_sites; k++)
             for (int q = 0; q < c->sites[k].n_closed; q++) {
                 const dem_contact *held = &c->sites[k].closed[q];
                 c->impulse[2 * held->obstacle] += 0.5 * h * held->force * held->normal[0];
                 c->impulse[2 * held->obstacle + 1] += 0.5 * h * held->force * held->normal[1];
             }
     }
+    refresh_behind(c, y);
 }
 
 dem_index contact_list(const contact *c, dem_contact *list)
 {
     dem_index n = 0;
-    for (dem_index k = 0; k < c->model->n_sites; k++)
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++)
         for (int q = 0; q < c->sites[k].n_closed; q++) list[n++] = c->sites[k].closed[q];
     return n;
 }

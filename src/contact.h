@@ -1,41 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contact automaton: when a node touches an obstacle, leaves it, slides off a segment's end or is stopped in a corner.
- * Guards and resets depend on (t, x, v) and the forces that follow from x, and on nothing of the integrator. What an
- * impact does to a velocity is impact.c's. */
+/* The contact automaton of all sites: what changes when a node touches an obstacle, leaves it, slides off a segment's end or is
+ * stopped in a corner. Guards (site.c) and resets depend on (t, x, v) and the forces that follow from x, and on nothing of the
+ * integrator. What an impact does to a velocity is impact.c's. */
 #ifndef DEM_CONTACT_H
 #define DEM_CONTACT_H
 
-#include "model.h"
-#include "path.h"
-
-/** Guard functions per site; each is > 0 while nothing happens and falls through 0 when something does. */
-#define CONTACT_GUARDS 3
-
-/** One node that may touch. FREE: n_closed = 0; sliding on a segment: 1; held in a corner: 2. */
-typedef struct contact_site {
-    dem_index node;
-    dem_index behind; /* obstacle whose free end the node has passed round, or -1 */
-    int n_closed;
-    dem_index segments[2];
-    dem_contact closed[2];
-    double storm_start; /* s */
-    dem_index storm;    /* changes of this site since then */
-} contact_site;
-
-typedef struct contact_rule {
-    double skin;           /* m, depth at which an impact is taken */
-    double position_error; /* m, tolerance of positions: hops below it are rest */
-    double rest_speed;     /* m/s, 0: by the rule */
-    double max_step;       /* s, longest step: with t it sets how exactly an event is located */
-    double storm_time;     /* s */
-    dem_index max_impacts; /* within storm_time at one node */
-    double gravity[2];     /* m/s^2 */
-} contact_rule;
+#include "site.h"
 
 typedef struct contact {
-    const dem_model *model;
-    contact_rule rule;
-    contact_site *sites;      /* [model->n_sites] */
+    contact_scene scene;
+    contact_site *sites;      /* [n_sites of the model] */
     double impact_energy;     /* J, taken so far */
     double projection_energy; /* J, put in so far */
     double *impulse;          /* [n_obstacles][2] N s, given to the bodies so far */
@@ -57,9 +31,7 @@ dem_status contact_admissible(const contact *c, const double *x);
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener);
 
-/** Values of all guards at a state: [n_sites][CONTACT_GUARDS].
- *  free: gap + skin; sliding: reaction, distance to the segment's nearer end, gap to everything else + skin;
- *  held: both reactions. */
+/** Values of all guards at a state, [n_sites][SITE_GUARDS]: see site_guards(). */
 void contact_guards(const contact *c, const double *y, double *g);
 
 /** Takes from the accelerations a [n][2] what the closed contacts hold. */
@@ -70,8 +42,9 @@ void contact_constrain(const contact *c, double *a);
  *  `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
-/** Adds the reactions' impulse over the step of length h that ends at y, and refreshes the forces. */
-void contact_accumulate(contact *c, double h, const double *y);
+/** Follows an accepted step of length h that ends at y: adds the reactions' impulse over it, refreshes the forces, and notes which
+ *  nodes have come from behind an obstacle to its front. */
+void contact_follow(contact *c, double h, const double *y);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the forces.
  *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle */

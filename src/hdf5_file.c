@@ -269,7 +269,8 @@ dem_status hdf5_fail(const hdf5_file *file, const char *name, const char *what)
 {
     char cause[200] = "no cause given";
     (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, cause);
-    return status_fail(DEM_ERROR_IO, "%s:%s%s: %s (%s)", file->path, *name ? " " : "", name, what, shorten(cause));
+    return status_fail(DEM_ERROR_IO, "%s: %s%s%s (%s)", file->path, name, *name != '\0' ? ": " : "", what,
+                       shorten(cause));
 }
 
 dem_status hdf5_open_read(hdf5_file *out, const char *path)

@@ -117,11 +117,12 @@ static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, obstacle_gap
     if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
 }
 
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without_segment, dem_index without_obstacle)
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too)
 {
     obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
     for (dem_index k = 0; k < o->n_segments; k++)
-        if (k != without_segment && o->segments[k].obstacle != without_obstacle) take_nearer(o, k, x, &nearest);
+        if (o->segments[k].obstacle != without && o->segments[k].obstacle != without_too)
+            take_nearer(o, k, x, &nearest);
     return nearest;
 }
 

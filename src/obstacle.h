@@ -41,9 +41,9 @@ typedef enum obstacle_bend {
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n);
 void obstacles_free(obstacle_set *o);
 
-/** Signed distance of x, leaving out one segment and one whole obstacle (-1: none). Where two segments meet, a point
- *  nearest to the vertex is in front if it is on the vertex's mean normal's side; nearest to a free end, it is in front. */
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without_segment, dem_index without_obstacle);
+/** Signed distance of x, leaving out up to two whole obstacles (-1: none). Where two segments meet, a point nearest to the
+ *  vertex is in front if it is on the vertex's mean normal's side; nearest to a free end, it is in front. */
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too);
 
 /** Signed distance of x to one obstacle alone. */
 obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle);

@@ -168,7 +168,7 @@ static dem_status commit_step(dem_simulation *s)
     s->step = s->path.end - s->t;
     s->t = s->path.end;
     s->in_hand = false;
-    contact_accumulate(&s->contact, s->step, s->y);
+    contact_follow(&s->contact, s->step, s->y);
     if (s->at_event) {
         s->events++;
         look_at(s, s->t, s->y);
@@ -281,7 +281,7 @@ static dem_status set_up(dem_simulation *s)
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
     const integrator_problem problem = {.n_nodes = model->lattice.n_nodes,
-                                        .n_guards = model->obstacles.n > 0 ? CONTACT_GUARDS * model->n_sites : 0,
+                                        .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * model->n_sites : 0,
                                         .derivative = derivative,
                                         .guards = guards,
                                         .context = s,

@@ -36,19 +36,19 @@ void triangles_guard_law(double area_ratio, double *energy, double *slope)
     *slope = w1 + beyond * w2;
 }
 
-static double area_ratio(const triangles *t, dem_index i, dem_index p, const double *x)
+static double area(const triangles *t, dem_index i, dem_index p, const double *x)
 {
-    return triangles_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p])) / t->rest_area[p];
+    return triangles_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
 }
 
 vec2 triangles_force(const triangles *t, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double J = area_ratio(t, i, p, x);
-        if (!(J < TRIANGLES_GUARD_ONSET)) continue;
+        const double A = area(t, i, p, x);
+        if (!(A < TRIANGLES_GUARD_ONSET * t->rest_area[p])) continue;
         double energy, slope;
-        triangles_guard_law(J, &energy, &slope);
+        triangles_guard_law(A / t->rest_area[p], &energy, &slope);
         const vec2 opposite = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, t->next[p]));
         const vec2 gradient = {-0.5 * opposite.y, 0.5 * opposite.x}; /* dA/dx_i */
         force = vec2_along(force, -t->strength[p] * slope, gradient);
@@ -59,7 +59,7 @@ vec2 triangles_force(const triangles *t, dem_index i, const double *x)
 static double slot_energy(const triangles *t, dem_index i, dem_index p, const double *x)
 {
     double energy, slope;
-    triangles_guard_law(area_ratio(t, i, p, x), &energy, &slope);
+    triangles_guard_law(area(t, i, p, x) / t->rest_area[p], &energy, &slope);
     return t->rest_area[p] * t->strength[p] * energy;
 }
 

@@ -3,6 +3,8 @@
 #ifndef DEM_TEST_SUPPORT_H
 #define DEM_TEST_SUPPORT_H
 
+#include <gsl/gsl_math.h> /* M_PI */
+
 #include <dem/dem.h>
 
 #include "../unit/close.h"

@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies: checks of their groups, then mesh or file, parts, place, clearance, velocity. */
+#include "body.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <dem/trajectory.h>
+
+#include "clearance.h"
+#include "parts.h"
+#include "shape.h"
+
+static const double degree = 0.017453292519943295769; /* pi/180 */
+
+static namelist_place place_of(const schema_instance *group, const char *key)
+{
+    return schema_value_of(group, key)->place;
+}
+
+static bool is_given(const schema_instance *group, const char *key)
+{
+    return schema_value_of(group, key)->given;
+}
+
+static const double *reals_of(const schema_instance *group, const char *key)
+{
+    return schema_value_of(group, key)->reals;
+}
+
+static bool has_shape(const schema_instance *group, const char *name)
+{
+    return strcmp(schema_text(group, "shape"), name) == 0;
+}
+
+/* ---- checks: keys of a shape ---- */
+
+typedef struct use {
+    const char *key;
+    const char *shapes; /* that use it */
+    bool needed;
+} use;
+
+static const use body_uses[] = {
+    {"size", "rectangle", true},
+    {"radius", "disc", true},
+    {"spacing", "rectangle, disc", true},
+    {"lattice", "rectangle, disc", false},
+    {"material", "rectangle, disc", false},
+    {"file", "file", true},
+};
+
+static const use void_uses[] = {{"size", "rectangle", true}, {"radius", "disc", true}};
+
+static void check_uses(const schema_instance *group, const use *uses, size_t n, namelist_errors *errors)
+{
+    const char *wanted = schema_text(group, "shape"), *name = group->group->name;
+    for (size_t k = 0; k < n && wanted[0] != '\0'; k++) {
+        const bool used = strstr(uses[k].shapes, wanted) != NULL, given = is_given(group, uses[k].key);
+        if (used && uses[k].needed && !given)
+            namelist_errors_add(errors, group->place, "'%s' in &%s must be given for shape '%s'", uses[k].key, name,
+                                wanted);
+        if (!used && given)
+            namelist_errors_add(errors, place_of(group, uses[k].key), "'%s' in &%s is not used by shape '%s'",
+                                uses[k].key, name, wanted);
+    }
+}
+
+/* ---- checks: materials ---- */
+
+static const schema_instance *find_material(const schema_deck *groups, const char *name)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const schema_instance *material = schema_get(groups, "material", k);
+        if (strcmp(schema_text(material, "name"), name) == 0) return material;
+    }
+    return NULL;
+}
+
+static const char *nearest_material(const schema_deck *groups, const char *name)
+{
+    const char *nearest = NULL;
+    size_t which;
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const char *candidate = schema_text(schema_get(groups, "material", k), "name");
+        if (nearest == NULL && strlen(candidate) < 64 && schema_nearest(name, &candidate, 1, &which))
+            nearest = candidate;
+    }
+    return nearest;
+}
+
+static void check_material(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
+{
+    const char *name = schema_text(body, "material");
+    if (has_shape(body, "file") || schema_count(groups, "material") == 0 || find_material(groups, name) != NULL) return;
+    const char *nearest = nearest_material(groups, name);
+    if (nearest != NULL)
+        namelist_errors_add(errors, place_of(body, "material"), "there is no material '%.40s' (did you mean '%s'?)",
+                            name, nearest);
+    else
+        namelist_errors_add(errors, place_of(body, "material"), "there is no material '%.40s'", name);
+}
+
+static void check_names(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const schema_instance *material = schema_get(groups, "material", k);
+        const schema_instance *first = find_material(groups, schema_text(material, "name"));
+        if (first != material)
+            namelist_errors_add(errors, place_of(material, "name"), "material '%.40s' is given twice, first in line %d",
+                                schema_text(material, "name"), first->place.line);
+    }
+}
+
+/* ---- checks: sizes, references ---- */
+
+static void check_spacing(const schema_instance *body, namelist_errors *errors)
+{
+    const double *size = reals_of(body, "size"), *radius = reals_of(body, "radius");
+    const double spacing = schema_real(body, "spacing");
+    if (has_shape(body, "rectangle") && size != NULL && (spacing > size[0] || spacing > size[1]))
+        namelist_errors_add(errors, place_of(body, "spacing"),
+                            "'spacing' in &body must not exceed the size, %g m x %g m, got %g m", size[0], size[1],
+                            spacing);
+    if (has_shape(body, "disc") && radius != NULL && spacing > radius[0])
+        namelist_errors_add(errors, place_of(body, "spacing"),
+                            "'spacing' in &body must not exceed the radius, %g m, got %g m", radius[0], spacing);
+}
+
+static void check_clearance(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
+{
+    const double *gravity = reals_of(schema_get(groups, "run", 0), "gravity");
+    const namelist_place place = place_of(body, "clearance");
+    if (!is_given(body, "clearance")) return;
+    if (schema_count(groups, "obstacle") == 0)
+        namelist_errors_add(errors, place, "'clearance' in &body needs an &obstacle");
+    if (gravity[0] == 0.0 && gravity[1] == 0.0)
+        namelist_errors_add(errors, place, "'clearance' in &body needs gravity, which is 0");
+}
+
+/* The body that a &void or &pores is for, from 1 in the deck. */
+static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
+{
+    const size_t n = schema_count(groups, "body");
+    const double number = schema_real(group, "body");
+    if (n == 0) return;
+    if (number > (double)n)
+        namelist_errors_add(errors, place_of(group, "body"), "&%s is for body %.0f, but the number of bodies is %zu",
+                            group->group->name, number, n);
+    else if (has_shape(schema_get(groups, "body", (size_t)number - 1), "file"))
+        namelist_errors_add(errors, place_of(group, "body"), "&%s is for body %.0f, which is of shape 'file'",
+                            group->group->name, number);
+}
+
+static void check_pores(const schema_instance *pores, namelist_errors *errors)
+{
+    const double *radius = reals_of(pores, "radius");
+    if (radius != NULL && radius[0] > radius[1])
+        namelist_errors_add(errors, place_of(pores, "radius"),
+                            "'radius' in &pores must be the smallest, then the largest one, got %g, %g", radius[0],
+                            radius[1]);
+    if (schema_real(pores, "number") > PORES_MAX)
+        namelist_errors_add(errors, place_of(pores, "number"), "'number' in &pores must be at most %d, got %.0f",
+                            PORES_MAX, schema_real(pores, "number"));
+}
+
+/* ---- building ---- */
+
+/* A body on its way. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status once it has reported a fault. */
+typedef struct builder {
+    const body_scene *scene;
+    const schema_instance *body;
+    size_t number; /* from 1 */
+    namelist_errors *errors;
+    dem_lattice lattice;
+} builder;
+
+/* Passes a status on; one that speaks of a fault is reported with the library's message. */
+static dem_status report(const builder *b, dem_status status, const char *key)
+{
+    if (status != DEM_OK && status != DEM_ERROR_MEMORY)
+        namelist_errors_add(b->errors, place_of(b->body, key), "body %zu: %s", b->number, dem_status_message());
+    return status;
+}
+
+static shape_outline read_outline(const schema_instance *group)
+{
+    const double *size = reals_of(group, "size");
+    shape_outline outline = {.disc = has_shape(group, "disc"), .radius = schema_real(group, "radius")};
+    for (int c = 0; c < 2 && size != NULL; c++) outline.size[c] = size[c];
+    return outline;
+}
+
+static dem_status add_voids(const builder *b, shape *s)
+{
+    const schema_deck *groups = b->scene->groups;
+    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
+        const schema_instance *group = schema_get(groups, "void", k);
+        const double *centre = reals_of(group, "centre");
+        const shape_void v = {.outline = read_outline(group), .centre = {centre[0], centre[1]}};
+        if ((size_t)schema_real(group, "body") == b->number && !shape_add_void(s, &v)) return DEM_ERROR_MEMORY;
+    }
+    return DEM_OK;
+}
+
+static dem_status add_pores(const builder *b, shape *s, const schema_instance *group)
+{
+    const double *radius = reals_of(group, "radius"), *wall = reals_of(group, "wall");
+    pores_recipe recipe = {.number = (size_t)schema_real(group, "number"),
+                           .radius_min = radius[0],
+                           .radius_max = radius[1],
+                           .wall = wall != NULL ? wall[0] : 2.0 * s->spacing,
+                           .seed = (unsigned long)schema_real(group, "seed")};
+    size_t n_placed;
+    double lost;
+    const dem_status status = shape_add_pores(s, &recipe, &n_placed, &lost);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(b->errors, group->place,
+                            "pore %zu of %zu, of radius %g m, finds no place in body %zu with walls of %g m",
+                            n_placed + 1, recipe.number, lost, b->number, recipe.wall);
+    return status;
+}
+
+static dem_status make_mesh(builder *b)
+{
+    const schema_deck *groups = b->scene->groups;
+    const schema_instance *m = find_material(groups, schema_text(b->body, "material"));
+    const dem_material material = {.youngs_modulus = schema_real(m, "youngs_modulus"),
+                                   .density = schema_real(m, "density"),
+                                   .thickness = schema_real(m, "thickness"),
+                                   .guard = schema_real(m, "guard")};
+    shape s = {.outline = read_outline(b->body), .spacing = schema_real(b->body, "spacing")};
+    dem_status status = add_voids(b, &s);
+    for (size_t k = 0; status == DEM_OK && k < schema_count(groups, "pores"); k++) {
+        const schema_instance *group = schema_get(groups, "pores", k);
+        if ((size_t)schema_real(group, "body") == b->number) status = add_pores(b, &s, group);
+    }
+    if (status == DEM_OK) status = report(b, shape_lattice(&b->lattice, &s, &material), "spacing");
+    shape_free(&s);
+    return status;
+}
+
+static dem_status read_file(builder *b)
+{
+    char *path = body_file(b->scene, b->body);
+    if (path == NULL) return DEM_ERROR_MEMORY;
+    const dem_status status = report(b, dem_lattice_read(&b->lattice, path), "file");
+    free(path);
+    return status;
+}
+
+/* ---- parts ---- */
+
+static void report_parts(const builder *b, const parts_loose *loose)
+{
+    const double *x = b->lattice.x + 2 * loose->node;
+    const char *more = loose->n > PARTS_LISTED ? ", ..." : "";
+    char sizes[160] = "";
+    size_t n = 0;
+    for (dem_index k = 0; k < loose->n && k < PARTS_LISTED; k++)
+        n += (size_t)snprintf(sizes + n, sizeof sizes - n, "%s%lld", k == 0 ? "" : ", ", (long long)loose->n_nodes[k]);
+    namelist_errors_add(
+        b->errors, place_of(b->body, "disconnected"),
+        "body %zu has %lld part%s that no spring connects to its largest, of %s%s nodes, one at (%g, %g) m in "
+        "its own coordinates; 'disconnected' can remove or keep such parts",
+        b->number, (long long)loose->n, loose->n == 1 ? "" : "s", sizes, more, x[0], x[1]);
+}
+
+static dem_status settle_parts(builder *b)
+{
+    const char *wish = schema_text(b->body, "disconnected");
+    parts_loose loose;
+    if (strcmp(wish, "keep") == 0) return DEM_OK;
+    unsigned char *main = calloc((size_t)b->lattice.n_nodes + 1, sizeof *main);
+    if (main == NULL) return DEM_ERROR_MEMORY;
+    dem_status status = parts_find(&loose, main, &b->lattice);
+    if (status == DEM_OK && loose.n > 0 && strcmp(wish, "remove") == 0) {
+        status = dem_lattice_select(&b->lattice, main);
+    } else if (status == DEM_OK && loose.n > 0) {
+        report_parts(b, &loose);
+        status = DEM_ERROR_MODEL;
+    }
+    free(main);
+    return status;
+}
+
+/* ---- place and velocity ---- */
+
+static dem_status clear(builder *b, const dem_model *model)
+{
+    double shift[2];
+    if (!clearance_shift(shift, model, b->scene->gravity, schema_real(b->body, "clearance"))) {
+        namelist_errors_add(b->errors, place_of(b->body, "clearance"),
+                            "'clearance' in &body cannot be reached: along gravity there is no obstacle below body %zu",
+                            b->number);
+        return DEM_ERROR_MODEL;
+    }
+    dem_lattice_move(&b->lattice, 0.0, shift);
+    return DEM_OK;
+}
+
+static dem_status put(builder *b)
+{
+    const double *position = reals_of(b->body, "position"), *velocity = reals_of(b->body, "velocity");
+    const bool file = has_shape(b->body, "file"), cleared = is_given(b->body, "clearance");
+    dem_model *model = NULL;
+    dem_lattice_move(&b->lattice, degree * schema_real(b->body, "angle"), position);
+    dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
+    if (status == DEM_OK && (file || cleared))
+        status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),
+                        file ? "file" : "shape");
+    if (status == DEM_OK && cleared) status = clear(b, model);
+    dem_model_destroy(model);
+    return status;
+}
+
+void body_check_all(const schema_deck *groups, namelist_errors *errors)
+{
+    check_names(groups, errors);
+    for (size_t k = 0; k < schema_count(groups, "body"); k++) {
+        const schema_instance *body = schema_get(groups, "body", k);
+        check_uses(body, body_uses, sizeof body_uses / sizeof *body_uses, errors);
+        check_material(groups, body, errors);
+        check_spacing(body, errors);
+        check_clearance(groups, body, errors);
+    }
+    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
+        check_uses(schema_get(groups, "void", k), void_uses, sizeof void_uses / sizeof *void_uses, errors);
+        check_owner(groups, schema_get(groups, "void", k), errors);
+    }
+    for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
+        check_owner(groups, schema_get(groups, "pores", k), errors);
+        check_pores(schema_get(groups, "pores", k), errors);
+    }
+}
+
+char *body_file(const body_scene *scene, const schema_instance *body)
+{
+    const char *file = schema_text(body, "file"), *folder = file[0] == '/' ? "" : scene->folder;
+    const size_t size = strlen(folder) + strlen(file) + 1;
+    char *path = malloc(size);
+    if (path != NULL) (void)snprintf(path, size, "%s%s", folder, file);
+    return path;
+}
+
+bool body_build(dem_lattice *out, const body_scene *scene, size_t k, namelist_errors *errors)
+{
+    builder b = {.scene = scene, .body = schema_get(scene->groups, "body", k), .number = k + 1, .errors = errors};
+    dem_lattice_init(&b.lattice);
+    dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
+    if (status == DEM_OK) status = settle_parts(&b);
+    if (status == DEM_OK) status = put(&b);
+    if (status != DEM_OK) dem_lattice_free(&b.lattice);
+    *out = b.lattice;
+    return status != DEM_ERROR_MEMORY;
+}

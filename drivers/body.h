@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the keys of &material, &body, &void and &pores mean: from the groups to a lattice in its place. */
+#ifndef DEM_BODY_H
+#define DEM_BODY_H
+
+#include <dem/dem.h>
+
+#include "schema.h"
+
+/* What a body is built from and put into. */
+typedef struct body_scene {
+    const schema_deck *groups;
+    const char *folder; /* of the deck, with its last '/', or "" */
+    const dem_obstacle *obstacles;
+    dem_index n_obstacles;
+    double gravity[2]; /* m/s^2 */
+} body_scene;
+
+/* What can be said without geometry: keys that a shape lacks or does not use, names and numbers that refer to nothing. */
+void body_check_all(const schema_deck *groups, namelist_errors *errors);
+
+/* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.
+ * Returns false only when memory runs out (*out is then empty). Caller owns *out. */
+bool body_build(dem_lattice *out, const body_scene *scene, size_t k, namelist_errors *errors);
+
+/* Path of the lattice file of a body of shape 'file', malloc'ed; NULL when memory runs out. */
+char *body_file(const body_scene *scene, const schema_instance *body);
+
+#endif

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a deck means: from a file to lattice, obstacles and options. Syntax is namelist.c's business, the table of keys
+ * schema.c's. */
+#ifndef DEM_DECK_H
+#define DEM_DECK_H
+
+#include <dem/dem.h>
+
+#include "namelist.h"
+
+typedef enum deck_status {
+    DECK_OK,
+    DECK_UNREADABLE, /* not a regular file of 1 byte to 1 MiB that can be read */
+    DECK_INVALID,    /* has the faults listed */
+    DECK_MEMORY      /* memory ran out */
+} deck_status;
+
+/* Everything is owned by the deck. */
+typedef struct deck {
+    char *path, *source;  /* the file's name and text */
+    char *echo, *physics; /* resolved: every key; only those that make the problem */
+    uint64_t hash;        /* FNV-1a of `physics`, then of the bytes of each lattice file */
+    char *title, *name;
+    double t_end;            /* s */
+    dem_lattice lattice;     /* all bodies, in the order of the deck */
+    dem_obstacle *obstacles; /* [n_obstacles] */
+    dem_index n_obstacles;
+    dem_options options;   /* 0 where the library is to choose */
+    double frame_interval; /* s */
+    int double_precision, deflate;
+} deck;
+
+/* Reads and builds. Faults of syntax, of keys and of their meaning are reported together; geometry is built only where
+ * there are none, and what is wrong with it is reported for all bodies. `errors` comes sorted by place; a file that is
+ * unreadable has its message at 0:0. *out is empty unless DECK_OK is returned. */
+deck_status deck_read(deck *out, const char *path, namelist_errors *errors);
+void deck_free(deck *d);
+
+/* As 'method' in &solver has it. */
+const char *deck_method_name(dem_method method);
+
+#endif

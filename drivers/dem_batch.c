@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The batch driver: read the deck, build, run, report. Exit codes: docs/deck.md. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <dem/trajectory.h>
+
+#include "deck.h"
+#include "output.h"
+#include "report.h"
+#include "schema.h"
+
+enum exit_code {
+    EXIT_DONE = 0,
+    EXIT_USAGE = 2,
+    EXIT_INVALID = 3,
+    EXIT_NUMERICS = 4,
+    EXIT_IO = 5,
+    EXIT_MEMORY = 6,
+    EXIT_TAKEN = 7
+};
+
+typedef enum action {
+    ACTION_RUN,
+    ACTION_CHECK,
+    ACTION_ECHO,
+    ACTION_TEMPLATE,
+    ACTION_KEYS,
+    ACTION_VERSION,
+    ACTION_HELP
+} action;
+
+typedef struct command {
+    action action;
+    const char *deck, *outdir;
+} command;
+
+static const char usage[] =
+    "usage: dem_batch [--outdir FOLDER] DECK   run the deck; NAME.vtkhdf is written to FOLDER (default: here)\n"
+    "       dem_batch --check DECK             read it, build it, print sizes and estimates, write nothing\n"
+    "       dem_batch --echo DECK              print it with every key resolved; the echo is a deck of the same run\n"
+    "       dem_batch --template               print a deck with every key, its default and its meaning\n"
+    "       dem_batch --keys                   print the description of every key, in Markdown\n"
+    "       dem_batch --version | --help\n"
+    "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, 6 out of memory,\n"
+    "            7 the output exists and belongs to another problem\n";
+
+static int complain(enum exit_code code, const char *where)
+{
+    (void)fprintf(stderr, "%s: error: %s\n", where, dem_status_message());
+    return code;
+}
+
+/* Exit code for a failure of the library before the run (`invalid`: what a bad model means) or during it. */
+static enum exit_code code_of(dem_status status)
+{
+    switch (status) {
+    case DEM_OK:
+    case DEM_STOPPED:
+        return EXIT_DONE;
+    case DEM_ERROR_MEMORY:
+        return EXIT_MEMORY;
+    case DEM_ERROR_IO:
+        return EXIT_IO;
+    case DEM_ERROR_INTEGRATOR:
+    case DEM_ERROR_CONTACT:
+        return EXIT_NUMERICS;
+    case DEM_ERROR_ARGUMENT:
+    case DEM_ERROR_MODEL:
+        return EXIT_INVALID;
+    }
+    return EXIT_NUMERICS;
+}
+
+/* ---- the run ---- */
+
+static dem_status write_provenance(dem_trajectory *trajectory, const deck *d)
+{
+    char versions[256], hash[32], start[32];
+    const time_t now = time(NULL);
+    struct tm utc;
+    report_versions(versions, sizeof versions);
+    (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)d->hash);
+    (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+    const char *const notes[][2] = {{"versions", versions}, {"kernel", "portable"}, {"problem", hash},
+                                    {"start", start},       {"deck", d->source},    {"resolved", d->echo},
+                                    {"title", d->title},    {"physics", d->physics}};
+    dem_status status = DEM_OK;
+    for (size_t k = 0; k < sizeof notes / sizeof notes[0] && status == DEM_OK; k++)
+        status = dem_trajectory_note(trajectory, notes[k][0], notes[k][1]);
+    return status;
+}
+
+static dem_status advance(const deck *d, dem_simulation *simulation, dem_trajectory *trajectory, report *log)
+{
+    const dem_observer frames = dem_trajectory_observer(trajectory), followed = report_observer(log);
+    dem_status status = write_provenance(trajectory, d);
+    if (status == DEM_OK) status = dem_simulation_observe(simulation, &frames);
+    if (status == DEM_OK) status = dem_simulation_observe(simulation, &followed);
+    if (status == DEM_OK) status = dem_simulation_advance(simulation, d->t_end);
+    if (status == DEM_OK) status = dem_trajectory_finish(trajectory);
+    return status;
+}
+
+static int run(const deck *d, dem_simulation *simulation, const char *path)
+{
+    dem_trajectory *trajectory;
+    report log;
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.frame_interval = d->frame_interval;
+    options.double_precision = d->double_precision;
+    options.deflate = d->deflate;
+    const dem_status created = dem_trajectory_create(&trajectory, path, simulation, &options);
+    if (created != DEM_OK) return complain(code_of(created), path);
+    report_header(stdout, d, simulation, path);
+    report_start(&log, stdout, isatty(STDOUT_FILENO) == 1, d->t_end);
+    const dem_status status = advance(d, simulation, trajectory, &log);
+    const int code = status == DEM_OK ? EXIT_DONE : complain(code_of(status), d->path);
+    if (status == DEM_OK) report_summary(&log, simulation);
+    dem_trajectory_destroy(trajectory);
+    return code;
+}
+
+/* Runs unless the output is there already; nothing has been written so far. */
+static int run_where_free(const deck *d, dem_simulation *simulation, const char *outdir)
+{
+    char path[4096], reason[512];
+    if (!output_path(path, sizeof path, outdir, d->name)) {
+        (void)fprintf(stderr, "%s: error: the path of the output is too long\n", d->path);
+        return EXIT_INVALID;
+    }
+    switch (output_claim(path, d, reason, sizeof reason)) {
+    case OUTPUT_FREE:
+        return run(d, simulation, path);
+    case OUTPUT_DONE:
+        (void)printf("%s: done already, %s\n", path, reason);
+        return EXIT_DONE;
+    case OUTPUT_TAKEN:
+        break;
+    }
+    (void)fprintf(stderr, "%s: error: %s\n", path, reason);
+    return EXIT_TAKEN;
+}
+
+static int build_and_run(const command *c, const deck *d)
+{
+    dem_model *model = NULL;
+    dem_simulation *simulation = NULL;
+    dem_status status = dem_model_create(&model, &d->lattice, d->obstacles, d->n_obstacles);
+    if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &d->options);
+    int code;
+    if (status != DEM_OK) {
+        code = complain(code_of(status), d->path);
+    } else if (c->action == ACTION_CHECK) {
+        report_header(stdout, d, simulation, NULL);
+        code = EXIT_DONE;
+    } else {
+        code = run_where_free(d, simulation, c->outdir);
+    }
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    return code;
+}
+
+static void print_errors(const char *path, const namelist_errors *errors)
+{
+    for (size_t k = 0; k < errors->n; k++) {
+        const namelist_error *e = &errors->list[k];
+        if (e->place.line > 0)
+            (void)fprintf(stderr, "%s:%d:%d: error: %s\n", path, e->place.line, e->place.column, e->text);
+        else
+            (void)fprintf(stderr, "%s: error: %s\n", path, e->text);
+    }
+}
+
+static int with_deck(const command *c)
+{
+    deck d;
+    namelist_errors errors = {0};
+    const deck_status status = deck_read(&d, c->deck, &errors);
+    int code = status == DECK_MEMORY ? EXIT_MEMORY : EXIT_INVALID;
+    if (status == DECK_OK && c->action == ACTION_ECHO)
+        code = fputs(d.echo, stdout) >= 0 ? EXIT_DONE : EXIT_IO;
+    else if (status == DECK_OK)
+        code = build_and_run(c, &d);
+    else if (status == DECK_MEMORY)
+        (void)fprintf(stderr, "%s: error: out of memory\n", c->deck);
+    print_errors(c->deck, &errors);
+    namelist_errors_free(&errors);
+    deck_free(&d);
+    return code;
+}
+
+/* ---- the command line ---- */
+
+static bool parse_word(command *c, const char *word)
+{
+    static const struct {
+        const char *word;
+        action action;
+    } words[] = {{"--check", ACTION_CHECK}, {"--echo", ACTION_ECHO},       {"--template", ACTION_TEMPLATE},
+                 {"--keys", ACTION_KEYS},   {"--version", ACTION_VERSION}, {"--help", ACTION_HELP}};
+    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++)
+        if (strcmp(word, words[k].word) == 0) {
+            c->action = words[k].action;
+            return true;
+        }
+    if (word[0] == '-' || c->deck != NULL) return false;
+    c->deck = word;
+    return true;
+}
+
+static bool parse(command *c, int argc, char **argv)
+{
+    *c = (command){.action = ACTION_RUN, .outdir = "."};
+    for (int k = 1; k < argc; k++) {
+        const bool outdir = strcmp(argv[k], "--outdir") == 0;
+        if (outdir && k + 1 < argc) {
+            c->outdir = argv[++k];
+        } else if (outdir || !parse_word(c, argv[k])) {
+            (void)fprintf(stderr, "dem_batch: error: %s\n%s",
+                          outdir ? "--outdir needs a folder" : "unknown option or a second deck", usage);
+            return false;
+        }
+    }
+    const bool needs_deck = c->action == ACTION_RUN || c->action == ACTION_CHECK || c->action == ACTION_ECHO;
+    if (needs_deck != (c->deck != NULL)) {
+        (void)fprintf(stderr, "dem_batch: error: %s\n%s", needs_deck ? "no deck" : "no deck belongs here", usage);
+        return false;
+    }
+    return true;
+}
+
+int main(int argc, char **argv)
+{
+    char versions[256];
+    command c;
+    if (!parse(&c, argc, argv)) return EXIT_USAGE;
+    switch (c.action) {
+    case ACTION_TEMPLATE:
+        schema_template(stdout);
+        break;
+    case ACTION_KEYS:
+        schema_document(stdout);
+        break;
+    case ACTION_HELP:
+        (void)fputs(usage, stdout);
+        break;
+    case ACTION_VERSION:
+        report_versions(versions, sizeof versions);
+        (void)puts(versions);
+        break;
+    case ACTION_RUN:
+    case ACTION_CHECK:
+    case ACTION_ECHO:
+        return with_deck(&c);
+    }
+    return fflush(stdout) == 0 ? EXIT_DONE : EXIT_IO;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where a run writes, and whether it may: an output of another problem is never touched. */
+#ifndef DEM_OUTPUT_H
+#define DEM_OUTPUT_H
+
+#include <stdbool.h>
+
+#include "deck.h"
+
+typedef enum output_state {
+    OUTPUT_FREE, /* nothing there, or a part of the same problem that a new run may replace */
+    OUTPUT_DONE, /* the same run is there, complete */
+    OUTPUT_TAKEN /* something else is there */
+} output_state;
+
+/** Folder and name to the path of NAME.vtkhdf; false if it does not fit. */
+bool output_path(char *path, size_t size, const char *folder, const char *name);
+
+/** Looks at what lies at `path` and at its part; `reason` says in words what was found. */
+output_state output_claim(const char *path, const deck *d, char *reason, size_t size);
+
+#endif

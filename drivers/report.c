@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Plain text for people and for grep: one topic a line, its name in the first column. */
+#include "report.h"
+
+#include <gsl/gsl_version.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include <dem/trajectory.h>
+
+#include "commit.h"
+
+static double wall_clock(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Velocity of the centre of mass of all bodies against gravity, m/s: upwards. */
+static double rising_speed(const dem_simulation *simulation)
+{
+    const dem_options options = dem_simulation_options(simulation);
+    const double g = hypot(options.gravity[0], options.gravity[1]);
+    const double up[2] = {g > 0.0 ? -options.gravity[0] / g : 0.0, g > 0.0 ? -options.gravity[1] / g : 1.0};
+    const dem_index n_bodies = dem_model_sizes(dem_simulation_model(simulation)).n_bodies;
+    double mass = 0.0, momentum = 0.0;
+    for (dem_index b = 0; b < n_bodies; b++) {
+        const dem_body_motion body = dem_simulation_body(simulation, b);
+        mass += body.mass;
+        momentum += body.mass * (body.velocity[0] * up[0] + body.velocity[1] * up[1]);
+    }
+    return momentum / mass;
+}
+
+static double total(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact - e.projection;
+}
+
+/* ---- following a run ---- */
+
+static void follow_energy(report *r, const dem_state *state)
+{
+    const dem_energy e = state->energy;
+    if (state->t == 0.0) r->energy_start = total(e);
+    r->kinetic_max = fmax(r->kinetic_max, e.kinetic);
+    const double share = r->kinetic_max > 0.0 ? (e.elastic + e.guard) / r->kinetic_max : 0.0;
+    if (share <= r->elastic_share_max) return;
+    r->elastic_share_max = share;
+    r->elastic_share_t = state->t;
+}
+
+static void follow_strain(report *r, const dem_simulation *simulation, double t)
+{
+    const dem_strain strain = dem_simulation_strain(simulation);
+    if (strain.min < r->strain_min.min) {
+        r->strain_min = strain;
+        r->strain_min_t = t;
+    }
+    if (strain.max > r->strain_max.max) {
+        r->strain_max = strain;
+        r->strain_max_t = t;
+    }
+    if (strain.area_min < r->area_min) {
+        r->area_min = strain.area_min;
+        r->area_min_t = t;
+    }
+    if (strain.guarded > r->guarded_max) r->guarded_max = strain.guarded;
+}
+
+static void follow_contact(report *r, const dem_simulation *simulation, const dem_state *state)
+{
+    const dem_index impacts = dem_simulation_counts(simulation).impacts;
+    const bool contact = state->n_contacts > 0 || r->contacts_before > 0 || impacts > r->impacts_before;
+    r->contacts_before = state->n_contacts;
+    r->impacts_before = impacts;
+    if (!contact) return;
+    if (!r->touched) r->first_contact = state->t;
+    r->touched = true;
+    r->last_contact = state->t;
+    r->speed_after = rising_speed(simulation);
+}
+
+static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
+{
+    const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
+    const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
+    if (!due || !(done > 0.0)) return;
+    const dem_counts counts = dem_simulation_counts(simulation);
+    const double error = (total(state->energy) - r->energy_start) / fmax(r->kinetic_max, 1e-300);
+    r->wall_shown = now;
+    r->t_shown = state->t;
+    (void)fprintf(
+        r->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
+        r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts, error,
+        (double)counts.steps / fmax(spent, 1e-9), spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
+    (void)fflush(r->out);
+}
+
+static dem_status follow(void *context, const dem_simulation *simulation)
+{
+    report *r = context;
+    dem_state state;
+    dem_simulation_state(simulation, &state);
+    follow_energy(r, &state);
+    follow_strain(r, simulation, state.t);
+    follow_contact(r, simulation, &state);
+    show_progress(r, simulation, &state);
+    return DEM_OK;
+}
+
+/* ---- before and after ---- */
+
+static int evaluations_per_step(dem_method method)
+{
+    return method == DEM_METHOD_DOPRI45 ? 7
+                                        : (method == DEM_METHOD_ZONNEVELD34 ? 5 : (method == DEM_METHOD_BS23 ? 4 : 6));
+}
+
+static void print_sizes(FILE *out, const dem_model *model)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    (void)fprintf(out, "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg\n",
+                  (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
+                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model));
+    (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments\n",
+                  (long long)size.n_contact_nodes, (long long)size.n_obstacles, size.n_obstacles == 1 ? "" : "s",
+                  (long long)size.n_segments);
+}
+
+static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_options o = dem_simulation_options(simulation);
+    const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
+    const double width = d->double_precision ? 8.0 : 4.0;
+    const double frame_bytes =
+        (double)size.n_nodes * (24.0 + 6.0 * width) + (double)size.n_springs * (2.0 * width + 1.0);
+    const double state_bytes = (double)size.n_nodes * 4.0 * 8.0 * 24.0 + (double)size.n_springs * 2.0 * 32.0;
+    (void)fprintf(
+        out,
+        "estimate   at least %.0f steps of %d evaluations, %.0f frames, up to %.3g MB of output, %.3g MB of memory\n",
+        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes + steps * 8.0 * 30.0),
+        1e-6 * state_bytes);
+}
+
+void report_versions(char *text, size_t size)
+{
+    (void)snprintf(text, size, "dem %s (%s), compiler %s, SUNDIALS %s, HDF5 %s, GSL %s", dem_version(), DEM_COMMIT,
+                   __VERSION__, dem_version_sundials(), dem_version_hdf5(), GSL_VERSION);
+}
+
+void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output)
+{
+    char versions[256];
+    const dem_model *model = dem_simulation_model(simulation);
+    const dem_options o = dem_simulation_options(simulation);
+    report_versions(versions, sizeof versions);
+    (void)fprintf(out, "%s\n", versions);
+    (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
+                  (unsigned long long)d->hash);
+    print_sizes(out, model);
+    (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
+                  o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
+    (void)fprintf(out, "time       t_end %.6g s, %s, rtol %.3g, largest step %.4g s\n", d->t_end,
+                  deck_method_name(o.method), o.rtol, o.max_step);
+    print_estimates(out, d, simulation);
+    if (output != NULL) (void)fprintf(out, "output     %s\n", output);
+    (void)fflush(out);
+}
+
+void report_start(report *r, FILE *out, bool terminal, double t_end)
+{
+    *r = (report){.out = out, .terminal = terminal, .t_end = t_end, .area_min = 1.0};
+    r->strain_min.spring_min = r->strain_max.spring_max = -1;
+    r->wall_start = r->wall_shown = wall_clock();
+}
+
+dem_observer report_observer(report *r)
+{
+    return (dem_observer){.step = follow, .context = r};
+}
+
+static void print_contact(const report *r, const dem_simulation *simulation)
+{
+    if (!r->touched) {
+        (void)fprintf(r->out, "contact    none\n");
+        return;
+    }
+    (void)fprintf(r->out, "contact    first at %.6e s, last at %.6e s, %.4e s apart%s\n", r->first_contact,
+                  r->last_contact, r->last_contact - r->first_contact,
+                  r->contacts_before > 0 ? " (still touching)" : "");
+    (void)fprintf(
+        r->out,
+        "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at t_end\n",
+        r->speed_after, rising_speed(simulation));
+}
+
+static void print_strain(const report *r)
+{
+    if (r->strain_min.spring_min >= 0)
+        (void)fprintf(r->out, "strain     smallest %+.4f in spring %lld at %.4e s\n", r->strain_min.min,
+                      (long long)r->strain_min.spring_min, r->strain_min_t);
+    if (r->strain_max.spring_max >= 0)
+        (void)fprintf(r->out, "strain     largest %+.4f in spring %lld at %.4e s\n", r->strain_max.max,
+                      (long long)r->strain_max.spring_max, r->strain_max_t);
+    if (r->area_min < 1.0)
+        (void)fprintf(r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most\n",
+                      r->area_min, r->area_min_t, (long long)r->guarded_max);
+}
+
+static void print_energy(const report *r, dem_energy e)
+{
+    (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, guard %.4g, gravity %.4g J\n", e.kinetic, e.elastic,
+                  e.guard, e.gravity);
+    (void)fprintf(r->out,
+                  "ledger     start %.9g J = now %.9g + taken by impacts %.4g - projection %.3g; closure %+.2e\n",
+                  r->energy_start, e.kinetic + e.elastic + e.guard + e.gravity, e.impact, e.projection,
+                  (total(e) - r->energy_start) / fmax(r->kinetic_max, 1e-300));
+    (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic energy so far, at %.4e s\n",
+                  r->elastic_share_max, r->elastic_share_t);
+}
+
+void report_summary(report *r, const dem_simulation *simulation)
+{
+    const dem_counts c = dem_simulation_counts(simulation);
+    if (r->terminal) (void)fprintf(r->out, "\n");
+    print_contact(r, simulation);
+    print_strain(r);
+    print_energy(r, dem_simulation_energy(simulation));
+    (void)fprintf(
+        r->out,
+        "events     %lld stops: %lld impacts, %lld closings, %lld releases, %lld ends passed, %lld late, %lld behind\n",
+        (long long)c.events, (long long)c.impacts, (long long)c.closings, (long long)c.releases, (long long)c.passings,
+        (long long)c.late, (long long)c.behind);
+    (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
+                  (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
+                  wall_clock() - r->wall_start);
+    (void)fflush(r->out);
+}

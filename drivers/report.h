@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The log of a run: what is about to run, a progress line, and what came out. */
+#ifndef DEM_REPORT_H
+#define DEM_REPORT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "deck.h"
+
+typedef struct report {
+    FILE *out;
+    bool terminal;                             /* progress is rewritten in place */
+    double t_end;                              /* s */
+    double wall_start, wall_shown;             /* s */
+    double t_shown;                            /* s */
+    double energy_start;                       /* J, total at t = 0 */
+    double kinetic_max;                        /* J, largest so far: what energies are compared with */
+    double elastic_share_max, elastic_share_t; /* of kinetic_max as it was then */
+    dem_strain strain_min, strain_max;         /* the states with the extreme strains */
+    double strain_min_t, strain_max_t, area_min, area_min_t;
+    dem_index guarded_max;
+    bool touched;                       /* there was a contact */
+    double first_contact, last_contact; /* s */
+    double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
+    dem_index contacts_before, impacts_before;
+} report;
+
+/** Starts the log of a run to t_end. */
+void report_start(report *r, FILE *out, bool terminal, double t_end);
+
+/** Versions, sizes, scales, estimates. `output`: the file that will be written, NULL: none. */
+void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);
+
+/** To be handed to the simulation: follows extremes and prints progress. */
+dem_observer report_observer(report *r);
+
+/** First and last contact, rebound, strains, energy ledger and its closure, counts, wall time. */
+void report_summary(report *r, const dem_simulation *simulation);
+
+/** The versions of program, compiler and libraries in one line. */
+void report_versions(char *text, size_t size);
+
+#endif

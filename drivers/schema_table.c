@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The table of groups and keys of a deck, and nothing else. Each row is
+ *     name, type, least and largest number of values, unit, default, range, choices, physics, sentence, example */
+#include "schema.h"
+
+#define NONE     ""
+#define ANY      ""
+#define REQUIRED NULL
+#define PHYSICS  true
+
+static const schema_key run_keys[] = {
+    {"title", SCHEMA_STRING, 1, 1, "-", "''", ANY, NULL, false,
+     "What the run is about; goes to the log and into the result.", "'Rubber rectangle with a void and three pores'"},
+    {"t_end", SCHEMA_REAL, 1, 1, "s", REQUIRED, "> 0", NULL, false, "Time at which the run ends; it starts at 0.",
+     "5e-3"},
+    {"gravity", SCHEMA_REAL, 2, 2, "m/s^2", "0, -9.81", ANY, NULL, PHYSICS, "Acceleration of free fall, x and y.",
+     NULL},
+};
+
+static const schema_key material_keys[] = {
+    {"name", SCHEMA_STRING, 1, 1, "-", "'solid'", ANY, NULL, PHYSICS, "Name by which bodies refer to the material.",
+     "'rubber'"},
+    {"youngs_modulus", SCHEMA_REAL, 1, 1, "Pa", REQUIRED, "> 0", NULL, PHYSICS,
+     "Young's modulus E of the isotropic plate; Poisson's ratio is 1/3 in plane stress.", "1e7"},
+    {"density", SCHEMA_REAL, 1, 1, "kg/m^3", REQUIRED, "> 0", NULL, PHYSICS, "Mass density.", "1050"},
+    {"thickness", SCHEMA_REAL, 1, 1, "m", "1", "> 0", NULL, PHYSICS, "Thickness h of the plate.", NULL},
+    {"guard", SCHEMA_REAL, 1, 1, "-", "0.02", ">= 0", NULL, PHYSICS,
+     "Strength of the folding guard over E h, which keeps triangles from turning inside out; 0 switches it off.", NULL},
+};
+
+static const schema_key body_keys[] = {
+    {"shape", SCHEMA_CHOICE, 1, 1, "-", REQUIRED, ANY, "rectangle|disc|file", PHYSICS,
+     "Shape of the body; its own origin is the middle of a rectangle's lower edge, the centre of a disc.",
+     "'rectangle'"},
+    {"size", SCHEMA_REAL, 2, 2, "m", NONE, "> 0", NULL, PHYSICS, "Width and height of a rectangle.", "0.08, 0.13"},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc.", NULL},
+    {"lattice", SCHEMA_CHOICE, 1, 1, "-", "'triangular'", ANY, "triangular", PHYSICS,
+     "Arrangement of the nodes of a rectangle or a disc.", NULL},
+    {"spacing", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Distance between neighbouring nodes of a rectangle or a disc.", "0.01"},
+    {"material", SCHEMA_STRING, 1, 1, "-", "'solid'", ANY, NULL, PHYSICS,
+     "Name of the material of a rectangle or a disc.", "'rubber'"},
+    {"position", SCHEMA_REAL, 2, 2, "m", "0, 0", ANY, NULL, PHYSICS, "Where the body's own origin is placed, x and y.",
+     NULL},
+    {"angle", SCHEMA_REAL, 1, 1, "degrees", "0", ANY, NULL, PHYSICS,
+     "Turn of the body about its own origin, counter-clockwise.", NULL},
+    {"clearance", SCHEMA_REAL, 1, 1, "m", NONE, ">= 0", NULL, PHYSICS,
+     "If given, the body is then moved along gravity until the smallest gap to an obstacle is this.", "2e-4"},
+    {"velocity", SCHEMA_REAL, 2, 2, "m/s", "0, 0", ANY, NULL, PHYSICS, "Initial velocity, x and y.", "0, -10"},
+    {"disconnected", SCHEMA_CHOICE, 1, 1, "-", "'refuse'", ANY, "refuse|remove|keep", PHYSICS,
+     "What becomes of parts that springs do not connect to the largest one: an error, taken away, or kept.", NULL},
+    {"file", SCHEMA_STRING, 1, 1, "-", NONE, ANY, NULL, PHYSICS,
+     "Lattice file of a body of shape 'file'; a relative path starts at the deck's folder.", NULL},
+};
+
+static const schema_key void_keys[] = {
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
+     "Number of the body that has the void, in the order of the deck.", NULL},
+    {"shape", SCHEMA_CHOICE, 1, 1, "-", "'disc'", ANY, "disc|rectangle", PHYSICS, "Shape of the void.", NULL},
+    {"centre", SCHEMA_REAL, 2, 2, "m", REQUIRED, ANY, NULL, PHYSICS,
+     "Centre of the void, x and y in the body's own coordinates.", "0, 0.03"},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc.", "0.01"},
+    {"size", SCHEMA_REAL, 2, 2, "m", NONE, "> 0", NULL, PHYSICS, "Width and height of a rectangle.", NULL},
+};
+
+static const schema_key pores_keys[] = {
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
+     "Number of the body that has the pores, in the order of the deck.", NULL},
+    {"number", SCHEMA_INTEGER, 1, 1, "-", REQUIRED, ">= 1", NULL, PHYSICS, "Number of round pores.", "3"},
+    {"radius", SCHEMA_REAL, 2, 2, "m", REQUIRED, "> 0", NULL, PHYSICS,
+     "Smallest and largest radius; the radii are uniformly distributed between them.", "0.006, 0.007"},
+    {"wall", SCHEMA_REAL, 1, 1, "m", NONE, ">= 0", NULL, PHYSICS,
+     "Least material between two pores, and between a pore and the boundary; default: twice the spacing.", "0.01"},
+    {"seed", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 0", NULL, PHYSICS,
+     "Seed of the random numbers; the same seed gives the same pores on every machine.", NULL},
+};
+
+static const schema_key obstacle_keys[] = {
+    {"points", SCHEMA_REAL, 4, 0, "m", REQUIRED, ANY, NULL, PHYSICS,
+     "x and y of each point of the polyline; bodies live on its left, and it is closed if the last point is the first.",
+     "-0.3, -0.02, -0.05, 0.004, 0.045, 0.01, 0.3, -0.02"},
+    {"restitution", SCHEMA_REAL, 1, 1, "-", "0", "[0, 1]", NULL, PHYSICS,
+     "Coefficient of restitution: 0 is perfectly plastic, 1 perfectly elastic.", NULL},
+};
+
+static const schema_key contact_keys[] = {
+    {"skin", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Depth at which an impact is taken; default: 1e-6 of the spacing.", "1e-8"},
+    {"rest_speed", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
+     "A rebound slower than this becomes a lasting contact; default: by the rule of docs/method.md.", "1e-3"},
+    {"max_impacts", SCHEMA_INTEGER, 1, 1, "-", "10000", ">= 1", NULL, false,
+     "Impacts of one node within 1/omega_max at which the run is given up.", NULL},
+};
+
+static const schema_key solver_keys[] = {
+    {"method", SCHEMA_CHOICE, 1, 1, "-", "'fehlberg45'", ANY, "fehlberg45|dopri45|cashkarp45|zonneveld34|bs23", PHYSICS,
+     "Embedded Runge-Kutta pair, named by its orders.", NULL},
+    {"rtol", SCHEMA_REAL, 1, 1, "-", "1e-6", "[1e-13, 1e-1]", NULL, PHYSICS,
+     "Largest error of a step: of a position over `spacing`, of a velocity over `v_scale`.", NULL},
+    {"max_step", SCHEMA_REAL, 1, 1, "s", NONE, "> 0", NULL, PHYSICS,
+     "Longest step; default: 0.5/omega_max, half the inverse of the lattice's highest angular frequency.", "2e-5"},
+    {"v_scale", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
+     "Speed that velocity errors are measured in; default: by the rule of docs/method.md.", "10"},
+    {"spacing", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Length that position errors are measured in; default: the shortest spring.", "0.01"},
+};
+
+static const schema_key output_keys[] = {
+    {"name", SCHEMA_STRING, 1, 1, "-", "'dem'", ANY, NULL, false, "Beginning of the names of the files written.",
+     "'every_key'"},
+    {"frame_interval", SCHEMA_REAL, 1, 1, "s", "1e-3", "> 0", NULL, false, "Time between frames; the first is at 0.",
+     NULL},
+    {"precision", SCHEMA_CHOICE, 1, 1, "-", "'single'", ANY, "single|double", false,
+     "Precision of the arrays in the frames; positions are always double.", NULL},
+    {"deflate", SCHEMA_INTEGER, 1, 1, "-", "1", "[0, 9]", NULL, false,
+     "Compression of the frames: 0 is none, 9 the smallest files.", NULL},
+};
+
+#define KEYS(keys) (int)(sizeof(keys) / sizeof(keys)[0]), keys
+
+static const schema_group groups[] = {
+    {"run", true, false, "What is run, and for how long.", KEYS(run_keys)},
+    {"material", true, true, "A material; one group for each.", KEYS(material_keys)},
+    {"body", true, true, "An elastic body; one group for each.", KEYS(body_keys)},
+    {"void", false, true, "A hole cut out of a body; one group for each.", KEYS(void_keys)},
+    {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},
+    {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},
+    {"contact", false, false, "Detection of impacts.", KEYS(contact_keys)},
+    {"solver", false, false, "Integration in time.", KEYS(solver_keys)},
+    {"output", false, false, "Files written.", KEYS(output_keys)},
+};
+
+const schema_group *schema_groups(int *n_groups)
+{
+    *n_groups = (int)(sizeof groups / sizeof groups[0]);
+    return groups;
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A rectangle or a disc with voids, in its own coordinates: how deep a point lies in its material, and its lattice. */
+#ifndef DEM_SHAPE_H
+#define DEM_SHAPE_H
+
+#include <stdbool.h>
+
+#include <dem/dem.h>
+
+#include "pores.h"
+
+/* A rectangle stands on its origin (the middle of its lower edge), as a void it is centred; a disc is about its centre. */
+typedef struct shape_outline {
+    bool disc;
+    double size[2], radius; /* m; of a rectangle, of a disc */
+} shape_outline;
+
+typedef struct shape_void {
+    shape_outline outline;
+    double centre[2]; /* m */
+} shape_void;
+
+typedef struct shape {
+    shape_outline outline;
+    double spacing; /* m */
+    size_t n_voids;
+    shape_void *voids; /* owned */
+} shape;
+
+void shape_free(shape *s);
+
+/* Returns false when memory runs out. */
+bool shape_add_void(shape *s, const shape_void *v);
+
+/* Signed distance to the nearest edge, of the outline or of a void, m: > 0 in the material. */
+double shape_depth(const shape *s, const double x[2]);
+
+/* Adds pores as voids; the recipe's box is set here. Failures as of pores_place(); *radius is that of the pore without a
+ * place, *n_placed the number of pores before it. */
+dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, double *radius);
+
+/* Its assembled lattice: nodes on the rim of a void stay. Caller owns *out. */
+dem_status shape_lattice(dem_lattice *out, const shape *s, const dem_material *material);
+
+#endif

@@ -1,0 +1,136 @@
+! SPDX-License-Identifier: BSD-3-Clause
+! Reads every group of a deck with the compiler's own namelist reader: a deck of ours is a Fortran namelist.
+module groups
+  implicit none
+  integer, parameter :: dp = kind(1d0)
+  integer :: unit, status
+  character(1024) :: message
+
+  abstract interface
+    subroutine group_reader()
+    end subroutine
+  end interface
+
+contains
+
+  subroutine read_run()
+    character(4096) :: title
+    real(dp) :: t_end, gravity(2)
+    namelist /run/ title, t_end, gravity
+    read (unit, nml=run, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_material()
+    character(4096) :: name
+    real(dp) :: youngs_modulus, density, thickness, guard
+    namelist /material/ name, youngs_modulus, density, thickness, guard
+    read (unit, nml=material, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_body()
+    character(4096) :: shape, lattice, material, disconnected, file
+    real(dp) :: size(2), radius, spacing, position(2), angle, clearance, velocity(2)
+    namelist /body/ shape, size, radius, lattice, spacing, material, position, angle, clearance, velocity, &
+      disconnected, file
+    read (unit, nml=body, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_void()
+    integer :: body
+    character(4096) :: shape
+    real(dp) :: centre(2), radius, size(2)
+    namelist /void/ body, shape, centre, radius, size
+    read (unit, nml=void, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_pores()
+    integer :: body, number
+    integer(selected_int_kind(18)) :: seed
+    real(dp) :: radius(2), wall
+    namelist /pores/ body, number, radius, wall, seed
+    read (unit, nml=pores, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_obstacle()
+    real(dp), save :: points(100000)
+    real(dp) :: restitution
+    namelist /obstacle/ points, restitution
+    read (unit, nml=obstacle, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_contact()
+    real(dp) :: skin, rest_speed
+    integer :: max_impacts
+    namelist /contact/ skin, rest_speed, max_impacts
+    read (unit, nml=contact, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_solver()
+    character(4096) :: method
+    real(dp) :: rtol, max_step, v_scale, spacing
+    namelist /solver/ method, rtol, max_step, v_scale, spacing
+    read (unit, nml=solver, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_output()
+    character(4096) :: name, precision
+    real(dp) :: frame_interval
+    integer :: deflate
+    namelist /output/ name, frame_interval, precision, deflate
+    read (unit, nml=output, iostat=status, iomsg=message)
+  end subroutine
+
+  !> Number of lines that begin with the group.
+  integer function lines_with(group) result(n)
+    character(*), intent(in) :: group
+    character(4096) :: line
+    rewind (unit)
+    n = 0
+    do
+      read (unit, '(a)', iostat=status) line
+      if (status /= 0) exit
+      line = adjustl(line)
+      if (line(:len(group) + 2) == '&'//group//' ') n = n + 1
+    end do
+  end function
+
+  !> Reads a group as often as it occurs. The compiler calls many faults an end of file: hence the count.
+  subroutine read_all(group, read_one)
+    character(*), intent(in) :: group
+    procedure(group_reader) :: read_one
+    integer :: n, expected
+    expected = lines_with(group)
+    rewind (unit)
+    n = 0
+    do
+      message = ''
+      call read_one()
+      if (status /= 0) exit
+      n = n + 1
+    end do
+    write (*, '(a, i0, a, i0)') '&'//group//': ', n, ' of ', expected
+    if (.not. is_iostat_end(status) .or. n /= expected) then
+      write (*, '(a)') trim(message)
+      error stop 1
+    end if
+  end subroutine
+end module
+
+program gfortran_reads
+  use groups
+  implicit none
+  character(1024) :: path
+
+  if (command_argument_count() /= 1) error stop 'usage: gfortran_reads DECK'
+  call get_command_argument(1, path)
+  open (newunit=unit, file=trim(path), status='old', action='read')
+  call read_all('run', read_run)
+  call read_all('material', read_material)
+  call read_all('body', read_body)
+  call read_all('void', read_void)
+  call read_all('pores', read_pores)
+  call read_all('obstacle', read_obstacle)
+  call read_all('contact', read_contact)
+  call read_all('solver', read_solver)
+  call read_all('output', read_output)
+end program

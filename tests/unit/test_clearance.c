@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* clearance.c: how far along gravity a body is moved. */
+#include "close.h"
+
+#include "clearance.h"
+
+static const double down[2] = {0.0, -9.81};
+
+typedef struct scene {
+    dem_lattice lattice;
+    dem_model *model;
+} scene;
+
+/* A triangle of side 1 m, its lower corners at (x, y) and (x + 1, y), over one polyline. */
+static scene make_scene(double x, double y, const double *points, dem_index n_points)
+{
+    const dem_material material = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 1.0};
+    const dem_obstacle obstacle = {.n_points = n_points, .points = points};
+    const double offset[2] = {x + 0.5, y};
+    scene s;
+    assert_int_equal(dem_lattice_rectangle(&s.lattice, 1.0, 1.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&s.lattice, &material), DEM_OK);
+    dem_lattice_move(&s.lattice, 0.0, offset);
+    assert_int_equal(dem_model_create(&s.model, &s.lattice, &obstacle, 1), DEM_OK);
+    return s;
+}
+
+static void free_scene(scene *s)
+{
+    dem_model_destroy(s->model);
+    dem_lattice_free(&s->lattice);
+}
+
+static double gap_after(const scene *s, const double shift[2])
+{
+    double least = (double)INFINITY;
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++) {
+        const double x[2] = {s->lattice.x[2 * i] + shift[0], s->lattice.x[2 * i + 1] + shift[1]};
+        least = fmin(least, dem_model_gap(s->model, x));
+    }
+    return least;
+}
+
+static void a_body_above_a_floor_goes_down_to_it(void **state)
+{
+    (void)state;
+    const double floor[] = {-9.0, 0.5, 9.0, 0.5};
+    double shift[2];
+    scene s = make_scene(0.0, 3.0, floor, 2);
+    assert_true(clearance_shift(shift, s.model, down, 0.125));
+    assert_close(shift[0], 0.0, 0.0);
+    assert_close(shift[1], -2.375, 1e-12);
+    assert_true(clearance_shift(shift, s.model, down, 0.0));
+    assert_close(shift[1], -2.5, 1e-12);
+    free_scene(&s);
+}
+
+static void a_body_in_or_under_a_floor_goes_up_to_it(void **state)
+{
+    (void)state;
+    const double floor[] = {-90.0, 0.5, 90.0, 0.5};
+    double shift[2];
+    for (int k = 0; k < 2; k++) {
+        scene s = make_scene(0.0, k == 0 ? 0.0 : -7.0, floor, 2);
+        assert_true(clearance_shift(shift, s.model, down, 1e-3));
+        assert_close(shift[1], (k == 0 ? 0.5 : 7.5) + 1e-3, 1e-12);
+        free_scene(&s);
+    }
+}
+
+static void slopes_and_vertices_are_met_at_the_clearance_exactly(void **state)
+{
+    (void)state;
+    const double rough[] = {-30.0, 0.2, -0.3, 0.1, 0.4, 0.7, 0.41, -2.0, 0.9, -1.5, 1.3, 0.9, 30.0, -5.0};
+    const double gravities[][2] = {{0.0, -9.81}, {3.0, -9.0}, {-2.0, -1.0}};
+    const double clearances[] = {0.0, 2e-4, 0.3};
+    for (int place = 0; place < 12; place++) {
+        scene s = make_scene(-1.2 + 0.2 * place, place % 2 == 0 ? 4.0 : -0.5, rough, 7);
+        for (int g = 0; g < 3; g++)
+            for (int c = 0; c < 3; c++) {
+                double shift[2];
+                assert_true(clearance_shift(shift, s.model, gravities[g], clearances[c]));
+                assert_close(gap_after(&s, shift), clearances[c], 1e-12);
+                assert_close(shift[0] * gravities[g][1], shift[1] * gravities[g][0], 1e-12);
+            }
+        free_scene(&s);
+    }
+}
+
+static void a_body_inside_a_closed_obstacle_stays_inside(void **state)
+{
+    (void)state;
+    const double box[] = {-5.0, 0.0, 5.0, 0.0, 5.0, 8.0, -5.0, 8.0, -5.0, 0.0};
+    double shift[2];
+    scene s = make_scene(0.0, 4.0, box, 5);
+    assert_true(clearance_shift(shift, s.model, down, 0.25));
+    assert_close(shift[1], -3.75, 1e-12);
+    free_scene(&s);
+}
+
+static void a_vertex_exactly_below_a_node_is_not_missed(void **state)
+{
+    (void)state;
+    const double peak[] = {-9.0, -9.0, 0.1, 0.3, 9.0, -9.0};
+    double shift[2];
+    scene s = make_scene(0.1, 5.0, peak, 3);
+    assert_true(clearance_shift(shift, s.model, down, 0.0));
+    assert_close(shift[1], -4.7, 1e-12);
+    assert_true(clearance_shift(shift, s.model, down, 2e-4));
+    assert_close(shift[1], -4.7 + 2e-4, 1e-12);
+    free_scene(&s);
+}
+
+static void without_an_obstacle_below_there_is_no_place(void **state)
+{
+    (void)state;
+    const double aside[] = {3.0, 0.0, 9.0, 0.0};
+    const double up[2] = {0.0, 9.81};
+    double shift[2];
+    scene s = make_scene(0.0, 1.0, aside, 2);
+    assert_false(clearance_shift(shift, s.model, down, 0.1));
+    free_scene(&s);
+    s = make_scene(4.0, 1.0, aside, 2);
+    assert_true(clearance_shift(shift, s.model, down, 0.1));
+    assert_false(clearance_shift(shift, s.model, up, 0.1));
+    free_scene(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_body_above_a_floor_goes_down_to_it),
+        cmocka_unit_test(a_body_in_or_under_a_floor_goes_up_to_it),
+        cmocka_unit_test(slopes_and_vertices_are_met_at_the_clearance_exactly),
+        cmocka_unit_test(a_body_inside_a_closed_obstacle_stays_inside),
+        cmocka_unit_test(a_vertex_exactly_below_a_node_is_not_missed),
+        cmocka_unit_test(without_an_obstacle_below_there_is_no_place),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One node against the vertices of polylines: every outcome is a closed form of ballistics. Tolerances: the skin of 1e-13 m, rtol of
+ * 1e-12 and the rounding of coordinates near 1 m leave errors well below 1e-9. */
+#include "support.h"
+
+static const double g = 9.81;
+
+static void check_state(dem_state state, double x, double y, double u, double v, double tolerance)
+{
+    assert_close(state.x[0], x, tolerance);
+    assert_close(state.x[1], y, tolerance);
+    assert_close(state.v[0], u, tolerance);
+    assert_close(state.v[1], v, tolerance);
+}
+
+static const double roof[6] = {-1.0, -1.0, 0.0, 0.0, 1.0, -1.0};
+
+/* On the ridge of a roof both flanks are approached alike: the one that ends there is met, and turns (0, -u) into (-u, 0). */
+static void a_node_falling_on_a_ridge_meets_the_flank_that_ends_there(void **unused)
+{
+    const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall;
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, roof, 3, 1.0);
+    const dem_state state = support_at(&run, fall + 0.01);
+    assert_int_equal(run.n_impacts, 1);
+    assert_int_equal(run.impacts[0].segment, 0);
+    check_state(state, -0.01 * u, -0.5 * g * 1e-4, -u, -0.01 * g, 1e-9);
+    support_close(&run);
+}
+
+/* With a velocity towards one flank that flank is approached faster. */
+static void a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into(void **unused)
+{
+    const double fall = sqrt(2.0 * 0.5 / g), u = g * fall, drift = -0.5;
+    const double x[2] = {-drift * fall, 0.5}, v[2] = {drift, 0.0};
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, roof, 3, 1.0);
+    (void)support_at(&run, fall + 0.01);
+    assert_int_equal(run.n_impacts, 1);
+    assert_int_equal(run.impacts[0].segment, 1);
+    assert_close(run.impacts[0].after[0], u,
+                 1e-9); /* reflection at the normal (1, 1)/sqrt 2 swaps and turns the components */
+    assert_close(run.impacts[0].after[1], -drift, 1e-9);
+    support_close(&run);
+}
+
+static void a_plastic_node_on_a_ridge_slides_down_one_flank(void **unused)
+{
+    const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall, t = 0.1;
+    const double along =
+        0.5 * sqrt(2.0) * u * t + 0.25 * sqrt(2.0) * g * t * t; /* starts with u sin 45, gains g sin 45 */
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, roof, 3, 0.0);
+    const dem_state state = support_at(&run, fall + t);
+    assert_int_equal(state.n_contacts, 1);
+    assert_close(hypot(state.x[0], state.x[1]), along, 1e-9);
+    assert_close(state.x[0], state.x[1], 1e-12); /* on the left flank */
+    assert_close(state.contacts[0].force, g * cos(M_PI / 4.0), 1e-12);
+    support_close(&run);
+}
+
+static void a_node_sliding_off_a_free_end_flies_on(void **unused)
+{
+    const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, t = 0.3;
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, points, 2, 0.5);
+    const dem_state state = support_at(&run, 0.5 + t);
+    check_state(state, 1.0 + 2.0 * t, -0.5 * g * t * t, 2.0, -g * t, 1e-9);
+    assert_int_equal(dem_simulation_counts(run.simulation).passings, 1);
+    assert_int_equal(state.n_contacts, 0);
+    support_close(&run);
+}
+
+/* Off a convex end on to a slope of 45 degrees below: flight of 2 u/g, then it slides with what the slope leaves of its speed. */
+static void a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope(void **unused)
+{
+    const double points[6] = {-1.0, 0.0, 0.0, 0.0, 5.0, -5.0}, x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0};
+    const double flight = 2.0 / g, root = sqrt(0.5), t = 0.2;
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, points, 3, 0.0);
+    const dem_state state = support_at(&run, 0.5 + flight + t);
+    assert_int_equal(run.n_impacts, 1);
+    assert_close(run.impacts[0].t, 0.5 + flight, 1e-9);
+    const double speed = root * (1.0 + g * flight), along = flight / root + speed * t + 0.5 * root * g * t * t;
+    check_state(state, root * along, -root * along, root * (speed + root * g * t), -root * (speed + root * g * t),
+                1e-9);
+    support_close(&run);
+}
+
+static void a_node_glides_over_a_vertex_without_a_bend(void **unused)
+{
+    const double points[8] = {-1.0, -0.5, 0.0, 0.0, 1.0, 0.5, 2.0, 1.0}, x[2] = {1.5, 0.75}, v[2] = {0.0, 0.0};
+    const double sine = 1.0 / sqrt(5.0), cosine = 2.0 / sqrt(5.0), t = 0.95; /* 0.5 g sine t^2 = 1.98 m down the line */
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, points, 4, 0.3);
+    const dem_state state = support_at(&run, t);
+    const double along = 0.5 * g * sine * t * t;
+    check_state(state, 1.5 - cosine * along, 0.75 - sine * along, -cosine * g * sine * t, -sine * g * sine * t, 1e-9);
+    assert_int_equal(dem_simulation_counts(run.simulation).passings, 2);
+    assert_int_equal(run.n_impacts, 0);
+    support_close(&run);
+}
+
+/* A floor that turns up by 30 degrees: plastic keeps cos 30 of the speed at each passage, elastic reflects. */
+static void a_node_running_into_a_concave_bend_takes_its_impact(void **unused)
+{
+    const double c = cos(M_PI / 6.0), s = sin(M_PI / 6.0), points[6] = {-9.0, 0.0, 0.0, 0.0, 4.0 * c, 4.0 * s};
+    const double x[2] = {-1.0, 0.0}, v[2] = {2.0, 0.0}, up_and_down = 2.0 * 2.0 * c / (g * s);
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, points, 3, 0.0);
+    dem_state state = support_at(&run, 0.5 + 0.1);
+    const double along = 2.0 * c * 0.1 - 0.5 * g * s * 0.01;
+    check_state(state, c * along, s * along, c * (2.0 * c - g * s * 0.1), s * (2.0 * c - g * s * 0.1), 1e-9);
+    state = support_at(&run, 0.5 + up_and_down + 1.0);
+    check_state(state, -2.0 * c * c, 0.0, -2.0 * c * c, 0.0, 1e-9);
+    assert_int_equal(run.n_impacts, 2);
+    support_close(&run);
+    support_point(&run, 1.0, x, v, points, 3, 1.0);
+    state = support_at(&run, 0.5 + 0.05);
+    check_state(state, 2.0 * cos(M_PI / 3.0) * 0.05, 2.0 * sin(M_PI / 3.0) * 0.05 - 0.5 * g * 0.0025,
+                2.0 * cos(M_PI / 3.0), 2.0 * sin(M_PI / 3.0) - g * 0.05, 1e-9);
+    support_close(&run);
+}
+
+static const double groove[6] = {-1.0, 1.0, 0.0, 0.0, 1.0, 1.0};
+
+static void a_plastic_node_falling_into_a_groove_is_held_by_both_flanks(void **unused)
+{
+    const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0};
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, groove, 3, 0.0);
+    const dem_state state = support_at(&run, 1.5);
+    check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
+    assert_int_equal(state.n_contacts, 2);
+    for (int k = 0; k < 2; k++) assert_close(state.contacts[k].force, g * cos(M_PI / 4.0), 1e-12);
+    support_close(&run);
+}
+
+/* By Moreau's law both normals act and the velocity is reversed, less restitution. */
+static void an_elastic_node_falling_into_a_groove_comes_straight_back(void **unused)
+{
+    const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g);
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, groove, 3, 1.0);
+    const dem_state state = support_at(&run, 2.0 * fall);
+    check_state(state, 0.0, 0.5, 0.0, 0.0, 1e-8);
+    support_close(&run);
+}
+
+/* Back and forth in a plastic V groove the speed falls by cos(bend) at each passage of the bottom, a series with an end: rest. */
+static void a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom(void **unused)
+{
+    const double points[6] = {-2.0, 1.0, 0.0, 0.0, 2.0, 1.0}, x[2] = {-1.0, 0.5}, v[2] = {0.0, 0.0};
+    const double s = 1.0 / sqrt(5.0), keep = 0.6; /* cos of twice the angle of slope 1/2 */
+    const double down = sqrt(2.0 * sqrt(1.25) / (g * s)), end = down + 2.0 * down * keep / (1.0 - keep);
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, points, 3, 0.0);
+    const dem_state state = support_at(&run, end + 0.01);
+    check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
+    assert_int_equal(state.n_contacts, 2);
+    assert_close(run.impacts[run.n_impacts - 1].t, end, 1e-4);
+    assert_true(run.n_impacts > 10);
+    support_close(&run);
+}
+
+static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
+{
+    const double x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0}, mass = 2.0;
+    const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.5, -1.0, 0.5, 1.0};
+    const dem_obstacle obstacles[2] = {{2, ground, 0.0}, {2, wall, 0.5}};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    support_run run;
+    (void)unused;
+    options.spacing = options.v_scale = 1.0;
+    options.max_step = 0.01;
+    options.rtol = 1e-12;
+    options.skin = 1e-13;
+    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    support_start(&lattice, NULL, v);
+    support_open(&run, &lattice, obstacles, 2, &options);
+    dem_lattice_free(&lattice);
+    const dem_state state = support_at(&run, 1.2);
+    check_state(state, 0.5 - 0.5 * 0.2, 0.0, -0.5, 0.0, 1e-9);
+    assert_close(dem_simulation_obstacle(run.simulation, 1).impulse[0], -2.0 * 1.5, 1e-12);
+    assert_close(dem_simulation_obstacle(run.simulation, 1).impulse[1], 0.0, 1e-12);
+    assert_int_equal(run.n_impacts, 1);
+    support_close(&run);
+}
+
+/* Round the free end from below, up through the back unhindered, and down on the front. */
+static void a_node_coming_from_behind_passes_and_then_lands_on_the_front(void **unused)
+{
+    const double points[4] = {0.0, 0.0, 4.0, 0.0}, x[2] = {-0.05, -0.5}, v[2] = {1.0, 5.0};
+    const double through = (5.0 - sqrt(25.0 - 2.0 * g * 0.5)) / g, lands = (5.0 + sqrt(25.0 - 2.0 * g * 0.5)) / g;
+    support_run run;
+    (void)unused;
+    support_point(&run, 1.0, x, v, points, 2, 0.0);
+    (void)support_at(&run, 0.5 * (0.05 + through));
+    assert_int_equal(dem_simulation_counts(run.simulation).behind, 1);
+    (void)support_at(&run, 0.5);
+    assert_int_equal(dem_simulation_counts(run.simulation).behind, 0);
+    assert_int_equal(run.n_impacts, 0);
+    const dem_state state = support_at(&run, lands + 0.1);
+    assert_int_equal(run.n_impacts, 1);
+    assert_close(run.impacts[0].t, lands, 1e-9);
+    check_state(state, -0.05 + lands + 0.1, 0.0, 1.0, 0.0, 1e-9);
+    support_close(&run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_node_falling_on_a_ridge_meets_the_flank_that_ends_there),
+        cmocka_unit_test(a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into),
+        cmocka_unit_test(a_plastic_node_on_a_ridge_slides_down_one_flank),
+        cmocka_unit_test(a_node_sliding_off_a_free_end_flies_on),
+        cmocka_unit_test(a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope),
+        cmocka_unit_test(a_node_glides_over_a_vertex_without_a_bend),
+        cmocka_unit_test(a_node_running_into_a_concave_bend_takes_its_impact),
+        cmocka_unit_test(a_plastic_node_falling_into_a_groove_is_held_by_both_flanks),
+        cmocka_unit_test(an_elastic_node_falling_into_a_groove_comes_straight_back),
+        cmocka_unit_test(a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom),
+        cmocka_unit_test(a_wall_of_another_obstacle_stops_a_sliding_node),
+        cmocka_unit_test(a_node_coming_from_behind_passes_and_then_lands_on_the_front),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
