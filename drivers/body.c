@@ -81,14 +81,13 @@ static const schema_instance *find_material(const schema_deck *groups, const cha
 
 static const char *nearest_material(const schema_deck *groups, const char *name)
 {
-    const char *nearest = NULL;
-    size_t which;
-    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+    const char *names[64];
+    size_t n = 0, nearest;
+    for (size_t k = 0; k < schema_count(groups, "material") && n < sizeof names / sizeof *names; k++) {
         const char *candidate = schema_text(schema_get(groups, "material", k), "name");
-        if (nearest == NULL && strlen(candidate) < 64 && schema_nearest(name, &candidate, 1, &which))
-            nearest = candidate;
+        if (strlen(candidate) < 64) names[n++] = candidate; /* schema_nearest() takes no longer ones */
     }
-    return nearest;
+    return schema_nearest(name, names, n, &nearest) ? names[nearest] : NULL;
 }
 
 static void check_material(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
@@ -168,7 +167,7 @@ static void check_pores(const schema_instance *pores, namelist_errors *errors)
 
 /* ---- building ---- */
 
-/* A body on its way. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status once it has reported a fault. */
+/* A body on its way. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status after reporting a fault. */
 typedef struct builder {
     const body_scene *scene;
     const schema_instance *body;
@@ -273,16 +272,16 @@ static dem_status settle_parts(builder *b)
     const char *wish = schema_text(b->body, "disconnected");
     parts_loose loose;
     if (strcmp(wish, "keep") == 0) return DEM_OK;
-    unsigned char *main = calloc((size_t)b->lattice.n_nodes + 1, sizeof *main);
-    if (main == NULL) return DEM_ERROR_MEMORY;
-    dem_status status = parts_find(&loose, main, &b->lattice);
+    unsigned char *kept = calloc((size_t)b->lattice.n_nodes + 1, sizeof *kept);
+    if (kept == NULL) return DEM_ERROR_MEMORY;
+    dem_status status = parts_find(&loose, kept, &b->lattice);
     if (status == DEM_OK && loose.n > 0 && strcmp(wish, "remove") == 0) {
-        status = dem_lattice_select(&b->lattice, main);
+        status = dem_lattice_select(&b->lattice, kept);
     } else if (status == DEM_OK && loose.n > 0) {
         report_parts(b, &loose);
         status = DEM_ERROR_MODEL;
     }
-    free(main);
+    free(kept);
     return status;
 }
 

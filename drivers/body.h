@@ -16,7 +16,7 @@ typedef struct body_scene {
     double gravity[2]; /* m/s^2 */
 } body_scene;
 
-/* What can be said without geometry: keys that a shape lacks or does not use, names and numbers that refer to nothing. */
+/* What can be said without geometry: keys a shape lacks or does not use, names and numbers that refer to nothing. */
 void body_check_all(const schema_deck *groups, namelist_errors *errors);
 
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The way back is found by steps that the gap allows: it changes no faster than the body moves, so nothing is jumped over.
- * The way on is exact: each node runs along a straight line into the segments, thickened by the clearance. */
+/* The way back is found by steps that the gap allows: it changes no faster than the body moves, so nothing is jumped
+ * over. The way on is exact: each node runs along a straight line into the segments, thickened by the clearance. */
 #include "clearance.h"
 
 #include <math.h>

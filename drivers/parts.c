@@ -38,7 +38,7 @@ static void tell(parts_loose *loose, const part *p)
     loose->n++;
 }
 
-static dem_status sort_out(parts_loose *loose, unsigned char *main, const dem_lattice *lattice, dem_index n,
+static dem_status sort_out(parts_loose *loose, unsigned char *kept, const dem_lattice *lattice, dem_index n,
                            const dem_index *part_of)
 {
     part *list = calloc((size_t)n + 1, sizeof *list);
@@ -50,19 +50,19 @@ static dem_status sort_out(parts_loose *loose, unsigned char *main, const dem_la
         is_main[list[p].number] = first;
         if (!first) tell(loose, &list[p]);
     }
-    for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) main[i] = is_main[part_of[i]];
+    for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) kept[i] = is_main[part_of[i]];
     free(list);
     free(is_main);
     return status;
 }
 
-dem_status parts_find(parts_loose *loose, unsigned char *main, const dem_lattice *lattice)
+dem_status parts_find(parts_loose *loose, unsigned char *kept, const dem_lattice *lattice)
 {
     dem_index n, *part_of = calloc((size_t)lattice->n_nodes + 1, sizeof *part_of);
     *loose = (parts_loose){0};
     if (part_of == NULL) return DEM_ERROR_MEMORY;
     dem_status status = dem_lattice_parts(lattice, &n, part_of);
-    if (status == DEM_OK) status = sort_out(loose, main, lattice, n, part_of);
+    if (status == DEM_OK) status = sort_out(loose, kept, lattice, n, part_of);
     free(part_of);
     return status;
 }

@@ -13,8 +13,8 @@ typedef struct parts_loose {
     dem_index node;                  /* the lowest of the first one */
 } parts_loose;
 
-/* Finds the loose parts of every body of a lattice. Of parts of equal size the one with the lowest node is the main one.
- * \param[out] main  [n_nodes] 1 for nodes of the main part of their body, else 0 */
-dem_status parts_find(parts_loose *loose, unsigned char *main, const dem_lattice *lattice);
+/* Finds the loose parts of every body of a lattice. Of equally large ones that with the lowest node is the main part.
+ * \param[out] kept  [n_nodes] 1 for nodes of the main part of their body, else 0 */
+dem_status parts_find(parts_loose *loose, unsigned char *kept, const dem_lattice *lattice);
 
 #endif

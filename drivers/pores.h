@@ -23,8 +23,8 @@ typedef struct pores_recipe {
     unsigned long seed;
 } pores_recipe;
 
-/* Draws radii, places the largest first, each at the first admissible of at most 100,000 random centres. Same recipe, same
- * pores on every machine. Sets no message: that is left to the caller, who knows what the numbers are called.
+/* Draws radii, places the largest first, each at the first admissible of at most 100,000 random centres. Same recipe,
+ * same pores on every machine. Sets no message: that is left to the caller, who knows what the numbers are called.
  * \param[out] out       [recipe->number] by falling radius
  * \param[out] n_placed  pores before the first that finds no place
  * \return DEM_ERROR_MODEL if one finds no place: its radius is out[*n_placed].radius, its centre is not set;

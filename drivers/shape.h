@@ -9,7 +9,7 @@
 
 #include "pores.h"
 
-/* A rectangle stands on its origin (the middle of its lower edge), as a void it is centred; a disc is about its centre. */
+/* A rectangle stands on its origin (the middle of its lower edge), as a void about its centre, like a disc. */
 typedef struct shape_outline {
     bool disc;
     double size[2], radius; /* m; of a rectangle, of a disc */
@@ -35,8 +35,8 @@ bool shape_add_void(shape *s, const shape_void *v);
 /* Signed distance to the nearest edge, of the outline or of a void, m: > 0 in the material. */
 double shape_depth(const shape *s, const double x[2]);
 
-/* Adds pores as voids; the recipe's box is set here. Failures as of pores_place(); *radius is that of the pore without a
- * place, *n_placed the number of pores before it. */
+/* Adds pores as voids; the recipe's box is set here. Failures as of pores_place(); *radius is that of the pore without
+ * a place, *n_placed the number of pores before it. */
 dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, double *radius);
 
 /* Its assembled lattice: nodes on the rim of a void stay. Caller owns *out. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /lattice of an HDF5 file. What is read may come from anywhere: nothing is allocated before it is checked. */
+/* The group /lattice of an HDF5 file. It may come from anywhere: nothing is allocated unchecked. */
 #include "lattice_file.h"
 
 #include "lattice.h"
@@ -65,7 +65,7 @@ typedef struct reader {
     void *data[N_ARRAYS];
 } reader;
 
-/* ---- checks ------------------------------------------------------------------------------------------------- */
+/* ---- checks ---- */
 
 static size_t item_size(hdf5_kind kind)
 {
@@ -150,7 +150,7 @@ static dem_status check_dataset(reader *r, const struct dataset *d, hid_t datase
     return check_storage(r, d, dataset, r->rows[d->of] * d->width * size);
 }
 
-/* ---- reading ------------------------------------------------------------------------------------------------- */
+/* ---- reading ---- */
 
 /* A number that does not fit is an error, not the nearest number that does. */
 static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid_t to, void *value, void *result,
@@ -211,7 +211,7 @@ static dem_status read_arrays(reader *r)
     return DEM_OK;
 }
 
-/* ---- from arrays to a lattice ----------------------------------------------------------------------------------- */
+/* ---- from arrays to a lattice ---- */
 
 static dem_status mark_contacts(const reader *r, dem_lattice *lattice)
 {
@@ -286,7 +286,7 @@ out:
     return status;
 }
 
-/* ---- writing ---------------------------------------------------------------------------------------------------- */
+/* ---- writing ---- */
 
 static dem_status write_array(const hdf5_file *file, enum array a, int deflate, dem_index count, const void *data)
 {

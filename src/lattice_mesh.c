@@ -16,8 +16,8 @@ static const double sqrt3_2 = 0.86602540378443864676;
 
 /* ---- equilateral triangulations ---- */
 
-/* Rows first <= 0 .. last >= 0 of an equilateral grid. Nodes are at x = s spacing/2 with whole s, |s| <= reach; s has the parity of
- * reach in even rows, the other one in odd rows. So x is mirror symmetric to the bit. */
+/* Rows first <= 0 .. last >= 0 of an equilateral grid. Nodes are at x = s spacing/2 with whole s, |s| <= reach; s has
+ * the parity of reach in even rows, the other one in odd rows. So x is mirror symmetric to the bit. */
 typedef struct grid {
     dem_index reach, first, last;
     double spacing;

@@ -367,6 +367,11 @@ dem_strain dem_simulation_strain(const dem_simulation *s)
     return m->strain;
 }
 
+void dem_simulation_strains(const dem_simulation *s, double *strain)
+{
+    springs_strains(&s->model->springs, s->seen, strain);
+}
+
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
     const dem_counts of_integrator = integrator_counts(s->integrator);

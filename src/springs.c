@@ -116,6 +116,13 @@ double springs_strain(const springs *s, dem_index i, dem_index p, const double *
     return (length - s->rest_length[p]) / s->rest_length[p];
 }
 
+void springs_strains(const springs *s, const double *x, double *strain)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (s->neighbour[p] > i) strain[s->spring[p]] = springs_strain(s, i, p, x);
+}
+
 double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass)
 {
     double bound = 0.0;

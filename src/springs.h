@@ -41,6 +41,9 @@ double springs_energy(const springs *s, const double *x);
 /** (d - d0)/d0 of the spring in slot p of row i. */
 double springs_strain(const springs *s, dem_index i, dem_index p, const double *x);
 
+/** Strain of every spring, in the order of the lattice.  \param[out] strain  [n_springs] */
+void springs_strains(const springs *s, const double *x, double *strain);
+
 /** Upper bound of 2 |S_i|/m_i over the nodes that have mass and may move, 1/s^2; see dem_model_omega_max(). */
 double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass);
 

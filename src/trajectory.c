@@ -30,7 +30,7 @@ struct dem_trajectory {
 static const char suffix[] = ".vtkhdf";
 enum { VTK_LINE = 3 };
 
-/* ---- an UnstructuredGrid of lines --------------------------------------------------------------------------------- */
+/* ---- an UnstructuredGrid of lines ---- */
 
 typedef struct grid {
     dem_index n_points, n_cells;
@@ -78,7 +78,7 @@ static dem_status write_grid(const hdf5_file *file, const grid *g, int deflate)
     return write_types(file, g, deflate);
 }
 
-/* ---- obstacles ---------------------------------------------------------------------------------------------------- */
+/* ---- obstacles ---- */
 
 static dem_status write_obstacle_group(const hdf5_file *file, const dem_model *model)
 {
@@ -162,7 +162,7 @@ static dem_status write_obstacle_file(const dem_trajectory *t, const dem_model *
     return status;
 }
 
-/* ---- what is written at every frame --------------------------------------------------------------------------------- */
+/* ---- what is written at every frame ---- */
 
 enum of { NONE, ONE, NODES, SPRINGS };
 
@@ -275,25 +275,17 @@ static void spread(double *out, dem_index n, const double *values, const double 
             out[3 * i + d] = d == 2 ? 0.0 : values[2 * i + d] - (less != NULL ? less[2 * i + d] : 0.0);
 }
 
-static void strains(double *out, const dem_lattice *lattice, const double *x)
-{
-    for (dem_index k = 0; k < lattice->n_springs; k++) {
-        const double *a = x + 2 * lattice->ends[2 * k], *b = x + 2 * lattice->ends[2 * k + 1];
-        const double rest = lattice->rest_length[k];
-        out[k] = (sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])) - rest) / rest;
-    }
-}
-
-static dem_status append_arrays(const dem_trajectory *t, const hdf5_file *file, const dem_lattice *lattice,
+static dem_status append_arrays(const dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation,
                                 const dem_state *state)
 {
+    const dem_lattice *lattice = dem_model_lattice(dem_simulation_model(simulation));
     spread(t->scratch, t->n_nodes, state->x, NULL);
     TRY(append_array(t, file, POINTS));
     spread(t->scratch, t->n_nodes, state->x, lattice->x);
     TRY(append_array(t, file, DISPLACEMENT));
     spread(t->scratch, t->n_nodes, state->v, NULL);
     TRY(append_array(t, file, VELOCITY));
-    strains(t->scratch, lattice, state->x);
+    dem_simulation_strains(simulation, t->scratch);
     TRY(append_array(t, file, STRAIN));
     for (dem_index k = 0; k < t->n_springs; k++) t->scratch[k] *= lattice->stiffness[k];
     TRY(append_array(t, file, FORCE));
@@ -332,7 +324,7 @@ static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const d
 {
     const dem_index steps = t->frames + 1;
     TRY(history_flush(&t->history, file));
-    TRY(append_arrays(t, file, dem_model_lattice(dem_simulation_model(simulation)), state));
+    TRY(append_arrays(t, file, simulation, state));
     TRY(append_fields(t, file, state));
     TRY(append_steps(t, file, state->t));
     return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &steps);
@@ -382,7 +374,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-/* ---- creation ------------------------------------------------------------------------------------------------------- */
+/* ---- creation ---- */
 
 static dem_status write_constants(const hdf5_file *file, const dem_lattice *lattice, int deflate)
 {
@@ -466,7 +458,7 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
     return history_init(&t->history, model);
 }
 
-/* ---- the end -------------------------------------------------------------------------------------------------------- */
+/* ---- the end ---- */
 
 static dem_status verify_counts(const dem_trajectory *t, const hdf5_file *file)
 {
@@ -484,7 +476,7 @@ static dem_status verify(const dem_trajectory *t)
     return hdf5_close(&file, verify_counts(t, &file));
 }
 
-/* ---- notes ------------------------------------------------------------------------------------------------------------ */
+/* ---- notes ---- */
 
 static dem_status name_note(char *out, size_t size, const char *name)
 {
@@ -494,7 +486,7 @@ static dem_status name_note(char *out, size_t size, const char *name)
     return DEM_OK;
 }
 
-/* ---- public ----------------------------------------------------------------------------------------------------------- */
+/* ---- public ---- */
 
 dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
                                  const dem_trajectory_options *options)

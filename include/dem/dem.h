@@ -330,6 +330,10 @@ DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_e
 DEM_API void dem_simulation_state(const dem_simulation *simulation, dem_state *state);
 DEM_API dem_energy dem_simulation_energy(const dem_simulation *simulation);
 DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
+
+/** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
+DEM_API void dem_simulation_strains(const dem_simulation *simulation, double *strain);
+
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 
 /** \param body  0 <= body < n_bodies */

@@ -2,7 +2,7 @@
 /** dem/trajectory.h -- a run as one HDF5 file that ParaView opens (VTKHDF), and lattices from such files.
  *
  *  A trajectory is an observer: create it, hand dem_trajectory_observer() to the simulation, advance, finish.
- *  docs/output.md lists every dataset. HDF5 is confined to the two source files behind this header. */
+ *  docs/output.md lists every dataset. HDF5 is confined to the source files behind this header. */
 #ifndef DEM_TRAJECTORY_H
 #define DEM_TRAJECTORY_H
 

@@ -22,10 +22,10 @@ static void the_largest_part_of_a_body_is_the_main_one(void **state)
     (void)state;
     const unsigned char expected[9] = {1, 0, 0, 0, 0, 0, 0, 1, 1}; /* of two with three nodes the one with node 0 */
     const dem_lattice lattice = make_lattice(NULL);
-    unsigned char main[9];
+    unsigned char kept[9];
     parts_loose loose;
-    assert_int_equal(parts_find(&loose, main, &lattice), DEM_OK);
-    assert_memory_equal(main, expected, sizeof main);
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_memory_equal(kept, expected, sizeof kept);
     assert_int_equal(loose.n, 3);
     assert_int_equal(loose.n_nodes[0], 3);
     assert_int_equal(loose.n_nodes[1], 2);
@@ -39,10 +39,10 @@ static void every_body_has_a_main_part(void **state)
     const unsigned char expected[9] = {1, 1, 1, 1, 1, 1, 0, 1, 1};
     int32_t body[9] = {0, 5, 5, 2, 2, 2, 0, 0, 0};
     const dem_lattice lattice = make_lattice(body);
-    unsigned char main[9];
+    unsigned char kept[9];
     parts_loose loose;
-    assert_int_equal(parts_find(&loose, main, &lattice), DEM_OK);
-    assert_memory_equal(main, expected, sizeof main);
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_memory_equal(kept, expected, sizeof kept);
     assert_int_equal(loose.n, 1);
     assert_int_equal(loose.node, 6);
 }
@@ -50,11 +50,11 @@ static void every_body_has_a_main_part(void **state)
 static void a_lattice_without_nodes_has_no_parts(void **state)
 {
     (void)state;
-    unsigned char main[1];
+    unsigned char kept[1];
     dem_lattice lattice;
     parts_loose loose;
     dem_lattice_init(&lattice);
-    assert_int_equal(parts_find(&loose, main, &lattice), DEM_OK);
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
     assert_int_equal(loose.n, 0);
 }
 
@@ -62,10 +62,10 @@ static void more_parts_than_are_listed_are_counted(void **state)
 {
     (void)state;
     dem_lattice lattice = make_lattice(NULL);
-    unsigned char main[9];
+    unsigned char kept[9];
     parts_loose loose;
     lattice.n_springs = 0;
-    assert_int_equal(parts_find(&loose, main, &lattice), DEM_OK);
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
     assert_int_equal(loose.n, 8);
     assert_int_equal(loose.node, 1);
 }
@@ -74,10 +74,10 @@ static void a_spring_to_nowhere_is_an_error(void **state)
 {
     (void)state;
     dem_lattice lattice = make_lattice(NULL);
-    unsigned char main[9];
+    unsigned char kept[9];
     parts_loose loose;
     lattice.n_nodes = 8;
-    assert_int_equal(parts_find(&loose, main, &lattice), DEM_ERROR_MODEL);
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_ERROR_MODEL);
 }
 
 int main(void)
