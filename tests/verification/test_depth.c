@@ -87,7 +87,7 @@ static double run_deck(const char *name, double restitution, double rtol)
     const double closure = (end.kinetic + end.elastic + end.guard + end.gravity + end.impact - end.projection -
                             (start.kinetic + start.elastic + start.guard + start.gravity)) /
                            start.kinetic;
-    print_message("%s, eta %g, rtol %g: %lld impacts, %lld late, deepest %.2e spacings, closure %.2e, taken %.2e\n",
+    print_message("# %s, eta %g, rtol %g: %lld impacts, %lld late, deepest %.2e spacings, closure %.2e, taken %.2e\n",
                   name, restitution, rtol, (long long)counts.impacts, (long long)counts.late, w.deepest / spacing,
                   closure, end.impact / start.kinetic);
     support_close(&run);

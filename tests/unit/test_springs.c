@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* springs.c, springs.h: CSR from triplets, the bond force (1), its energy, the bound of the frequencies. */
+#include "../verification/support.h"
+
+#include <string.h>
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_rng.h>
+
+#include "springs.h"
+
+enum { n_nodes = 5, n_springs = 6 };
+
+static const double corners[2 * n_nodes] = {0.0, 0.0, 1.0, 0.1, 0.9, 1.2, -0.2, 0.8, 0.4, 0.5};
+static const double masses[n_nodes] = {1.0, 2.0, 3.0, 4.0, 5.0};
+static const dem_index pairs[2 * n_springs] = {4, 0, 3, 0, 1, 4, 2, 1, 0, 1, 4, 2}; /* in no order */
+
+/* A net of springs that differ in rest length and stiffness. */
+static dem_lattice make_net(void)
+{
+    dem_lattice lattice;
+    support_lattice(&lattice, n_nodes, corners, masses, n_springs, pairs, 1.0, 100.0, NULL);
+    for (dem_index k = 0; k < n_springs; k++) {
+        lattice.rest_length[k] = 0.5 + 0.1 * (double)k;
+        lattice.stiffness[k] = 100.0 + 7.0 * (double)k;
+    }
+    return lattice;
+}
+
+static springs compile_net(void)
+{
+    springs s;
+    dem_lattice lattice = make_net();
+    assert_ok(springs_compile(&s, &lattice));
+    dem_lattice_free(&lattice);
+    return s;
+}
+
+static springs compile_pair(const double x[4], double rest_length, double stiffness)
+{
+    springs s;
+    dem_lattice lattice;
+    const dem_index ends[2] = {0, 1};
+    support_lattice(&lattice, 2, x, masses, 1, ends, rest_length, stiffness, NULL);
+    assert_ok(springs_compile(&s, &lattice));
+    dem_lattice_free(&lattice);
+    return s;
+}
+
+/* ---- rows ---- */
+
+static void rows_list_the_neighbours_in_ascending_order(void **state)
+{
+    static const dem_index row[n_nodes + 1] = {0, 3, 6, 8, 9, 12};
+    static const dem_index neighbour[2 * n_springs] = {1, 3, 4, 0, 2, 4, 1, 4, 0, 0, 1, 2};
+    static const dem_index spring[2 * n_springs] = {4, 1, 0, 4, 3, 2, 3, 5, 1, 0, 2, 5};
+    (void)state;
+    springs s = compile_net();
+    assert_int_equal(s.n_nodes, n_nodes);
+    assert_int_equal(s.n_springs, n_springs);
+    assert_memory_equal(s.row, row, sizeof row);
+    assert_memory_equal(s.neighbour, neighbour, sizeof neighbour);
+    assert_memory_equal(s.spring, spring, sizeof spring);
+    for (dem_index p = 0; p < 2 * n_springs; p++) {
+        assert_close(s.rest_length[p], 0.5 + 0.1 * (double)spring[p], 0.0);
+        assert_close(s.stiffness[p], 100.0 + 7.0 * (double)spring[p], 0.0);
+    }
+    springs_free(&s);
+    assert_null(s.row);
+}
+
+static void two_springs_between_the_same_nodes_are_named(void **state)
+{
+    static const dem_index alike[8] = {0, 1, 2, 1, 0, 2, 2, 1}, turned[8] = {2, 1, 0, 1, 2, 0, 1, 0};
+    dem_lattice lattice;
+    springs s = {.n_nodes = 77};
+    (void)state;
+    support_lattice(&lattice, 3, corners, masses, 4, alike, 1.0, 1.0, NULL);
+    assert_int_equal(springs_compile(&s, &lattice), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), "springs 1 and 3 both join nodes 1 and 2");
+    dem_lattice_free(&lattice);
+    support_lattice(&lattice, 3, corners, masses, 4, turned, 1.0, 1.0, NULL);
+    assert_int_equal(springs_compile(&s, &lattice), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), "springs 1 and 3 both join nodes 0 and 1");
+    assert_int_equal(s.n_nodes, 77);
+    dem_lattice_free(&lattice);
+}
+
+static void nodes_without_springs_feel_nothing(void **state)
+{
+    dem_lattice lattice;
+    springs s;
+    const double inverse_mass[n_nodes] = {1.0, 1.0, 1.0, 1.0, 1.0};
+    (void)state;
+    support_lattice(&lattice, n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
+    assert_ok(springs_compile(&s, &lattice));
+    dem_lattice_free(&lattice);
+    for (dem_index i = 0; i < n_nodes; i++) {
+        const vec2 force = springs_force(&s, i, corners);
+        assert_true(force.x == 0.0 && force.y == 0.0);
+    }
+    assert_close(springs_energy(&s, corners), 0.0, 0.0);
+    assert_close(springs_frequency_bound(&s, corners, inverse_mass), 0.0, 0.0);
+    springs_free(&s);
+}
+
+/* ---- force and energy ---- */
+
+/* E = 100 N, d0 = 2 m, d = 5 m: 100 N (5 - 2)/2 = 150 N along (3, 4)/5; energy 100 * 2/2 * 1.5^2 = 225 J. Rounding only. */
+static void a_stretched_spring_pulls_with_stiffness_times_strain(void **state)
+{
+    const double x[4] = {1.0, -1.0, 4.0, 3.0};
+    (void)state;
+    springs s = compile_pair(x, 2.0, 100.0);
+    const vec2 first = springs_force(&s, 0, x), second = springs_force(&s, 1, x);
+    assert_close(first.x, 90.0, 1e-13);
+    assert_close(first.y, 120.0, 1e-13);
+    assert_true(second.x == -first.x && second.y == -first.y);
+    assert_close(springs_strain(&s, 0, 0, x), 1.5, 0.0);
+    assert_close(springs_energy(&s, x), 225.0, 0.0);
+    assert_close(springs_node_energy(&s, 1, x), 225.0, 0.0);
+    springs_free(&s);
+}
+
+static void a_compressed_spring_pushes(void **state)
+{
+    const double x[4] = {0.0, 0.0, 0.0, 1.5};
+    (void)state;
+    springs s = compile_pair(x, 2.0, 100.0);
+    assert_close(springs_force(&s, 0, x).y, -25.0, 0.0);
+    assert_close(springs_force(&s, 1, x).y, 25.0, 0.0);
+    assert_close(springs_strain(&s, 1, 1, x), -0.25, 0.0);
+    springs_free(&s);
+}
+
+/* Positions away from rest, the same in every run. */
+static void stir(double *x, dem_index n, double by, unsigned long seed)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(rng, seed);
+    for (dem_index k = 0; k < 2 * n; k++) x[k] += by * (2.0 * gsl_rng_uniform(rng) - 1.0);
+    gsl_rng_free(rng);
+}
+
+/* Central differences over 1e-5 m: truncation of order 1e-10 times E/d^3 = 1e3 N/m^3, rounding of order 1e-16 * 100 J/1e-5 m. */
+static void the_force_is_minus_the_gradient_of_the_energy(void **state)
+{
+    const double step = 1e-5;
+    double x[2 * n_nodes];
+    (void)state;
+    springs s = compile_net();
+    memcpy(x, corners, sizeof x);
+    stir(x, n_nodes, 0.2, 1);
+    for (dem_index i = 0; i < n_nodes; i++) {
+        const vec2 force = springs_force(&s, i, x);
+        for (int k = 0; k < 2; k++) {
+            const double here = x[2 * i + k];
+            x[2 * i + k] = here + step;
+            const double above = springs_energy(&s, x), node_above = springs_node_energy(&s, i, x);
+            x[2 * i + k] = here - step;
+            const double below = springs_energy(&s, x), node_below = springs_node_energy(&s, i, x);
+            x[2 * i + k] = here;
+            assert_close(k == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-6);
+            assert_close(k == 0 ? force.x : force.y, (node_below - node_above) / (2.0 * step), 1e-6);
+        }
+    }
+    springs_free(&s);
+}
+
+/* Rounding of sums of a dozen terms of about 100 N. */
+static void springs_exert_no_force_and_no_torque_on_the_whole(void **state)
+{
+    double x[2 * n_nodes], torque = 0.0, energy = 0.0;
+    vec2 total = {0.0, 0.0};
+    (void)state;
+    springs s = compile_net();
+    memcpy(x, corners, sizeof x);
+    stir(x, n_nodes, 0.2, 2);
+    for (dem_index i = 0; i < n_nodes; i++) {
+        const vec2 force = springs_force(&s, i, x);
+        total = vec2_add(total, force);
+        torque += vec2_cross(vec2_at(x, i), force);
+        energy += 0.5 * springs_node_energy(&s, i, x); /* every spring is at two nodes */
+    }
+    assert_close(total.x, 0.0, 1e-12);
+    assert_close(total.y, 0.0, 1e-12);
+    assert_close(torque, 0.0, 1e-12);
+    assert_true(springs_energy(&s, x) > 1.0);
+    assert_close(energy, springs_energy(&s, x), 1e-12);
+    springs_free(&s);
+}
+
+static void nodes_that_coincide_give_a_force_that_is_no_number(void **state)
+{
+    const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
+    (void)state;
+    springs s = compile_pair(apart, 1.0, 10.0);
+    assert_false(isfinite(springs_force(&s, 0, together).x));
+    assert_false(isfinite(springs_force(&s, 1, together).y));
+    assert_close(springs_energy(&s, together), 5.0, 0.0);
+    springs_free(&s);
+}
+
+/* ---- frequencies ---- */
+
+/* A pair on k = E/d0 = 50 N/m: 2 k/m of the lighter node that may move, 1 and 2 kg. */
+static void the_bound_of_a_pair_is_twice_its_stiffness_over_the_mass(void **state)
+{
+    const double x[4] = {0.0, 0.0, 1.2, 1.6}, both[2] = {1.0, 0.5}, held[2] = {0.0, 0.5};
+    (void)state;
+    springs s = compile_pair(x, 2.0, 100.0);
+    assert_close(springs_frequency_bound(&s, x, both), 100.0, 1e-12);
+    assert_close(springs_frequency_bound(&s, x, held), 50.0, 1e-12);
+    springs_free(&s);
+}
+
+/* Largest eigenvalue of M^-1/2 K M^-1/2, K from central differences of the forces about the rest shape. */
+static double largest_eigenvalue(const springs *s, const dem_lattice *lattice)
+{
+    const dem_index n = 2 * lattice->n_nodes;
+    const double step = 1e-4 * lattice->rest_length[0];
+    gsl_matrix *stiffness = gsl_matrix_alloc((size_t)n, (size_t)n);
+    gsl_vector *values = gsl_vector_alloc((size_t)n);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc((size_t)n);
+    for (dem_index q = 0; q < n; q++) {
+        const double here = lattice->x[q];
+        for (dem_index i = 0; i < lattice->n_nodes; i++) {
+            lattice->x[q] = here + step;
+            const vec2 above = springs_force(s, i, lattice->x);
+            lattice->x[q] = here - step;
+            const vec2 below = springs_force(s, i, lattice->x);
+            const vec2 k =
+                vec2_scale(0.5 / step / sqrt(lattice->mass[i] * lattice->mass[q / 2]), vec2_sub(below, above));
+            gsl_matrix_set(stiffness, (size_t)(2 * i), (size_t)q, k.x);
+            gsl_matrix_set(stiffness, (size_t)(2 * i + 1), (size_t)q, k.y);
+        }
+        lattice->x[q] = here;
+    }
+    assert_int_equal(gsl_eigen_symm(stiffness, values, work), 0);
+    const double largest = gsl_vector_max(values);
+    gsl_eigen_symm_free(work);
+    gsl_vector_free(values);
+    gsl_matrix_free(stiffness);
+    return largest;
+}
+
+/* The differences' relative error is of order (step/d)^2 = 1e-8. */
+static void the_bound_is_above_the_highest_frequency_by_less_than_a_quarter(void **state)
+{
+    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0};
+    const double sizes[3][2] = {{0.02, 0.02}, {0.04, 0.06}, {0.08, 0.03}};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dem_lattice lattice;
+        springs s;
+        double inverse_mass[200];
+        assert_ok(dem_lattice_rectangle(&lattice, sizes[k][0], sizes[k][1], 0.01));
+        assert_ok(dem_lattice_assemble(&lattice, &rubber));
+        assert_true(lattice.n_nodes <= 200);
+        for (dem_index i = 0; i < lattice.n_nodes; i++) inverse_mass[i] = 1.0 / lattice.mass[i];
+        assert_ok(springs_compile(&s, &lattice));
+        const double bound = sqrt(springs_frequency_bound(&s, lattice.x, inverse_mass));
+        const double highest = sqrt(largest_eigenvalue(&s, &lattice));
+        assert_true(bound >= highest * (1.0 - 1e-7));
+        assert_true(bound <= 1.25 * highest);
+        springs_free(&s);
+        dem_lattice_free(&lattice);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rows_list_the_neighbours_in_ascending_order),
+        cmocka_unit_test(two_springs_between_the_same_nodes_are_named),
+        cmocka_unit_test(nodes_without_springs_feel_nothing),
+        cmocka_unit_test(a_stretched_spring_pulls_with_stiffness_times_strain),
+        cmocka_unit_test(a_compressed_spring_pushes),
+        cmocka_unit_test(the_force_is_minus_the_gradient_of_the_energy),
+        cmocka_unit_test(springs_exert_no_force_and_no_torque_on_the_whole),
+        cmocka_unit_test(nodes_that_coincide_give_a_force_that_is_no_number),
+        cmocka_unit_test(the_bound_of_a_pair_is_twice_its_stiffness_over_the_mass),
+        cmocka_unit_test(the_bound_is_above_the_highest_frequency_by_less_than_a_quarter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
