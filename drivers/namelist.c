@@ -413,10 +413,9 @@ static void read_assignment(reader *r, namelist_group *group)
     scan_step_over(&r->scan, n);
     while (*here(r) != '=' && *here(r) != '\0') scan_step(&r->scan);
     scan_step(&r->scan);
+    const size_t faults = r->errors->n;
     read_values(r, &key);
-    if (key.n_values == 0 && r->n_values <= MAX_VALUES)
-        namelist_errors_add(r->errors, key.place, "'%.40s' has no value; a comma after '=' keeps the default",
-                            key.name);
+    if (key.n_values == 0 && r->errors->n == faults) append_null(r, &key, key.place, 1); /* as f90nml writes None */
     if (room > 0 && key.n_values > (size_t)room)
         namelist_errors_add(r->errors, key.place, "the subscript of '%.40s' has room for %lld, got %zu values",
                             key.name, (long long)room, key.n_values);

@@ -227,6 +227,18 @@ static void blanks_newlines_and_one_comma_separate(void **state)
     drop(&r);
 }
 
+static void nothing_behind_the_equals_sign_is_a_null_value(void **state)
+{
+    (void)state;
+    reading r = read_text("&a x = y = 1 z =/");
+    assert_int_equal(r.errors.n, 0);
+    assert_int_equal(key_at(&r, 0, 0)->n_values, 1);
+    assert_int_equal(key_at(&r, 0, 0)->values[0].kind, NAMELIST_NULL);
+    assert_int_equal(key_at(&r, 0, 1)->values[0].integer, 1);
+    assert_int_equal(key_at(&r, 0, 2)->values[0].kind, NAMELIST_NULL);
+    drop(&r);
+}
+
 static void two_commas_leave_a_null_value(void **state)
 {
     (void)state;
@@ -289,6 +301,7 @@ int main(void)
         cmocka_unit_test(strings_may_hold_what_is_syntax_outside),
         cmocka_unit_test(a_string_goes_on_in_the_next_line),
         cmocka_unit_test(blanks_newlines_and_one_comma_separate),
+        cmocka_unit_test(nothing_behind_the_equals_sign_is_a_null_value),
         cmocka_unit_test(two_commas_leave_a_null_value),
         cmocka_unit_test(repeat_counts_are_expanded),
         cmocka_unit_test(comments_begin_outside_quotes),

@@ -113,13 +113,6 @@ static void a_key_with_a_fault_is_kept_without_values(void **state)
     drop(&r);
 }
 
-static void a_key_needs_a_value(void **state)
-{
-    (void)state;
-    assert_faults("&a x = y = 1 z =/", "1:4 'x' has no value; a comma after '=' keeps the default\n"
-                                       "1:14 'z' has no value; a comma after '=' keeps the default");
-}
-
 static void what_is_no_key_is_shown(void **state)
 {
     (void)state;
@@ -311,7 +304,6 @@ int main(void)
         cmocka_unit_test(the_number_of_values_in_a_file_has_a_bound),
         cmocka_unit_test(a_missing_equal_sign_is_reported_once),
         cmocka_unit_test(a_key_with_a_fault_is_kept_without_values),
-        cmocka_unit_test(a_key_needs_a_value),
         cmocka_unit_test(what_is_no_key_is_shown),
         cmocka_unit_test(a_hash_is_no_comment),
         cmocka_unit_test(a_value_right_behind_a_string_is_reported),
