@@ -195,8 +195,8 @@ static void nodes_that_coincide_give_a_force_that_is_no_number(void **state)
     const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
     (void)state;
     springs s = compile_pair(apart, 1.0, 10.0);
-    assert_false(isfinite(springs_force(&s, 0, together).x));
-    assert_false(isfinite(springs_force(&s, 1, together).y));
+    assert_true(isnan(springs_force(&s, 0, together).x) != 0);
+    assert_true(isnan(springs_force(&s, 1, together).y) != 0);
     assert_close(springs_energy(&s, together), 5.0, 0.0);
     springs_free(&s);
 }

@@ -1,0 +1,481 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What bad input gets: `test_refused.py DEM_BATCH`. The exact message, the exit code, and nothing written.
+
+A deck is refused with 3, a command line with 2. Needs the standard library only: never skipped."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+DEM_BATCH = None
+
+BASE = """&run
+    t_end = 1e-3
+    gravity = 0, -9.81
+/
+&material
+    name = 'rubber'
+    youngs_modulus = 1e7
+    density = 1050
+    thickness = 1
+/
+&body
+    shape = 'rectangle'
+    size = 0.04, 0.05
+    spacing = 0.01
+    material = 'rubber'
+    position = 0, 0.001
+    velocity = 0, -1
+/
+&obstacle
+    points = -0.1, 0, 0.1, 0
+    restitution = 0.5
+/
+&output
+    name = 'block'
+    frame_interval = 1e-4
+/
+"""
+
+
+def edit(text, *edits):
+    """The deck with each edit 'old -> new' made at the only place where `old` stands."""
+    for change in edits:
+        old, new = change.split(" -> ", 1)
+        if text.count(old) != 1:
+            raise ValueError(f"{old!r} stands at {text.count(old)} places of the deck")
+        text = text.replace(old, new)
+    return text
+
+
+def without(text, *parts):
+    return edit(text, *(part + " -> " for part in parts))
+
+
+DISC = edit(BASE, "'rectangle' -> 'disc'", "size = 0.04, 0.05 -> radius = 0.03")
+FILE = without(edit(BASE, "'rectangle' -> 'file'", "size = 0.04, 0.05 -> file = 'part.h5'"),
+               "    spacing = 0.01\n", "    material = 'rubber'\n")
+OBSTACLE = "&obstacle\n    points = -0.1, 0, 0.1, 0\n    restitution = 0.5\n/\n"
+TALL = edit(BASE, "0.04, 0.05 -> 0.04, 0.2") + "".join(
+    f"&void shape = 'rectangle', centre = 0, {y}, size = 0.06, 0.02 /\n" for y in (0.03, 0.1, 0.17))
+
+# ---- the decks: name, text, messages; each of them is 'line:column message', with '-' where there is no place
+
+DECKS = [
+    # names
+    ("unknown group", edit(BASE, "&obstacle -> &obstacel"),
+     ["19:1 unknown group &obstacel (did you mean &obstacle?)"]),
+    ("unknown group like no other", BASE + "&weather temperature = 3 /\n",
+     ["27:1 unknown group &weather"]),
+    ("unknown key", edit(BASE, "density -> densty"),
+     ["8:5 unknown key 'densty' in &material (did you mean 'density'?)"]),
+    ("unknown key like no other", edit(BASE, "thickness = 1 -> colour = 'red'"),
+     ["9:5 unknown key 'colour' in &material"]),
+    ("beginning of a key", edit(BASE, "youngs_modulus -> youngs"),
+     ["7:5 unknown key 'youngs' in &material (did you mean 'youngs_modulus'?)"]),
+    ("key of another group", edit(BASE, "t_end = 1e-3 -> t_end = 1e-3\n    rtol = 1e-6"),
+     ["3:5 unknown key 'rtol' in &run"]),
+    ("member of a key", BASE + "&contact skin%depth = 1e-8 /\n",
+     ["27:10 unknown key 'skin%depth' in &contact"]),
+    ("faults in order of their place",
+     edit(BASE, "t_end = 1e-3 -> t_end = -1", "density = 1050 -> density = 'heavy'", "velocity -> velocty", "restitution = 0.5 -> restitution = 2"),
+     ["2:13 't_end' in &run must be > 0, got -1",
+      "8:15 'density' in &material expects a real, got 'heavy'",
+      "17:5 unknown key 'velocty' in &body (did you mean 'velocity'?)",
+      "21:19 'restitution' in &obstacle must be in [0, 1], got 2"]),
+    ("missing key", without(BASE, "    t_end = 1e-3\n"),
+     ["1:1 't_end' in &run must be given"]),
+    ("two missing keys", without(BASE, "    youngs_modulus = 1e7\n", "    density = 1050\n"),
+     ["5:1 'youngs_modulus' in &material must be given",
+      "5:1 'density' in &material must be given"]),
+    ("missing group", without(BASE, "&run\n    t_end = 1e-3\n    gravity = 0, -9.81\n/\n"),
+     ["1:1 &run must be given"]),
+    ("text without groups", "Dear reader,\nthis is not a deck.\n",
+     ["1:1 &run must be given",
+      "1:1 &material must be given",
+      "1:1 &body must be given"]),
+    ("repeated key", edit(BASE, "density = 1050 -> density = 1050\n    density = 1100"),
+     ["9:5 key 'density' is given twice in &material, first in line 8"]),
+    ("repeated single group", BASE + "&run t_end = 2e-3 /\n",
+     ["27:1 &run is given twice, first in line 1"]),
+    ("repeated optional group", BASE + "&solver rtol = 1e-6 /\n&solver rtol = 1e-7 /\n",
+     ["28:1 &solver is given twice, first in line 27"]),
+    # types
+    ("string for a real", edit(BASE, "t_end = 1e-3 -> t_end = '1e-3'"),
+     ["2:13 't_end' in &run expects a real, got '1e-3'"]),
+    ("word for a real", edit(BASE, "t_end = 1e-3 -> t_end = 1ms"),
+     ["2:13 't_end' in &run expects a real, got '1ms'"]),
+    ("logical for a real", edit(BASE, "t_end = 1e-3 -> t_end = .true."),
+     ["2:13 't_end' in &run expects a real, got '.true.'"]),
+    ("real for an integer", edit(BASE, "frame_interval = 1e-4 -> deflate = 1.0"),
+     ["25:15 'deflate' in &output expects an integer, got '1.0'"]),
+    ("string for an integer", edit(BASE, "frame_interval = 1e-4 -> deflate = '1'"),
+     ["25:15 'deflate' in &output expects an integer, got '1'"]),
+    ("number for a string", edit(BASE, "'block' -> 7"),
+     ["24:12 'name' in &output expects a string in quotes, got 7"]),
+    ("string without quotes", edit(BASE, "'block' -> block"),
+     ["24:12 'name' in &output expects a string in quotes, got block"]),
+    ("choice without quotes", edit(BASE, "'rectangle' -> rectangle"),
+     ["12:13 'shape' in &body expects a string in quotes, got rectangle"]),
+    ("path without quotes", edit(BASE, "'block' -> a/b"),
+     ["24:12 'name' in &output expects a string in quotes, got a",
+      "24:14 text right behind the '/' that ends &output; does a path lack its quotes?"]),
+    ("NaN", edit(BASE, "1050 -> NaN"),
+     ["8:15 'NaN' is not a finite number"]),
+    ("Inf", edit(BASE, "-9.81 -> -inf"),
+     ["3:18 '-inf' is not a finite number"]),
+    ("Infinity", edit(BASE, "1e7 -> +Infinity"),
+     ["7:22 '+Infinity' is not a finite number"]),
+    ("real too large", edit(BASE, "1050 -> 1e999"),
+     ["8:15 '1e999' is too large for a real"]),
+    ("integer too large", edit(BASE, "frame_interval = 1e-4 -> deflate = 99999999999999999999"),
+     ["25:15 '99999999999999999999' is too large for an integer"]),
+    ("integer that a real cannot hold", BASE + "&pores number = 1, radius = 1e-3, 1e-3, seed = 9007199254740993 /\n",
+     ["27:48 'seed' in &pores must be at most 2^53, got 9007199254740993"]),
+    ("complex number", edit(BASE, "0, -9.81 -> (0, -9.81)"),
+     ["3:15 a number is expected; complex ones are not understood"]),
+    ("exponent without its letter", edit(BASE, "1e7 -> 1.0+7"),
+     ["7:22 '1.0+7' has an exponent without its letter; write 1.5e+3 for 1.5+3"]),
+    # ranges
+    ("Young's modulus 0", edit(BASE, "1e7 -> 0"),
+     ["7:22 'youngs_modulus' in &material must be > 0, got 0"]),
+    ("Young's modulus negative", edit(BASE, "1e7 -> -1e7"),
+     ["7:22 'youngs_modulus' in &material must be > 0, got -1e7"]),
+    ("density 0", edit(BASE, "1050 -> 0.0"),
+     ["8:15 'density' in &material must be > 0, got 0.0"]),
+    ("density negative", edit(BASE, "1050 -> -1050"),
+     ["8:15 'density' in &material must be > 0, got -1050"]),
+    ("thickness 0", edit(BASE, "thickness = 1 -> thickness = 0"),
+     ["9:17 'thickness' in &material must be > 0, got 0"]),
+    ("guard negative", edit(BASE, "thickness = 1 -> guard = -0.1"),
+     ["9:13 'guard' in &material must be >= 0, got -0.1"]),
+    ("spacing 0", edit(BASE, "0.01\n -> 0\n"),
+     ["14:15 'spacing' in &body must be > 0, got 0"]),
+    ("spacing negative", edit(BASE, "0.01\n -> -0.01\n"),
+     ["14:15 'spacing' in &body must be > 0, got -0.01"]),
+    ("size 0", edit(BASE, "0.04, 0.05 -> 2*0"),
+     ["13:12 'size' in &body must be > 0, got 0"]),
+    ("size negative", edit(BASE, "0.04, 0.05 -> 0.04, -0.05"),
+     ["13:18 'size' in &body must be > 0, got -0.05"]),
+    ("radius 0", edit(DISC, "0.03 -> 0"),
+     ["13:14 'radius' in &body must be > 0, got 0"]),
+    ("radius negative", edit(DISC, "0.03 -> -0.03"),
+     ["13:14 'radius' in &body must be > 0, got -0.03"]),
+    ("t_end 0", edit(BASE, "t_end = 1e-3 -> t_end = 0"),
+     ["2:13 't_end' in &run must be > 0, got 0"]),
+    ("t_end negative", edit(BASE, "t_end = 1e-3 -> t_end = -1e-3"),
+     ["2:13 't_end' in &run must be > 0, got -1e-3"]),
+    ("frame_interval 0", edit(BASE, "1e-4 -> 0"),
+     ["25:22 'frame_interval' in &output must be > 0, got 0"]),
+    ("frame_interval negative", edit(BASE, "1e-4 -> -1e-4"),
+     ["25:22 'frame_interval' in &output must be > 0, got -1e-4"]),
+    ("clearance negative", edit(BASE, "position = 0, 0.001 -> clearance = -1e-4"),
+     ["16:17 'clearance' in &body must be >= 0, got -1e-4"]),
+    ("restitution above 1", edit(BASE, "restitution = 0.5 -> restitution = 1.01"),
+     ["21:19 'restitution' in &obstacle must be in [0, 1], got 1.01"]),
+    ("restitution negative", edit(BASE, "restitution = 0.5 -> restitution = -0.1"),
+     ["21:19 'restitution' in &obstacle must be in [0, 1], got -0.1"]),
+    ("rtol 0", BASE + "&solver rtol = 0 /\n",
+     ["27:16 'rtol' in &solver must be in [1e-13, 1e-1], got 0"]),
+    ("rtol too large", BASE + "&solver rtol = 0.5 /\n",
+     ["27:16 'rtol' in &solver must be in [1e-13, 1e-1], got 0.5"]),
+    ("max_step 0", BASE + "&solver max_step = 0 /\n",
+     ["27:20 'max_step' in &solver must be > 0, got 0"]),
+    ("skin 0", BASE + "&contact skin = 0 /\n",
+     ["27:17 'skin' in &contact must be > 0, got 0"]),
+    ("max_impacts 0", BASE + "&contact max_impacts = 0 /\n",
+     ["27:24 'max_impacts' in &contact must be >= 1, got 0"]),
+    ("deflate too large", edit(BASE, "frame_interval = 1e-4 -> deflate = 10"),
+     ["25:15 'deflate' in &output must be in [0, 9], got 10"]),
+    ("choice misspelt", edit(BASE, "'rectangle' -> 'rectangel'"),
+     ["12:13 'shape' in &body must be 'rectangle', 'disc' or 'file', got 'rectangel' (did you mean 'rectangle'?)"]),
+    ("choice like no other", edit(BASE, "'rectangle' -> 'banana'"),
+     ["12:13 'shape' in &body must be 'rectangle', 'disc' or 'file', got 'banana'"]),
+    ("method with its orders swapped", BASE + "&solver method = 'dopri54' /\n",
+     ["27:18 'method' in &solver must be 'fehlberg45', 'dopri45', 'cashkarp45', 'zonneveld34' or 'bs23', got "
+      "'dopri54' (did you mean 'dopri45'?)"]),
+    ("name of the output with a folder", edit(BASE, "'block' -> 'results/block'"),
+     ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
+    ("name of the output empty", edit(BASE, "'block' -> ''"),
+     ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
+    ("name of the output hidden", edit(BASE, "'block' -> '.block'"),
+     ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
+    ("string of 5000 characters", edit(BASE, "1e-3 -> 1e-3, title = '" + 5000 * "t" + "'"),
+     ["2:27 the string is longer than 4096 bytes"]),
+    # counts
+    ("too few coordinates", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1, 0"),
+     ["20:5 'points' in &obstacle expects at least 4 values, got 2"]),
+    ("odd number of coordinates", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1, 0, 0.1, 0, 0.2"),
+     ["20:5 'points' in &obstacle must be pairs of x and y, got 5 values"]),
+    ("degenerate segment", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1, 0, 0.1, 0, 0.1, 0, 0.2, 0"),
+     ["20:5 'points' in &obstacle: segment 2 has no length, both its ends are (0.1, 0)"]),
+    ("too many values", edit(BASE, "0, -9.81 -> 0, -9.81, 0"),
+     ["3:5 'gravity' in &run expects 2 values, got 3"]),
+    ("too few values", edit(BASE, "0.04, 0.05 -> 0.04"),
+     ["13:5 'size' in &body expects 2 values, got 1"]),
+    ("two values for one", edit(BASE, "1050 -> 1050, 1060"),
+     ["8:5 'density' in &material expects 1 value, got 2"]),
+    ("repeat count absurd", edit(BASE, "-0.1, 0, 0.1, 0 -> 99999999999999999999*0"),
+     ["20:14 repeat count '99999999999999999999' is not in 1 to 100000"]),
+    ("repeat count 0", edit(BASE, "-0.1, 0, 0.1, 0 -> 0*1"),
+     ["20:14 repeat count '0' is not in 1 to 100000"]),
+    ("repeated fault told once", edit(BASE, "-0.1, 0, 0.1, 0 -> 8*1e999"),
+     ["20:14 '1e999' is too large for a real"]),
+    ("hole between subscripts", edit(BASE, "points = -0.1, 0, 0.1, 0 -> points(1) = -0.1, 0, points(4) = 1"),
+     ["20:5 'points(3)' in &obstacle is not given"]),
+    ("hole before a subscript", edit(BASE, "size = 0.04, 0.05 -> size(2) = 0.05"),
+     ["13:5 'size(1)' in &body is not given"]),
+    ("two subscripts", BASE + "&contact skin(1,1) = 1e-8 /\n",
+     ["27:10 'skin' has more than one subscript; only one is understood"]),
+    ("subscript 0", BASE + "&contact skin(0) = 1e-8 /\n",
+     ["27:10 the subscript of 'skin' must ascend, from 1 to 100000 at most"]),
+    ("subscript absurd", BASE + "&contact skin(1000000) = 1e-8 /\n",
+     ["27:10 the subscript of 'skin' must ascend, from 1 to 100000 at most"]),
+    ("subscript given twice", edit(BASE, "size = 0.04, 0.05 -> size(1) = 0.05, size(1:2) = 0.04, 0.05"),
+     ["13:21 'size(1)' is given twice in &body, first in line 13"]),
+    ("more values than the subscript takes", BASE + "&solver rtol(1:1) = 1e-6, 1e-7 /\n",
+     ["27:9 the subscript of 'rtol' has room for 1, got 2 values"]),
+    # syntax
+    ("string not closed", edit(BASE, "'block' -> 'block"),
+     ["24:12 the string is not closed"]),
+    ("group not closed before the next", edit(BASE, "thickness = 1\n/ -> thickness = 1"),
+     ["5:1 &material is not closed: '/' is missing before &body in line 10"]),
+    ("group not closed at the end", edit(BASE, "1e-4\n/ -> 1e-4"),
+     ["23:1 &output is not closed: '/' is missing before the end of the file"]),
+    ("group closed twice", BASE + "&end\n",
+     ["27:1 '&end' closes no group"]),
+    ("no value", edit(BASE, "1050 -> "),
+     ["5:1 'density' in &material must be given"]),
+    ("semicolon", edit(BASE, "0, -9.81 -> 0; -9.81"),
+     ["3:16 values are separated by ',' or blanks, not by ';'"]),
+    ("comment with a hash", edit(BASE, "-9.81 -> -9.81 # down"),
+     ["3:24 unexpected '#'; comments begin with '!'"]),
+    ("embedded NUL", edit(BASE, "1050 -> 1050\0"),
+     ["8:19 byte 0x00 is not text; UTF-8 is expected"]),
+    ("not UTF-8", edit(BASE, "1e-3 -> 1e-3, title = 'Größe'").encode("latin-1"),
+     ["2:30 byte 0xF6 is not text; UTF-8 is expected"]),
+    ("ends of lines of old Macs", BASE.replace("\n", "\r"),
+     ["1:5 byte 0x0D is not text; UTF-8 is expected"]),
+    ("empty file", b"",
+     ["- the file is empty"]),
+    ("file larger than 1 MiB", "!" * 2**20 + "\n" + BASE,
+     ["- the file is larger than 1 MiB"]),
+    # keys that do not go together
+    ("key not used by the shape", edit(BASE, "spacing = 0.01 -> spacing = 0.01\n    radius = 0.02"),
+     ["15:5 'radius' in &body is not used by shape 'rectangle'"]),
+    ("keys not used by a lattice file", edit(BASE, "'rectangle' -> 'file'"),
+     ["11:1 'file' in &body must be given for shape 'file'",
+      "13:5 'size' in &body is not used by shape 'file'",
+      "14:5 'spacing' in &body is not used by shape 'file'",
+      "15:5 'material' in &body is not used by shape 'file'"]),
+    ("key missing for the shape", edit(BASE, "'rectangle' -> 'disc'"),
+     ["11:1 'radius' in &body must be given for shape 'disc'",
+      "13:5 'size' in &body is not used by shape 'disc'"]),
+    ("key missing for the shape of a void", BASE + "&void shape = 'rectangle', centre = 0, 0.02, radius = 0.01 /\n",
+     ["27:1 'size' in &void must be given for shape 'rectangle'",
+      "27:46 'radius' in &void is not used by shape 'rectangle'"]),
+    ("unknown material", edit(BASE, "material = 'rubber' -> material = 'ruber'"),
+     ["15:5 there is no material 'ruber' (did you mean 'rubber'?)"]),
+    ("unknown material like no other", edit(BASE, "material = 'rubber' -> material = 'steel'"),
+     ["15:5 there is no material 'steel'"]),
+    ("material not named", without(BASE, "    material = 'rubber'\n"),
+     ["11:1 there is no material 'solid'"]),
+    ("two materials of one name", BASE + "&material name = 'rubber', youngs_modulus = 1, density = 1 /\n",
+     ["27:11 material 'rubber' is given twice, first in line 5"]),
+    ("void of a body that does not exist", BASE + "&void body = 2, centre = 0, 0.02, radius = 0.005 /\n",
+     ["27:7 &void is for body 2, but the number of bodies is 1"]),
+    ("void of body 0", BASE + "&void body = 0, centre = 0, 0.02, radius = 0.005 /\n",
+     ["27:14 'body' in &void must be >= 1, got 0"]),
+    ("void of a lattice file", FILE + "&void centre = 0, 0.02, radius = 0.005 /\n",
+     ["25:1 &void is for body 1, which is of shape 'file'"]),
+    ("pores of a body that does not exist", BASE + "&pores body = 3, number = 1, radius = 5e-3, 6e-3 /\n",
+     ["27:8 &pores is for body 3, but the number of bodies is 1"]),
+    ("pores with radii swapped", BASE + "&pores number = 1, radius = 6e-3, 5e-3 /\n",
+     ["27:20 'radius' in &pores must be the smallest, then the largest one, got 0.006, 0.005"]),
+    ("too many pores", BASE + "&pores number = 10001, radius = 5e-3, 6e-3 /\n",
+     ["27:8 'number' in &pores must be at most 10000, got 10001"]),
+    ("spacing larger than the rectangle", edit(BASE, "0.01\n -> 0.1\n"),
+     ["14:5 'spacing' in &body must not exceed the size, 0.04 m x 0.05 m, got 0.1 m"]),
+    ("spacing larger than the disc", edit(DISC, "0.01\n -> 0.1\n"),
+     ["14:5 'spacing' in &body must not exceed the radius, 0.03 m, got 0.1 m"]),
+    ("clearance without an obstacle", without(edit(BASE, "position = 0, 0.001 -> clearance = 1e-3"), OBSTACLE),
+     ["16:5 'clearance' in &body needs an &obstacle"]),
+    ("clearance without gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 0"),
+     ["16:5 'clearance' in &body needs gravity, which is 0"]),
+    # geometry
+    ("void that takes everything", BASE + "&void centre = 0, 0.02, radius = 1 /\n",
+     ["14:5 body 1: none of 32 nodes is left"]),
+    ("a loose part", BASE + "&void shape = 'rectangle', centre = 0, 0.025, size = 0.06, 0.02 /\n",
+     ["11:1 body 1 has 1 part that no spring connects to its largest, of 9 nodes, one at (-0.015, 0.0433013) m in "
+      "its own coordinates; 'disconnected' can remove or keep such parts"]),
+    ("three loose parts", TALL,
+     ["11:1 body 1 has 3 parts that no spring connects to its largest, of 27, 14, 13 nodes, one at (-0.015, "
+      "0.112583) m in its own coordinates; 'disconnected' can remove or keep such parts"]),
+    ("pores that find no place", BASE + "&pores number = 20, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
+     ["27:1 pore 8 of 20, of radius 0.00553882 m, finds no place in body 1 with walls of 0.001 m"]),
+    ("pores larger than the body", BASE + "&pores number = 1, radius = 0.05, 0.06 /\n",
+     ["27:1 pore 1 of 1, of radius 0.0541702 m, finds no place in body 1 with walls of 0.02 m"]),
+    ("rectangle of too many nodes", edit(BASE, "0.04, 0.05 -> 1e9, 1e9", "0.01\n -> 1e-9\n"),
+     ["14:5 body 1: a rectangle of 1e+09 m x 1e+09 m with the spacing 1e-09 m would have 1.15e+36 nodes; the limit"
+      " is 1.1e+12"]),
+    ("disc of too many nodes", edit(DISC, "0.03 -> 1e9", "0.01\n -> 1e-9\n"),
+     ["14:5 body 1: a disc of radius 1e+09 m with the spacing 1e-09 m would have 4.62e+36 nodes; the limit is "
+      "1.1e+12"]),
+    ("numbers of nodes that overflow", edit(BASE, "0.04, 0.05 -> 1e300, 1e300", "0.01\n -> 1e-300\n"),
+     ["14:5 body 1: a rectangle of 1e+300 m x 1e+300 m with the spacing 1e-300 m would have inf nodes; the limit "
+      "is 1.1e+12"]),
+    ("areas that underflow", edit(BASE, "0.04, 0.05 -> 2*1e-200", "0.01\n -> 1e-200\n"),
+     ["14:5 body 1: triangle 0 (nodes 0, 1, 2) has the area 0 m^2; it must be > 0"]),
+    ("masses that overflow", edit(BASE, "1050 -> 1e308", "thickness = 1 -> thickness = 1e308"),
+     ["- node 0: mass must be > 0, got inf kg"]),
+    ("stiffness that underflows", edit(BASE, "1e7 -> 1e-308", "thickness = 1 -> thickness = 1e-308"),
+     ["- spring 0: stiffness must be > 0, got 0 N"]),
+    ("obstacle that overflows", edit(BASE, "-0.1, 0, 0.1, 0 -> -1e300, 0, 1e300, 0"),
+     ["- obstacle 0: segment 0 has length inf m"]),
+    ("body deeper in the obstacle than the skin", edit(BASE, "0, 0.001 -> 0, -0.001"),
+     ["- node 0 at (-0.02, -0.001) m starts 0.001 m inside obstacle 0, deeper than the skin of 1e-08 m"]),
+    ("body just deeper than the skin", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
+     ["- node 0 at (-0.02, -1.1e-08) m starts 1.1e-08 m inside obstacle 0, deeper than the skin of 1e-08 m"]),
+    ("second body in the obstacle",
+     BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n",
+     ["- node 32 at (0.05, -0.0173205) m starts 0.0173205 m inside obstacle 0, deeper than the skin of 1e-08 m"]),
+    ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),
+     ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1"]),
+    ("clearance against gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 9.81"),
+     ["16:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1"]),
+    ("lattice file missing", FILE,
+     ["13:5 body 1: part.h5: cannot be opened (No such file or directory)"]),
+    ("lattice file that is not HDF5", edit(FILE, "part.h5 -> deck.nml"),
+     ["13:5 body 1: deck.nml: cannot be opened (file signature not found)"]),
+    ("lattice file that is a folder", edit(FILE, "part.h5 -> ."),
+     ["13:5 body 1: .: is not a regular file"]),
+    ("lattice file given by its whole path", edit(FILE, "part.h5 -> /nowhere/part.h5"),
+     ["13:5 body 1: /nowhere/part.h5: cannot be opened (No such file or directory)"]),
+]
+
+
+def stderr_of(messages):
+    """What a deck's messages look like on the terminal."""
+    lines = (message.split(" ", 1) for message in messages)
+    return "".join(f"deck.nml{'' if place == '-' else ':' + place}: error: {text}\n" for place, text in lines)
+
+
+class Refused(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "out").mkdir()
+
+    def snapshot(self):
+        """Every file with its size and times; folders, whose times tell of what came and went."""
+        found = {}
+        for path in [self.folder, *self.folder.rglob("*")]:
+            info = path.lstat()
+            found[path] = (info.st_mode, info.st_size, info.st_mtime_ns)
+        return found
+
+    def refuse(self, code, stderr, *arguments):
+        before = self.snapshot()
+        done = subprocess.run([DEM_BATCH, *arguments], cwd=self.folder, capture_output=True, timeout=60, check=False)
+        self.assertEqual(done.stderr.decode(), stderr)
+        self.assertEqual(done.returncode, code)
+        self.assertEqual(done.stdout, b"", "a refusal prints nothing to stdout")
+        self.assertEqual(self.snapshot(), before, "a refusal writes nothing")
+
+    def refuse_usage(self, reason, *arguments):
+        usage = subprocess.run([DEM_BATCH, "--help"], capture_output=True, timeout=60, check=True).stdout.decode()
+        self.assertTrue(usage.startswith("usage: dem_batch "))
+        self.refuse(2, f"dem_batch: error: {reason}\n{usage}", *arguments)
+
+    def put(self, deck):
+        (self.folder / "deck.nml").write_bytes(deck if isinstance(deck, bytes) else deck.encode())
+
+    # ---- decks
+
+    def test_the_base_deck_is_good(self):
+        self.put(BASE)
+        done = subprocess.run([DEM_BATCH, "--check", "deck.nml"], cwd=self.folder, capture_output=True, timeout=60,
+                              check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+
+    def test_decks(self):
+        self.assertEqual(len({name for name, _, _ in DECKS}), len(DECKS))
+        for name, deck, messages in DECKS:
+            with self.subTest(name):
+                self.put(deck)
+                self.refuse(3, stderr_of(messages), "--outdir", "out", "deck.nml")
+                self.refuse(3, stderr_of(messages), "deck.nml")
+
+    def test_check_refuses_alike(self):
+        for name, deck, messages in DECKS[::5]:
+            with self.subTest(name):
+                self.put(deck)
+                self.refuse(3, stderr_of(messages), "--check", "deck.nml")
+
+    def test_messages_have_a_limit(self):
+        self.put(BASE + 1500 * "&weather /\n")
+        lines = [f"{27 + k}:1 unknown group &weather" for k in range(999)]
+        self.refuse(3, stderr_of(lines + ["1026:1 too many errors"]), "deck.nml")
+
+    # ---- files
+
+    def test_deck_missing(self):
+        self.refuse(3, "deck.nml: error: No such file or directory\n", "deck.nml")
+        self.refuse(3, "no/deck.nml: error: No such file or directory\n", "no/deck.nml")
+
+    def test_deck_is_a_folder(self):
+        self.refuse(3, "out: error: not a regular file\n", "out")
+
+    def test_deck_is_a_pipe_that_nobody_writes_to(self):
+        os.mkfifo(self.folder / "pipe")
+        self.refuse(3, "pipe: error: not a regular file\n", "pipe")
+
+    def test_deck_may_not_be_read(self):
+        self.put(BASE)
+        (self.folder / "deck.nml").chmod(0)
+        if os.geteuid() != 0:  # root reads everything
+            self.refuse(3, "deck.nml: error: Permission denied\n", "deck.nml")
+
+    def test_lattice_file_is_looked_for_beside_the_deck(self):
+        (self.folder / "out" / "deck.nml").write_text(FILE, encoding="utf-8")
+        self.refuse(3, "out/deck.nml:13:5: error: body 1: out/part.h5: cannot be opened (No such file or directory)\n",
+                    "out/deck.nml")
+
+    # ---- command lines
+
+    def test_no_deck(self):
+        self.refuse_usage("no deck")
+        self.refuse_usage("no deck", "--check")
+        self.refuse_usage("no deck", "--echo")
+        self.refuse_usage("no deck", "--outdir", "out")
+
+    def test_two_decks(self):
+        self.put(BASE)
+        self.refuse_usage("unknown option or a second deck", "deck.nml", "deck.nml")
+
+    def test_unknown_option(self):
+        self.put(BASE)
+        for option in ("--frames", "-c", "-", "--check=yes", "--outdir=out"):
+            with self.subTest(option):
+                self.refuse_usage("unknown option or a second deck", option, "deck.nml")
+
+    def test_outdir_without_a_folder(self):
+        self.put(BASE)
+        self.refuse_usage("--outdir needs a folder", "deck.nml", "--outdir")
+
+    def test_a_deck_where_none_belongs(self):
+        self.put(BASE)
+        for option in ("--template", "--keys", "--version", "--help"):
+            with self.subTest(option):
+                self.refuse_usage("no deck belongs here", option, "deck.nml")
+
+
+if __name__ == "__main__":
+    DEM_BATCH = sys.argv.pop(1)
+    unittest.main()

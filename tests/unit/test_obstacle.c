@@ -1,0 +1,413 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* obstacle.c: compiling polylines, signed gap and its normal, what a point touches, bends. Tolerances of 1e-15 to 1e-13 are the
+ * rounding of coordinates of order 1 m. */
+#include "../verification/support.h"
+
+#include <gsl/gsl_rng.h>
+
+#include "obstacle.h"
+
+/* A polyline with a free end at (-2, 0), a convex vertex at (0, 0), a concave one at (1, -1) and a free end at (3, -1). */
+static const double valley[8] = {-2.0, 0.0, 0.0, 0.0, 1.0, -1.0, 3.0, -1.0};
+
+/* A block standing on y = 0, clockwise: its inside is on the right. */
+static const double block[10] = {5.0, 0.0, 5.0, 1.0, 6.0, 1.0, 6.0, 0.0, 5.0, 0.0};
+
+static obstacle_set compile(const double *points, dem_index n_points, double restitution)
+{
+    const dem_obstacle obstacle = {.n_points = n_points, .points = points, .restitution = restitution};
+    obstacle_set o;
+    assert_ok(obstacles_compile(&o, &obstacle, 1));
+    return o;
+}
+
+static obstacle_set compile_both(void)
+{
+    const dem_obstacle list[2] = {{4, valley, 0.25}, {5, block, 0.5}};
+    obstacle_set o;
+    assert_ok(obstacles_compile(&o, list, 2));
+    return o;
+}
+
+static obstacle_gap gap_at(const obstacle_set *o, double x, double y)
+{
+    return obstacles_gap(o, (vec2){x, y}, -1, -1);
+}
+
+/* ---- compiling ---- */
+
+static void refuse(const dem_obstacle *list, dem_index n, const char *message)
+{
+    obstacle_set o = {.n = 77};
+    assert_int_equal(obstacles_compile(&o, list, n), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), message);
+    assert_int_equal(o.n, 77);
+}
+
+static void an_obstacle_of_one_point_or_none_is_refused(void **state)
+{
+    const dem_obstacle list[2] = {{4, valley, 0.0}, {1, valley, 0.0}}, none = {2, NULL, 0.0};
+    (void)state;
+    refuse(list, 2, "obstacle 1 has 1 points, at least 2 are needed");
+    refuse(&none, 1, "obstacle 0 has 2 points, at least 2 are needed");
+}
+
+static void restitution_must_lie_between_0_and_1(void **state)
+{
+    const dem_obstacle above = {4, valley, 1.5}, below = {4, valley, -0.25}, nan = {4, valley, fabs((double)NAN)};
+    (void)state;
+    refuse(&above, 1, "obstacle 0: restitution must be in [0, 1], got 1.5");
+    refuse(&below, 1, "obstacle 0: restitution must be in [0, 1], got -0.25");
+    refuse(&nan, 1, "obstacle 0: restitution must be in [0, 1], got nan");
+}
+
+static void a_point_that_is_not_finite_is_named(void **state)
+{
+    const double infinite[6] = {0.0, 0.0, 1.0, 0.0, 2.0, (double)INFINITY}, nan[4] = {0.0, 0.0, (double)NAN, 0.0};
+    const dem_obstacle first = {3, infinite, 0.0}, second = {2, nan, 0.0};
+    (void)state;
+    refuse(&first, 1, "obstacle 0: point 2 is not finite");
+    refuse(&second, 1, "obstacle 0: point 1 is not finite");
+}
+
+static void a_segment_without_length_is_named(void **state)
+{
+    const double twice[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0}, far[4] = {-1e308, 0.0, 1e308, 0.0};
+    const dem_obstacle list[2] = {{4, valley, 0.0}, {3, twice, 0.0}}, wide = {2, far, 0.0};
+    (void)state;
+    refuse(list, 2, "obstacle 1: segment 1 has length 0 m");
+    refuse(&wide, 1, "obstacle 0: segment 0 has length inf m");
+}
+
+static void segments_are_numbered_obstacle_by_obstacle(void **state)
+{
+    static const dem_index obstacle[7] = {0, 0, 0, 1, 1, 1, 1}, index[7] = {0, 1, 2, 0, 1, 2, 3};
+    static const dem_index before[7] = {-1, 0, 1, 6, 3, 4, 5}, after[7] = {1, 2, -1, 4, 5, 6, 3};
+    (void)state;
+    obstacle_set o = compile_both();
+    assert_int_equal(o.n, 2);
+    assert_int_equal(o.n_segments, 7);
+    for (int k = 0; k < 7; k++) {
+        const segment *s = &o.segments[k];
+        assert_int_equal(s->obstacle, obstacle[k]);
+        assert_int_equal(s->index, index[k]);
+        assert_int_equal(s->before, before[k]);
+        assert_int_equal(s->after, after[k]);
+        assert_close(s->restitution, obstacle[k] == 0 ? 0.25 : 0.5, 0.0);
+        assert_close(vec2_norm(vec2_sub(s->end, s->start)), s->length, 1e-15);
+        assert_close(vec2_dot(vec2_sub(s->end, s->start), s->tangent), s->length, 1e-15);
+        assert_close(vec2_cross(s->tangent, s->normal), 1.0, 1e-15); /* out of the solid is to the left */
+        assert_close(vec2_dot(s->tangent, s->normal), 0.0, 0.0);
+    }
+    assert_close(o.segments[1].normal.x, sqrt(0.5), 1e-15);
+    assert_close(o.segments[1].normal.y, sqrt(0.5), 1e-15);
+    obstacles_free(&o);
+    assert_null(o.segments);
+}
+
+static void the_set_keeps_copies_of_the_points(void **state)
+{
+    double points[4] = {0.0, 0.0, 1.0, 0.0};
+    (void)state;
+    obstacle_set o = compile(points, 2, 0.0);
+    points[1] = points[3] = 100.0;
+    assert_close(o.list[0].points[1], 0.0, 0.0);
+    assert_close(gap_at(&o, 0.5, 1.0).distance, 1.0, 0.0);
+    obstacles_free(&o);
+}
+
+static void a_line_there_and_back_is_no_ring(void **state)
+{
+    const double points[6] = {0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+    (void)state;
+    obstacle_set o = compile(points, 3, 0.0);
+    assert_int_equal(o.segments[0].before, -1);
+    assert_int_equal(o.segments[1].after, -1);
+    obstacles_free(&o);
+}
+
+/* ---- gap ---- */
+
+static void check_gap(const obstacle_set *o, double x, double y, double distance, dem_index nearest, double nx,
+                      double ny)
+{
+    const obstacle_gap gap = gap_at(o, x, y);
+    assert_close(gap.distance, distance, 1e-15);
+    assert_int_equal(gap.segment, nearest);
+    assert_close(gap.normal.x, nx, 1e-14);
+    assert_close(gap.normal.y, ny, 1e-14);
+}
+
+static void the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it(void **state)
+{
+    const double r = sqrt(0.5);
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    check_gap(&o, -1.0, 0.3, 0.3, 0, 0.0, 1.0);
+    check_gap(&o, -1.0, -0.3, -0.3, 0, 0.0, 1.0);
+    check_gap(&o, -1.0, 0.0, 0.0, 0, 0.0, 1.0);
+    check_gap(&o, 0.5 + 0.2, -0.5 + 0.2, 0.2 / r, 1, r, r);
+    check_gap(&o, 0.5 - 0.2, -0.5 - 0.2, -0.2 / r, 1, r, r);
+    check_gap(&o, 2.0, -1.5, -0.5, 2, 0.0, 1.0);
+    obstacles_free(&o);
+}
+
+/* Off the convex vertex (0, 0) the nearest point is the vertex, in front; behind the concave one (1, -1) likewise, inside. */
+static void at_a_vertex_the_distance_is_to_the_vertex(void **state)
+{
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    obstacle_gap gap = gap_at(&o, 0.3, 0.4);
+    assert_close(gap.distance, 0.5, 1e-15);
+    assert_close(gap.normal.x, 0.6, 1e-15);
+    assert_close(gap.normal.y, 0.8, 1e-15);
+    gap = gap_at(&o, 1.0 - 0.3, -1.0 - 0.4);
+    assert_close(gap.distance, -0.5, 1e-15);
+    assert_close(gap.normal.x, 0.6, 1e-14);
+    assert_close(gap.normal.y, 0.8, 1e-14);
+    obstacles_free(&o);
+}
+
+static void round_a_free_end_every_point_is_in_front(void **state)
+{
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    check_gap(&o, -2.3, 0.4, 0.5, 0, -0.6, 0.8);
+    check_gap(&o, -2.3, -0.4, 0.5, 0, -0.6, -0.8);
+    check_gap(&o, 3.4, -1.3, 0.5, 2, 0.8, -0.6);
+    check_gap(&o, 3.0 - 1e-9, -1.3, -0.3, 2, 0.0, 1.0);
+    obstacles_free(&o);
+}
+
+static void on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment(void **state)
+{
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    check_gap(&o, 0.0, 0.0, 0.0, 0, 0.0, 1.0);
+    obstacles_free(&o);
+}
+
+static void a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise(void **state)
+{
+    double vessel[10];
+    (void)state;
+    obstacle_set o = compile(block, 5, 0.0);
+    check_gap(&o, 5.5, 0.9, -0.1, 1, 0.0, 1.0);
+    check_gap(&o, 5.1, 0.5, -0.1, 0, -1.0, 0.0);
+    check_gap(&o, 5.5, -0.5, 0.5, 3, 0.0, -1.0);
+    assert_close(gap_at(&o, 4.7, -0.4).distance, 0.5, 1e-15); /* the corner where the ring closes */
+    obstacles_free(&o);
+    for (int k = 0; k < 5; k++) {
+        vessel[2 * k] = block[2 * (4 - k)];
+        vessel[2 * k + 1] = block[2 * (4 - k) + 1];
+    }
+    o = compile(vessel, 5, 0.0);
+    check_gap(&o, 5.5, 0.9, 0.1, 2, 0.0, -1.0);
+    assert_close(gap_at(&o, 4.7, -0.4).distance, -0.5, 1e-15);
+    obstacles_free(&o);
+}
+
+static void without_obstacles_the_gap_is_infinite(void **state)
+{
+    obstacle_set o;
+    (void)state;
+    assert_ok(obstacles_compile(&o, NULL, 0));
+    const obstacle_gap gap = gap_at(&o, 1.0, 2.0);
+    assert_true(gap.distance == (double)INFINITY);
+    assert_int_equal(gap.segment, -1);
+    obstacles_free(&o);
+}
+
+static void obstacles_can_be_left_out_or_asked_alone(void **state)
+{
+    const vec2 x = {4.5, -0.25}; /* 0.56 m from the block's corner, 1.68 m from the valley's end */
+    (void)state;
+    obstacle_set o = compile_both();
+    assert_int_equal(obstacles_gap(&o, x, -1, -1).segment, 3);
+    assert_int_equal(obstacles_gap(&o, x, 1, -1).segment, 2);
+    assert_int_equal(obstacles_gap(&o, x, -1, 1).segment, 2);
+    assert_int_equal(obstacles_gap(&o, x, 1, 0).segment, -1);
+    assert_close(obstacles_gap(&o, x, 1, -1).distance, hypot(1.5, 0.75), 1e-15);
+    assert_close(obstacles_gap_of(&o, x, 0).distance, hypot(1.5, 0.75), 1e-15);
+    assert_close(obstacles_gap_of(&o, x, 1).distance, hypot(0.5, 0.25), 1e-15);
+    obstacles_free(&o);
+}
+
+/* ---- properties over the plane ---- */
+
+/* A ring with spikes and bays, clockwise. */
+static const double star[26] = {0.0,  3.0,  0.3,  0.4,  2.0,  1.5,  1.0, 0.0,  2.5, -2.0, 0.2, -1.0, 0.0,
+                                -3.0, -0.5, -0.5, -2.5, -1.0, -1.0, 0.2, -3.0, 2.0, -0.6, 0.9, 0.0,  3.0};
+
+/* Distance to the points of all segments, each written as start + clamp(t) d. */
+static double distance_to_star(vec2 x)
+{
+    double nearest = (double)INFINITY;
+    for (int k = 0; k < 12; k++) {
+        const vec2 a = vec2_at(star, k), d = vec2_sub(vec2_at(star, k + 1), a);
+        const double t = fmin(1.0, fmax(0.0, vec2_dot(vec2_sub(x, a), d) / vec2_dot(d, d)));
+        nearest = fmin(nearest, vec2_norm(vec2_sub(x, vec2_along(a, t, d))));
+    }
+    return nearest;
+}
+
+/* Crossings of the ray to the right. */
+static int inside_star(vec2 x)
+{
+    int crossings = 0;
+    for (int k = 0; k < 12; k++) {
+        const vec2 a = vec2_at(star, k), b = vec2_at(star, k + 1);
+        if ((a.y > x.y) == (b.y > x.y)) continue;
+        crossings += a.x + (x.y - a.y) / (b.y - a.y) * (b.x - a.x) > x.x;
+    }
+    return crossings % 2;
+}
+
+static vec2 random_point(gsl_rng *rng)
+{
+    const double x = 8.0 * gsl_rng_uniform(rng) - 4.0;
+    return (vec2){x, 8.0 * gsl_rng_uniform(rng) - 4.0};
+}
+
+static void the_gap_is_the_distance_with_the_sign_of_the_side(void **state)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_inside = 0;
+    (void)state;
+    obstacle_set o = compile(star, 13, 0.0);
+    for (int k = 0; k < 20000; k++) {
+        const vec2 x = random_point(rng);
+        const int inside = inside_star(x);
+        n_inside += inside;
+        assert_close(gap_at(&o, x.x, x.y).distance, (inside ? -1.0 : 1.0) * distance_to_star(x), 1e-14);
+    }
+    assert_true(n_inside > 1000 && n_inside < 19000);
+    obstacles_free(&o);
+    gsl_rng_free(rng);
+}
+
+/* Central differences over 1e-6 m: curvature 1/distance < 1e3 away from vertices gives 1e-9, rounding 1e-15/1e-6. Where two
+ * features are equally near there is no gradient: such points are told by one-sided differences that disagree, and are few. */
+static void the_normal_is_the_gradient_of_the_gap(void **state)
+{
+    const double h = 1e-6;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_kinks = 0;
+    (void)state;
+    obstacle_set o = compile(star, 13, 0.0);
+    for (int k = 0; k < 5000; k++) {
+        const vec2 x = random_point(rng);
+        const obstacle_gap here = gap_at(&o, x.x, x.y);
+        const double right = gap_at(&o, x.x + h, x.y).distance, left = gap_at(&o, x.x - h, x.y).distance;
+        const double up = gap_at(&o, x.x, x.y + h).distance, down = gap_at(&o, x.x, x.y - h).distance;
+        const double bend = fabs(right + left - 2.0 * here.distance) + fabs(up + down - 2.0 * here.distance);
+        assert_close(vec2_norm(here.normal), 1.0, 1e-12);
+        n_kinks += bend > 1e-3 * h;
+        if (fabs(here.distance) < 1e-3 || bend > 1e-3 * h) continue;
+        assert_close((right - left) / (2.0 * h), here.normal.x, 1e-8);
+        assert_close((up - down) / (2.0 * h), here.normal.y, 1e-8);
+    }
+    assert_true(n_kinks < 50);
+    obstacles_free(&o);
+    gsl_rng_free(rng);
+}
+
+/* ---- touching ---- */
+
+static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends(void **state)
+{
+    const vec2 vertex = {0.0, 0.0}, on_one = {-1.0, 0.0005}, above = {-1.0, 0.002}, beyond = {-2.0005, 0.0},
+               further = {-2.002, 0.0};
+    dem_index hits[4] = {-1, -1, -1, -1};
+    (void)state;
+    obstacle_set o = compile_both();
+    assert_int_equal(obstacles_touching(&o, vertex, 1e-3, -1, hits, 4), 2);
+    assert_int_equal(hits[0], 0);
+    assert_int_equal(hits[1], 1);
+    assert_int_equal(obstacles_touching(&o, vertex, 1e-3, -1, hits, 1), 1);
+    assert_int_equal(obstacles_touching(&o, vertex, 1e-3, 0, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, on_one, 1e-3, -1, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, above, 1e-3, -1, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, beyond, 1e-3, -1, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, further, 1e-3, -1, hits, 4), 0);
+    obstacles_free(&o);
+}
+
+/* ---- bends ---- */
+
+static void check_bend(const obstacle_set *o, dem_index s, bool backwards, obstacle_bend bend, dem_index expected)
+{
+    dem_index beyond = 77;
+    assert_int_equal(obstacles_bend(o, s, backwards, &beyond), bend);
+    assert_int_equal(beyond, expected);
+}
+
+static void bends_are_told_from_both_sides_alike(void **state)
+{
+    (void)state;
+    obstacle_set o = compile_both();
+    check_bend(&o, 0, true, OBSTACLE_FREE_END, -1);
+    check_bend(&o, 0, false, OBSTACLE_CONVEX, 1);
+    check_bend(&o, 1, true, OBSTACLE_CONVEX, 0);
+    check_bend(&o, 1, false, OBSTACLE_CONCAVE, 2);
+    check_bend(&o, 2, true, OBSTACLE_CONCAVE, 1);
+    check_bend(&o, 2, false, OBSTACLE_FREE_END, -1);
+    check_bend(&o, 6, false, OBSTACLE_CONVEX, 3); /* where the ring closes */
+    check_bend(&o, 3, true, OBSTACLE_CONVEX, 6);
+    obstacles_free(&o);
+}
+
+/* Straight is a sine of the bend below 1e-9; a line that turns back is none, though its sine is 0. */
+static void a_bend_below_1e_9_is_straight_unless_the_line_turns_back(void **state)
+{
+    const double points[10] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.5e-9, 3.0, 3.0e-9, 4.0, 3.0e-9};
+    const double back[6] = {0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+    (void)state;
+    obstacle_set o = compile(points, 5, 0.0);
+    check_bend(&o, 0, false, OBSTACLE_STRAIGHT, 1);
+    check_bend(&o, 1, true, OBSTACLE_STRAIGHT, 0);
+    check_bend(&o, 1, false, OBSTACLE_CONCAVE, 2);
+    check_bend(&o, 2, false, OBSTACLE_CONVEX, 3);
+    obstacles_free(&o);
+    o = compile(back, 3, 0.0);
+    dem_index beyond;
+    assert_true(obstacles_bend(&o, 0, false, &beyond) != OBSTACLE_STRAIGHT);
+    obstacles_free(&o);
+}
+
+static void height_and_place_are_measured_from_the_start(void **state)
+{
+    const vec2 x = {0.5 + 0.1, -0.5 + 0.1};
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    assert_close(segment_place(&o.segments[1], x), sqrt(0.5), 1e-15);
+    assert_close(segment_height(&o.segments[1], x), 0.1 * sqrt(2.0), 1e-15);
+    obstacles_free(&o);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_obstacle_of_one_point_or_none_is_refused),
+        cmocka_unit_test(restitution_must_lie_between_0_and_1),
+        cmocka_unit_test(a_point_that_is_not_finite_is_named),
+        cmocka_unit_test(a_segment_without_length_is_named),
+        cmocka_unit_test(segments_are_numbered_obstacle_by_obstacle),
+        cmocka_unit_test(the_set_keeps_copies_of_the_points),
+        cmocka_unit_test(a_line_there_and_back_is_no_ring),
+        cmocka_unit_test(the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it),
+        cmocka_unit_test(at_a_vertex_the_distance_is_to_the_vertex),
+        cmocka_unit_test(round_a_free_end_every_point_is_in_front),
+        cmocka_unit_test(on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment),
+        cmocka_unit_test(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise),
+        cmocka_unit_test(without_obstacles_the_gap_is_infinite),
+        cmocka_unit_test(obstacles_can_be_left_out_or_asked_alone),
+        cmocka_unit_test(the_gap_is_the_distance_with_the_sign_of_the_side),
+        cmocka_unit_test(the_normal_is_the_gradient_of_the_gap),
+        cmocka_unit_test(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends),
+        cmocka_unit_test(bends_are_told_from_both_sides_alike),
+        cmocka_unit_test(a_bend_below_1e_9_is_straight_unless_the_line_turns_back),
+        cmocka_unit_test(height_and_place_are_measured_from_the_start),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
