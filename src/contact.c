@@ -18,6 +18,12 @@ typedef struct moment {
     const contact_listener *listener;
 } moment;
 
+/* The one or two segments that a node touches. */
+typedef struct meeting {
+    int n;
+    dem_index s[2];
+} meeting;
+
 static impact_surface surface_of(const contact *c, dem_index s)
 {
     return (impact_surface){scene_segment(&c->scene, s)->normal, scene_segment(&c->scene, s)->restitution};
@@ -35,25 +41,25 @@ static dem_contact describe(const contact *c, const contact_site *site, dem_inde
                          .normal = {seg->normal.x, seg->normal.y}};
 }
 
-static void close_on(contact *c, contact_site *site, const dem_index *s, int n)
+static void close_on(contact *c, contact_site *site, meeting on)
 {
-    site->n_closed = n;
-    for (int k = 0; k < n; k++) {
-        site->segments[k] = s[k];
-        site->closed[k] = describe(c, site, s[k]);
-        site->closed[k].state = n == 2 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
+    site->n_closed = on.n;
+    for (int k = 0; k < on.n; k++) {
+        site->segments[k] = on.s[k];
+        site->closed[k] = describe(c, site, on.s[k]);
+        site->closed[k].state = on.n == 2 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
     }
 }
 
 /* Moves the node on to one segment's line, or to where two lines meet; books the energy that this puts in. */
-static void project(contact *c, const contact_site *site, const dem_index *s, int n, moment *now)
+static void project(contact *c, const contact_site *site, meeting with, moment *now)
 {
     const dem_index i = site->node;
-    const segment *a = scene_segment(&c->scene, s[0]);
+    const segment *a = scene_segment(&c->scene, with.s[0]);
     const vec2 x = vec2_at(now->x, i);
     vec2 shift = vec2_scale(-segment_height(a, x), a->normal);
-    if (n == 2) {
-        const segment *b = scene_segment(&c->scene, s[1]); /* n0.shift = -h0 and n1.shift = -h1 */
+    if (with.n == 2) {
+        const segment *b = scene_segment(&c->scene, with.s[1]); /* n0.shift = -h0 and n1.shift = -h1 */
         const double h0 = segment_height(a, x), h1 = segment_height(b, x), d = vec2_cross(a->tangent, b->tangent);
         shift = vec2_scale(1.0 / d, vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
     }
@@ -71,24 +77,24 @@ static double resting_speed(const contact *c, vec2 x, double a_n)
     return sqrt(2.0 * a_n * fmax(c->scene.rule.position_error, rounding));
 }
 
-/* Of the surfaces touched, those on which the node comes to rest and that push it; their number into held[]. */
-static int lasting(const contact *c, const dem_index *s, int n, vec2 x, vec2 v, vec2 a, dem_index held[2])
+/* Of the surfaces touched, those on which a node with velocity v comes to rest and which push it. */
+static meeting lasting(const contact *c, const contact_site *site, meeting with, vec2 v, const double *x)
 {
-    impact_surface slow[2];
-    dem_index which[2];
-    int n_slow = 0, n_held = 0;
-    for (int k = 0; k < n; k++) {
-        const vec2 normal = scene_segment(&c->scene, s[k])->normal;
-        const double a_n = -vec2_dot(a, normal);
-        if (vec2_dot(v, normal) > resting_speed(c, x, fmax(a_n, 0.0))) continue;
-        which[n_slow] = s[k];
-        slow[n_slow++] = surface_of(c, s[k]);
-    }
+    const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, site->node, x);
+    impact_surface surface[2];
+    meeting slow = {0}, held = {0};
     double reaction[2];
-    const int holding = n_slow > 0 ? impact_holding(slow, n_slow, a, reaction) : 0;
-    for (int k = 0; k < n_slow; k++)
-        if (holding & (1 << k)) held[n_held++] = which[k];
-    return n_held;
+    for (int k = 0; k < with.n; k++) {
+        const vec2 normal = scene_segment(&c->scene, with.s[k])->normal;
+        const double a_n = fmax(-vec2_dot(a, normal), 0.0);
+        if (vec2_dot(v, normal) > resting_speed(c, vec2_at(x, site->node), a_n)) continue;
+        surface[slow.n] = surface_of(c, with.s[k]);
+        slow.s[slow.n++] = with.s[k];
+    }
+    const int holding = slow.n > 0 ? impact_holding(surface, slow.n, a, reaction) : 0;
+    for (int k = 0; k < slow.n; k++)
+        if (holding & (1 << k)) held.s[held.n++] = slow.s[k];
+    return held;
 }
 
 static vec2 without_normals(const contact *c, const contact_site *site, vec2 v)
@@ -99,17 +105,17 @@ static vec2 without_normals(const contact *c, const contact_site *site, vec2 v)
     return vec2_along(v, -vec2_dot(v, n), n);
 }
 
-/* Gives every obstacle its part of an impulse that acts along the normals of s. */
-static void book_impulse(contact *c, const dem_index *s, int n, vec2 impulse)
+/* Gives every obstacle its part of an impulse that acts along the normals. */
+static void book_impulse(contact *c, meeting with, vec2 impulse)
 {
     double parts[2] = {0.0, 0.0};
-    const vec2 n0 = scene_segment(&c->scene, s[0])->normal;
-    if (n == 2)
-        vec2_parts(impulse, n0, scene_segment(&c->scene, s[1])->normal, parts);
+    const vec2 n0 = scene_segment(&c->scene, with.s[0])->normal;
+    if (with.n == 2)
+        vec2_parts(impulse, n0, scene_segment(&c->scene, with.s[1])->normal, parts);
     else
         parts[0] = vec2_dot(impulse, n0);
-    for (int k = 0; k < n; k++) {
-        const segment *seg = scene_segment(&c->scene, s[k]);
+    for (int k = 0; k < with.n; k++) {
+        const segment *seg = scene_segment(&c->scene, with.s[k]);
         c->impulse[2 * seg->obstacle] += parts[k] * seg->normal.x;
         c->impulse[2 * seg->obstacle + 1] += parts[k] * seg->normal.y;
     }
@@ -136,36 +142,31 @@ static dem_status report(const contact *c, const contact_site *site, dem_index s
 }
 
 /* Books what the node's change of velocity means: energy taken, impulse given; tells the listener. */
-static dem_status book_impact(contact *c, const contact_site *site, const dem_index *s, int n, vec2 before,
-                              const moment *now)
+static dem_status book_impact(contact *c, const contact_site *site, meeting with, vec2 before, const moment *now)
 {
     const vec2 after = vec2_at(now->v, site->node);
     const double m = c->scene.model->lattice.mass[site->node];
     if (after.x == before.x && after.y == before.y) return DEM_OK;
     c->counts.impacts++;
     c->impact_energy += 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after));
-    book_impulse(c, s, n, vec2_scale(m, vec2_sub(after, before)));
-    return report(c, site, s[0], before, now);
+    book_impulse(c, with, vec2_scale(m, vec2_sub(after, before)));
+    return report(c, site, with.s[0], before, now);
 }
 
-/* The node meets one or two segments: projection, rebound, and which contacts last. s[0] is the one approached faster. */
-static dem_status strike(contact *c, contact_site *site, const dem_index *s, int n, moment *now)
+/* The node strikes one or two segments, the one approached faster first: projection, rebound, and which contacts last. */
+static dem_status strike(contact *c, contact_site *site, meeting with, moment *now)
 {
-    const dem_index i = site->node;
-    const vec2 before = vec2_at(now->v, i);
+    const vec2 before = vec2_at(now->v, site->node);
     const int was_closed = site->n_closed;
     impact_surface surface[2];
-    dem_index held[2];
-    for (int k = 0; k < n; k++) surface[k] = surface_of(c, s[k]);
-    project(c, site, s, n, now);
-    const vec2 after = impact_rebound(surface, n, before);
-    const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, i, now->x);
-    const int n_held = lasting(c, s, n, vec2_at(now->x, i), after, a, held);
-    close_on(c, site, held, n_held);
-    vec2_put(now->v, i, without_normals(c, site, after));
-    c->counts.closings += n_held > was_closed;
-    c->counts.releases += n_held < was_closed;
-    return book_impact(c, site, s, n, before, now);
+    for (int k = 0; k < with.n; k++) surface[k] = surface_of(c, with.s[k]);
+    project(c, site, with, now);
+    const vec2 after = impact_rebound(surface, with.n, before);
+    close_on(c, site, lasting(c, site, with, after, now->x));
+    vec2_put(now->v, site->node, without_normals(c, site, after));
+    c->counts.closings += site->n_closed > was_closed;
+    c->counts.releases += site->n_closed < was_closed;
+    return book_impact(c, site, with, before, now);
 }
 
 /* ---- which reset is due ---- */
@@ -198,35 +199,37 @@ static bool corner(const contact *c, dem_index s, dem_index other)
     return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
 }
 
-/* The one or two segments that a touching node meets, the one approached faster first. */
-static int met(const contact *c, const contact_site *site, const moment *now, dem_index out[2])
+static double approach(const contact *c, dem_index s, vec2 v)
+{
+    return -vec2_dot(v, scene_segment(&c->scene, s)->normal);
+}
+
+/* What a touching node meets: the segment approached fastest, and a second one that forms a corner with it. */
+static meeting met(const contact *c, const contact_site *site, const moment *now)
 {
     enum { capacity = 8 };
     dem_index hits[capacity];
-    int n_met = 0;
+    meeting out = {0};
     const vec2 x = vec2_at(now->x, site->node), v = vec2_at(now->v, site->node);
-    const int n =
-        obstacles_touching(&c->scene.model->obstacles, x, contact_depth(c, site, now), site->behind, hits, capacity);
+    const obstacle_set *obstacles = &c->scene.model->obstacles;
+    const int n = obstacles_touching(obstacles, x, contact_depth(c, site, now), site->behind, hits, capacity);
     for (int k = 0; k < n; k++) {
         bool meets = true;
         for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[k], hits[q], v);
         if (!meets) continue;
-        const double speed = vec2_dot(v, scene_segment(&c->scene, hits[k])->normal);
-        const bool faster = n_met > 0 && speed < vec2_dot(v, scene_segment(&c->scene, out[0])->normal);
-        if (n_met == 0 || faster) {
-            if (n_met > 0) out[1] = out[0];
-            out[0] = hits[k];
-        } else if (n_met == 1 || speed < vec2_dot(v, scene_segment(&c->scene, out[1])->normal)) {
-            out[1] = hits[k];
-        }
-        n_met = n_met < 2 ? n_met + 1 : 2;
+        const int place = out.n > 0 && approach(c, hits[k], v) <= approach(c, out.s[0], v) ? 1 : 0;
+        if (place == 1 && out.n == 2 && approach(c, hits[k], v) <= approach(c, out.s[1], v)) continue;
+        if (place == 0) out.s[1] = out.s[0];
+        out.s[place] = hits[k];
+        out.n = out.n < 2 ? out.n + 1 : 2;
     }
-    return n_met == 2 && !corner(c, out[0], out[1]) ? 1 : n_met;
+    if (out.n == 2 && !corner(c, out.s[0], out.s[1])) out.n = 1;
+    return out;
 }
 
-static void release(contact *c, contact_site *site, const dem_index *kept, int n)
+static void release(contact *c, contact_site *site, meeting kept)
 {
-    close_on(c, site, kept, n);
+    close_on(c, site, kept);
     c->counts.releases++;
 }
 
@@ -252,26 +255,26 @@ static dem_status settle_free(contact *c, contact_site *site, moment *now, bool 
     const obstacle_gap gap = site_free_gap(&c->scene, site, vec2_at(now->x, site->node));
     if (gap.distance > -touch_share * c->scene.rule.skin) return DEM_OK;
     *changed = true;
-    dem_index s[2];
-    const int n = gap.distance >= -contact_depth(c, site, now) ? met(c, site, now, s) : 0;
-    if (n > 0) return strike(c, site, s, n, now);
+    const meeting with = gap.distance >= -contact_depth(c, site, now) ? met(c, site, now) : (meeting){0};
+    if (with.n > 0) return strike(c, site, with, now);
     return go_behind(c, site, gap, now);
 }
 
 /* A sliding node at the end of its segment: falls free, glides on, or runs into the next segment. */
 static dem_status pass(contact *c, contact_site *site, bool backwards, moment *now)
 {
-    dem_index s[2] = {site->segments[0], -1};
-    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, s[0], backwards, &s[1]);
+    meeting ends = {2, {site->segments[0], -1}}, next = {.n = 1};
+    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, ends.s[0], backwards, &ends.s[1]);
     c->counts.passings++;
-    if (bend == OBSTACLE_CONCAVE) return strike(c, site, s, 2, now);
+    if (bend == OBSTACLE_CONCAVE) return strike(c, site, ends, now);
     if (bend == OBSTACLE_STRAIGHT) {
-        close_on(c, site, &s[1], 1);
-        project(c, site, &s[1], 1, now);
+        next.s[0] = ends.s[1];
+        close_on(c, site, next);
+        project(c, site, next, now);
         vec2_put(now->v, site->node, without_normals(c, site, vec2_at(now->v, site->node)));
         return DEM_OK;
     }
-    release(c, site, NULL, 0);
+    release(c, site, (meeting){0});
     return DEM_OK;
 }
 
@@ -282,7 +285,7 @@ static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bo
     const vec2 x = vec2_at(now->x, site->node), f = site_force(&c->scene, site, now->x);
     *changed = true;
     if (vec2_dot(f, seg->normal) >= 0.0) {
-        release(c, site, NULL, 0);
+        release(c, site, (meeting){0});
         return DEM_OK;
     }
     const int passed = site_end_passed(&c->scene, site, now->x, now->v);
@@ -290,8 +293,8 @@ static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bo
     const obstacle_gap other = site_other_gap(&c->scene, site, x);
     if (other.distance < -contact_depth(c, site, now)) return go_behind(c, site, other, now);
     if (other.distance <= -touch_share * c->scene.rule.skin) {
-        const dem_index s[2] = {other.segment, site->segments[0]};
-        return strike(c, site, s, corner(c, s[0], s[1]) ? 2 : 1, now);
+        const bool both = corner(c, other.segment, site->segments[0]);
+        return strike(c, site, (meeting){both ? 2 : 1, {other.segment, site->segments[0]}}, now);
     }
     *changed = false;
     return DEM_OK;
@@ -300,13 +303,14 @@ static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bo
 /* Held node: a reaction that pulls lets go; what is left then slides or is released in its turn. */
 static void settle_held(contact *c, contact_site *site, const moment *now, bool *changed)
 {
-    const dem_index s[2] = {site->segments[0], site->segments[1]};
+    meeting kept = {0};
     double reaction[2];
     site_reactions(&c->scene, site, now->x, reaction);
-    if (reaction[0] > 0.0 && reaction[1] > 0.0) return;
+    for (int k = 0; k < 2; k++)
+        if (reaction[k] > 0.0) kept.s[kept.n++] = site->segments[k];
+    if (kept.n == 2) return;
     *changed = true;
-    const bool first = reaction[0] > 0.0, second = reaction[1] > 0.0;
-    release(c, site, first ? &s[0] : &s[1], first || second ? 1 : 0);
+    release(c, site, kept);
 }
 
 static dem_status settle(contact *c, contact_site *site, moment *now, bool *changed)
@@ -426,9 +430,8 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
     for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
         contact_site *site = &c->sites[k];
         if (site_free_gap(&c->scene, site, vec2_at(now.x, site->node)).distance > 0.0) continue;
-        dem_index s[2];
-        const int n = met(c, site, &now, s);
-        if (n > 0) TRY(strike(c, site, s, n, &now));
+        const meeting with = met(c, site, &now);
+        if (with.n > 0) TRY(strike(c, site, with, &now));
     }
     return contact_resolve(c, t, y, listener);
 }

@@ -40,8 +40,8 @@ static void measure_triangles(const dem_model *model, const double *x, dem_strai
     const dem_lattice *l = &model->lattice;
     for (dem_index k = 0; k < l->n_triangles; k++) {
         const dem_index *c = &l->triangles[3 * k];
-        const double rest = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
-        const double ratio = triangles_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest;
+        const double rest_area = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double ratio = triangles_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
         strain->area_min = fmin(strain->area_min, ratio);
         strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
     }

@@ -101,17 +101,23 @@ static hid_t open_group(const hdf5_file *file, const char *name)
     return made;
 }
 
-static dem_status write_attribute(const hdf5_file *file, const char *object, const char *name, hid_t stored,
-                                  hid_t given, hsize_t count, const void *data)
+typedef struct attribute_form {
+    const char *name;
+    hid_t stored, given; /* types in the file and in memory */
+    hsize_t count;
+} attribute_form;
+
+static dem_status write_attribute(const hdf5_file *file, const char *object, attribute_form a, const void *data)
 {
     dem_status status = DEM_OK;
     const hid_t group = open_group(file, object);
-    const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
-    hid_t attribute = H5Aexists(group, name) > 0 ? H5Aopen(group, name, H5P_DEFAULT)
-                                                 : H5Acreate2(group, name, stored, space, H5P_DEFAULT, H5P_DEFAULT);
-    if (attribute < 0 || H5Awrite(attribute, given, data) < 0)
+    const hid_t space = a.count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &a.count, NULL);
+    const hid_t made = H5Aexists(group, a.name) > 0
+                           ? H5Aopen(group, a.name, H5P_DEFAULT)
+                           : H5Acreate2(group, a.name, a.stored, space, H5P_DEFAULT, H5P_DEFAULT);
+    if (made < 0 || H5Awrite(made, a.given, data) < 0)
         status = hdf5_fail(file, object, "an attribute cannot be written");
-    if (attribute >= 0) (void)H5Aclose(attribute);
+    if (made >= 0) (void)H5Aclose(made);
     (void)H5Sclose(space);
     if (group >= 0) (void)H5Oclose(group);
     return status;
@@ -344,13 +350,13 @@ dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, cons
 dem_status hdf5_write_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
                                 hsize_t count, const void *data)
 {
-    return write_attribute(file, object, name, file_type(kind), hdf5_memory_type(kind), count, data);
+    return write_attribute(file, object, (attribute_form){name, file_type(kind), hdf5_memory_type(kind), count}, data);
 }
 
 dem_status hdf5_write_attribute_text(const hdf5_file *file, const char *object, const char *name, const char *text)
 {
     const hid_t type = make_string(text, H5T_CSET_ASCII);
-    const dem_status status = write_attribute(file, object, name, type, type, 1, text);
+    const dem_status status = write_attribute(file, object, (attribute_form){name, type, type, 1}, text);
     (void)H5Tclose(type);
     return status;
 }

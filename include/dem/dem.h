@@ -35,13 +35,13 @@ typedef int64_t dem_index;
 
 typedef enum dem_status {
     DEM_OK = 0,
-    DEM_STOPPED = 1,           /**< an observer asked to stop; the state is valid                  */
-    DEM_ERROR_MEMORY = -1,     /**< an allocation failed                                            */
-    DEM_ERROR_ARGUMENT = -2,   /**< a NULL, an unknown enum value, a number outside its range       */
-    DEM_ERROR_MODEL = -3,      /**< unphysical or inconsistent: mass <= 0, spring without length    */
-    DEM_ERROR_INTEGRATOR = -4, /**< the tolerance cannot be met; the state is the last good one     */
-    DEM_ERROR_CONTACT = -5,    /**< impacts accumulate faster than time advances                    */
-    DEM_ERROR_IO = -6          /**< a file cannot be read or written                                */
+    DEM_STOPPED = 1,           /**< an observer asked to stop; the state is valid */
+    DEM_ERROR_MEMORY = -1,     /**< an allocation failed */
+    DEM_ERROR_ARGUMENT = -2,   /**< a NULL, an unknown enum value, a number outside its range */
+    DEM_ERROR_MODEL = -3,      /**< unphysical or inconsistent: mass <= 0, spring without length */
+    DEM_ERROR_INTEGRATOR = -4, /**< the tolerance cannot be met; the state is the last good one */
+    DEM_ERROR_CONTACT = -5,    /**< impacts accumulate faster than time advances */
+    DEM_ERROR_IO = -6          /**< a file cannot be read or written */
 } dem_status;
 
 /** Text of the last failure in this thread; valid until the next failing call. Never NULL. */
@@ -57,37 +57,37 @@ DEM_API const char *dem_version_sundials(void);
 
 /** An isotropic plate in plane stress. */
 typedef struct dem_material {
-    double youngs_modulus; /**< E, Pa, > 0                                                          */
-    double density;        /**< rho, kg/m^3, > 0                                                    */
-    double thickness;      /**< h, m, > 0                                                           */
-    double guard;          /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02  */
+    double youngs_modulus; /**< E, Pa, > 0 */
+    double density;        /**< rho, kg/m^3, > 0 */
+    double thickness;      /**< h, m, > 0 */
+    double guard;          /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
 } dem_material;
 
 enum {
-    DEM_NODE_FIXED = 1,  /**< never moves                                                           */
-    DEM_NODE_CONTACT = 2 /**< may touch obstacles                                                   */
+    DEM_NODE_FIXED = 1,  /**< never moves */
+    DEM_NODE_CONTACT = 2 /**< may touch obstacles */
 };
 
 /** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
  *  comes from malloc; dem_lattice_free() frees them all. */
 typedef struct dem_lattice {
-    size_t struct_size;    /**< set by dem_lattice_init()                                           */
-    int dim;               /**< 2; 3 is reserved                                                    */
-    dem_index n_nodes;     /**< > 0                                                                 */
-    dem_index n_springs;   /**< >= 0                                                                */
-    dem_index n_triangles; /**< >= 0                                                                */
-    double *x;             /**< [n_nodes][2]     rest position, m                                   */
-    double *mass;          /**< [n_nodes]        m_i > 0, kg                                        */
-    dem_index *ends;       /**< [n_springs][2]   the two nodes, distinct                            */
+    size_t struct_size;    /**< set by dem_lattice_init() */
+    int dim;               /**< 2; 3 is reserved */
+    dem_index n_nodes;     /**< > 0 */
+    dem_index n_springs;   /**< >= 0 */
+    dem_index n_triangles; /**< >= 0 */
+    double *x;             /**< [n_nodes][2]     rest position, m */
+    double *mass;          /**< [n_nodes]        m_i > 0, kg */
+    dem_index *ends;       /**< [n_springs][2]   the two nodes, distinct */
     double *rest_length;   /**< [n_springs]      d0_ij > 0, m                                   (1) */
     double *stiffness;     /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
-    dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none                      */
-    double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none               */
+    dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none */
+    double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
     unsigned char *flags;  /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
-                                the triangulation, on every node where there are no triangles       */
-    int32_t *body;         /**< [n_nodes]        body number from 0; NULL: one body                 */
-    double *position;      /**< [n_nodes][2]     where the motion starts, m; NULL: at x             */
-    double *velocity;      /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest            */
+                                the triangulation, on every node where there are no triangles */
+    int32_t *body;         /**< [n_nodes]        body number from 0; NULL: one body */
+    double *position;      /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
+    double *velocity;      /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
 } dem_lattice;
 
 /** An empty lattice: no nodes, all arrays NULL. */
@@ -138,17 +138,17 @@ DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *o
 /** A fixed polyline; bodies live on the left of each segment, the solid is on its right. Closed if the last point is
  *  the first. The ends of an open one are free: what has passed round an end may come back from behind, unhindered. */
 typedef struct dem_obstacle {
-    dem_index n_points;   /**< >= 2                                                                 */
-    const double *points; /**< [n_points][2], m; consecutive points distinct                        */
+    dem_index n_points;   /**< >= 2 */
+    const double *points; /**< [n_points][2], m; consecutive points distinct */
     double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
 } dem_obstacle;
 
 /** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
 typedef struct dem_csr {
     dem_index n_nodes;
-    const dem_index *row;       /**< [n_nodes + 1]   slots row[i] .. row[i+1]-1 belong to node i         */
-    const dem_index *neighbour; /**< [row[n_nodes]]  node j                                              */
-    const dem_index *spring;    /**< [row[n_nodes]]  index of the spring in the lattice                  */
+    const dem_index *row;       /**< [n_nodes + 1]   slots row[i] .. row[i+1]-1 belong to node i */
+    const dem_index *neighbour; /**< [row[n_nodes]]  node j */
+    const dem_index *spring;    /**< [row[n_nodes]]  index of the spring in the lattice */
     const double *stiffness;    /**< [row[n_nodes]]  E_ij, N                                         (1) */
     const double *rest_length;  /**< [row[n_nodes]]  d0_ij, m                                        (1) */
 } dem_csr;
@@ -173,7 +173,7 @@ DEM_API const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_inde
 
 typedef struct dem_model_size {
     dem_index n_nodes, n_springs, n_triangles, n_bodies;
-    dem_index n_contact_nodes; /**< nodes that may touch                                                 */
+    dem_index n_contact_nodes; /**< nodes that may touch */
     dem_index n_obstacles, n_segments;
 } dem_model_size;
 
@@ -204,19 +204,19 @@ typedef enum dem_method {
 } dem_method;
 
 typedef struct dem_options {
-    size_t struct_size;   /**< set by dem_options_default()                                                  */
-    dem_method method;    /**< default DEM_METHOD_FEHLBERG45                                                 */
-    double gravity[2];    /**< m/s^2, default {0, -9.81}                                                 (2) */
-    double rtol;          /**< default 1e-6: error of a position over spacing, of a velocity over v_scale    */
-    double spacing;       /**< m, default 0: shortest rest length; required for a model without springs      */
-    double v_scale;       /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed    */
-    double max_step;      /**< s, default 0: 0.5/omega_max; required for a model without springs             */
-    double fixed_step;    /**< s, default 0: adaptive; > 0: steps of this length, no error control           */
-    double skin;          /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
-                               by skin/|v_n|, and the node put back on the surface                           */
-    double rest_speed;    /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
-                               becomes a lasting contact                                                     */
-    dem_index max_impacts; /**< default 10000: impacts of one node within 1/omega_max that count as a storm  */
+    size_t struct_size;    /**< set by dem_options_default() */
+    dem_method method;     /**< default DEM_METHOD_FEHLBERG45 */
+    double gravity[2];     /**< m/s^2, default {0, -9.81}                                                 (2) */
+    double rtol;           /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */
+    double spacing;        /**< m, default 0: shortest rest length; required for a model without springs */
+    double v_scale;        /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed */
+    double max_step;       /**< s, default 0: 0.5/omega_max; required for a model without springs */
+    double fixed_step;     /**< s, default 0: adaptive; > 0: steps of this length, no error control */
+    double skin;           /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
+                               by skin/|v_n|, and the node put back on the surface */
+    double rest_speed;     /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
+                               becomes a lasting contact */
+    dem_index max_impacts; /**< default 10000: impacts of one node within 1/omega_max that count as a storm */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -234,83 +234,83 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
 typedef struct dem_energy {
     double kinetic;
     double elastic;    /**< of the springs                                                               (1) */
-    double guard;      /**< of the folding guard                                                             */
+    double guard;      /**< of the folding guard */
     double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
     double impact;     /**< taken by impacts so far, >= 0                                                (9) */
-    double projection; /**< put in by returning nodes from the skin to the surface so far                    */
+    double projection; /**< put in by returning nodes from the skin to the surface so far */
 } dem_energy;
 
 /** A lasting contact: a weighted combination of nodes held on a segment. Node against segment is one node of weight 1. */
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
 
 typedef struct dem_contact {
-    int32_t n_nodes;         /**< 1 to 4                                                                     */
+    int32_t n_nodes; /**< 1 to 4 */
     dem_contact_state state;
     dem_index nodes[4];
-    double weights[4];       /**< sum 1                                                                      */
-    dem_index obstacle;      /**< index of the obstacle                                                      */
-    dem_index segment;       /**< index of the segment within it                                             */
-    double normal[2];        /**< unit, out of the obstacle                                                  */
-    double force;            /**< N, reaction along the normal at the last accepted step, >= 0               */
+    double weights[4];  /**< sum 1 */
+    dem_index obstacle; /**< index of the obstacle */
+    dem_index segment;  /**< index of the segment within it */
+    double normal[2];   /**< unit, out of the obstacle */
+    double force;       /**< N, reaction along the normal at the last accepted step, >= 0 */
 } dem_contact;
 
 /** What an impact did. */
 typedef struct dem_impact {
-    double t;            /**< s                                                                              */
+    double t; /**< s */
     dem_index node;
     dem_index obstacle, segment;
-    double x[2];         /**< m, place on the surface                                                        */
-    double normal[2];    /**< unit, out of the obstacle; in a corner that of the faster approached segment   */
-    double impulse[2];   /**< N s, given to the node                                                         */
-    double before[2], after[2]; /**< m/s                                                                     */
-    int32_t closed;      /**< 1 if the contact lasts                                                         */
+    double x[2];                /**< m, place on the surface */
+    double normal[2];           /**< unit, out of the obstacle; in a corner that of the faster approached segment */
+    double impulse[2];          /**< N s, given to the node */
+    double before[2], after[2]; /**< m/s */
+    int32_t closed;             /**< 1 if the contact lasts */
 } dem_impact;
 
 /** All a simulation remembers of the motion; arrays are views, valid until its next non-const call. */
 typedef struct dem_state {
     size_t struct_size;
-    double t;                    /**< s                                                                      */
-    double step;                 /**< s, length of the last accepted step                                    */
-    const double *x, *v;         /**< [n_nodes][2] m, m/s                                                    */
+    double t;            /**< s */
+    double step;         /**< s, length of the last accepted step */
+    const double *x, *v; /**< [n_nodes][2] m, m/s */
     dem_index n_contacts;
-    const dem_contact *contacts; /**< [n_contacts] closed now                                                */
+    const dem_contact *contacts; /**< [n_contacts] closed now */
     dem_energy energy;
 } dem_state;
 
 /** Mean motion of a body. */
 typedef struct dem_body_motion {
-    double mass;             /**< kg                                                                         */
-    double centre[2];        /**< centre of mass, m                                                          */
-    double velocity[2];      /**< of the centre of mass, m/s                                                 */
-    double angular_momentum; /**< about the centre of mass, kg m^2/s                                         */
+    double mass;             /**< kg */
+    double centre[2];        /**< centre of mass, m */
+    double velocity[2];      /**< of the centre of mass, m/s */
+    double angular_momentum; /**< about the centre of mass, kg m^2/s */
 } dem_body_motion;
 
 /** What an obstacle feels. */
 typedef struct dem_obstacle_load {
-    double reaction[2]; /**< N, instantaneous sum over its lasting contacts, as it acts on the bodies        */
-    double impulse[2];  /**< N s, given to the bodies so far: impacts plus time integral of the reaction     */
-    dem_index contacts; /**< closed now                                                                      */
+    double reaction[2]; /**< N, instantaneous sum over its lasting contacts, as it acts on the bodies */
+    double impulse[2];  /**< N s, given to the bodies so far: impacts plus time integral of the reaction */
+    dem_index contacts; /**< closed now */
 } dem_obstacle_load;
 
 typedef struct dem_counts {
-    dem_index steps;        /**< accepted by the integrator                                                  */
-    dem_index rejected;     /**< by its error test                                                           */
-    dem_index evaluations;  /**< of the right-hand side (4)                                                  */
-    dem_index events;       /**< stops at contact events                                                     */
-    dem_index impacts;      /**< of single nodes                                                             */
-    dem_index closings, releases; /**< contacts that began and ceased to last                                */
-    dem_index passings;     /**< of a segment's end by a lasting contact                                     */
-    dem_index late;         /**< contact events that the root finder had not seen, found by the check after each step */
-    dem_index retries;      /**< attempts repeated with a smaller step after a non-finite force              */
-    dem_index behind;       /**< nodes that have passed round the end of an open obstacle, now               */
+    dem_index steps;              /**< accepted by the integrator */
+    dem_index rejected;           /**< by its error test */
+    dem_index evaluations;        /**< of the right-hand side (4) */
+    dem_index events;             /**< stops at contact events */
+    dem_index impacts;            /**< of single nodes */
+    dem_index closings, releases; /**< contacts that began and ceased to last */
+    dem_index passings;           /**< of a segment's end by a lasting contact */
+    dem_index late;    /**< contact events that the root finder had not seen, found by the check after each step */
+    dem_index retries; /**< attempts repeated with a smaller step after a non-finite force */
+    dem_index behind;  /**< nodes that have passed round the end of an open obstacle, now */
 } dem_counts;
 
 /** Extremes over the springs and triangles, at one instant. */
 typedef struct dem_strain {
-    double min, max;               /**< (d - d0)/d0                                                          */
-    dem_index spring_min, spring_max; /**< where; -1 without springs                                         */
-    double area_min;               /**< smallest area over rest area; 1 without triangles, < 0: inverted     */
-    dem_index guarded;             /**< triangles on which the guard acts                                    */
+    double min, max;                  /**< (d - d0)/d0 */
+    dem_index spring_min, spring_max; /**< where; -1 without springs */
+    double area_min;                  /**< smallest area over rest area; 1 without triangles, < 0: inverted */
+    dem_index guarded;                /**< triangles on which the guard acts */
 } dem_strain;
 
 typedef struct dem_simulation dem_simulation;
@@ -352,9 +352,9 @@ DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
 /** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK
  *  ends the advance and is returned by it. */
 typedef struct dem_observer {
-    double interval; /**< s between frames, the first at t = 0; <= 0: no frames                          */
-    dem_status (*frame)(void *context, const dem_simulation *simulation);  /**< state interpolated to the frame   */
-    dem_status (*step)(void *context, const dem_simulation *simulation);   /**< after every accepted step and at t = 0 */
+    double interval; /**< s between frames, the first at t = 0; <= 0: no frames */
+    dem_status (*frame)(void *context, const dem_simulation *simulation); /**< state interpolated to the frame */
+    dem_status (*step)(void *context, const dem_simulation *simulation);  /**< after every accepted step and at t = 0 */
     dem_status (*impact)(void *context, const dem_simulation *simulation, const dem_impact *impact);
     void *context;
 } dem_observer;

@@ -15,10 +15,10 @@ extern "C" {
 typedef struct dem_trajectory dem_trajectory;
 
 typedef struct dem_trajectory_options {
-    size_t struct_size;    /**< set by dem_trajectory_options_default()                                       */
-    double frame_interval; /**< s between frames; <= 0: none, only the history                                */
-    int double_precision;  /**< 0: displacement, velocity, strain, force in single precision; 1: in double    */
-    int deflate;           /**< compression 0 (none) to 9; default 1                                          */
+    size_t struct_size;    /**< set by dem_trajectory_options_default() */
+    double frame_interval; /**< s between frames; <= 0: none, only the history */
+    int double_precision;  /**< 0: displacement, velocity, strain, force in single precision; 1: in double */
+    int deflate;           /**< compression 0 (none) to 9; default 1 */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

@@ -41,8 +41,8 @@ def bits(values):
     """A row of bytes for each number, so that NaN equals itself and -0 is not 0."""
     flat = np.ascontiguousarray(values).reshape(-1)
     if flat.dtype.hasobject:  # strings of any length
-        return np.array([[hash(repr(value))] for value in flat])
-    return flat.view(np.uint8).reshape(flat.size, -1)
+        return np.array([hash(repr(value)) for value in flat], dtype=np.int64).reshape(flat.size, 1)
+    return flat.view(np.uint8).reshape(flat.size, flat.itemsize)
 
 
 def compare_values(what, a, b):
@@ -57,9 +57,10 @@ def compare_values(what, a, b):
     left, right = value_of(a), value_of(b)
     differ = np.flatnonzero((bits(left) != bits(right)).any(axis=1))
     if differ.size > 0:
-        at = tuple(int(k) for k in np.unravel_index(differ[0], left.shape))
-        yield (f"{what}: {differ.size} of {left.size} values differ, first at {list(at)}: "
-               f"{left[at].item()!r} and {right[at].item()!r}")
+        first = differ[0]
+        at = [int(k) for k in np.unravel_index(first, left.shape)]
+        yield (f"{what}: {differ.size} of {left.size} values differ, first at {at}: "
+               f"{left.reshape(-1).tolist()[first]!r} and {right.reshape(-1).tolist()[first]!r}")
 
 
 def compare_names(what, a, b, paths):
@@ -90,6 +91,8 @@ def main(arguments):
         with h5py.File(arguments[0], "r") as first, h5py.File(arguments[1], "r") as second:
             a, b = objects(first), objects(second)
             differences = list(compare(a, b, arguments))
+            n_datasets = sum(isinstance(item, h5py.Dataset) for item in a.values())
+            n_attributes = sum(len(item.attrs) for item in a.values())
     except OSError as error:
         print(f"compare.py: {error}", file=sys.stderr)
         return 2
@@ -98,8 +101,6 @@ def main(arguments):
     if len(differences) > SHOWN:
         print(f"... and {len(differences) - SHOWN} more differences")
     if not differences:
-        n_attributes = sum(len(item.attrs) for item in a.values())
-        n_datasets = sum(isinstance(item, h5py.Dataset) for item in a.values())
         print(f"the same: {n_datasets} datasets, {n_attributes} attributes")
     return 1 if differences else 0
 

@@ -1,0 +1,416 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What dem_batch does on the command line: `test_command.py DEM_BATCH INPUTS_FOLDER`.
+
+Options, files written, running again, another problem's output, cut-off runs, the log. Standard library only: never
+skipped. Where h5py is there, outputs are compared with compare.py, otherwise only their summaries are."""
+import os
+import pathlib
+import pty
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+DEM_BATCH = INPUTS = None
+HERE = pathlib.Path(__file__).resolve().parent
+SECONDS = 120  # more than any of these runs takes, under a sanitizer too
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
+OTHER_PROBLEM = "the file exists and belongs to another problem; move it away or change 'name' in &output"
+OTHER_RUN = ("the file exists and belongs to another run of the same problem, with other t_end, title or frames; "
+             "move it away or change 'name' in &output")
+
+
+def run(*arguments, cwd=None, text=True):
+    return subprocess.run([DEM_BATCH, *arguments], cwd=cwd, stdin=subprocess.DEVNULL, capture_output=True, text=text,
+                          timeout=SECONDS, check=False)
+
+
+def changed(text, **values):
+    """The deck with other values of keys, each of which it gives once."""
+    for key, value in values.items():
+        text, n = re.subn(rf"(?m)^(\s*{key}\s*=\s*)[^!\n]*", rf"\g<1>{value} ", text)
+        if n != 1:
+            raise ValueError(f"{key} is given {n} times")
+    return text
+
+
+def coarse(name="rectangle", **values):
+    """A deck of inputs/ at 10 mm, until after the impact."""
+    text = (INPUTS / f"{name}.nml").read_text(encoding="utf-8")
+    return changed(text, **{"spacing": "10e-3", "t_end": "8e-3", **values})
+
+
+def unmarked(echo):
+    """An echo without its marks of what was not given."""
+    return re.sub(r"(?m) ! default$", "", echo)
+
+
+def numbers(pattern, text):
+    """The numbers in the only line that fits; '#' stands for a number, all other characters for themselves."""
+    line = re.escape(pattern).replace(r"\#", f"({NUMBER})")
+    found = re.findall(rf"(?m)^{line}$", text)
+    if len(found) != 1:
+        raise AssertionError(f"{len(found)} lines like {pattern!r} in\n{text}")
+    return [float(number) for number in ([found[0]] if isinstance(found[0], str) else found[0])]
+
+
+def summary(log):
+    """What a run's log says of its result: without the time that it took."""
+    lines = log.split("output     ", 1)[1].splitlines()[1:]
+    lines = [line for line in lines if not re.match(r" *\d+\.\d %  t ", line)]
+    return [re.sub(r", \d+\.\d\d s$", "", line) for line in lines]
+
+
+class Case(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def put(self, text, name="deck.nml"):
+        (self.folder / name).write_text(text, encoding="utf-8")
+
+    def call(self, code, *arguments, stderr=""):
+        done = run(*arguments, cwd=self.folder)
+        self.assertEqual(done.stderr, stderr)
+        self.assertEqual(done.returncode, code)
+        return done.stdout
+
+    def files(self):
+        return {path.name for path in self.folder.iterdir()} - {"deck.nml"}
+
+    def state(self, *names):
+        """Bytes and times of files."""
+        return [((self.folder / name).read_bytes(), (self.folder / name).stat().st_mtime_ns) for name in names]
+
+
+class Options(Case):
+    def test_help(self):
+        out = self.call(0, "--help")
+        for word in ("usage: dem_batch", "--outdir", "--check", "--echo", "--template", "--keys", "--version",
+                     "--help", "exit codes:"):
+            self.assertIn(word, out)
+        self.assertLessEqual(max(map(len, out.splitlines())), 120)
+
+    def test_version(self):
+        self.assertRegex(self.call(0, "--version"), r"\Adem \d+\.\d+\.\d+ \(.+\), compiler .+, SUNDIALS [\d.]+, "
+                                                    r"HDF5 [\d.]+, GSL [\d.]+\n\Z")
+
+    def test_the_template_is_the_input_with_every_key(self):
+        out = self.call(0, "--template")
+        path = INPUTS / "every_key.nml"
+        if path.exists():
+            self.assertEqual(out, path.read_text(encoding="utf-8"))
+
+    def test_the_template_runs(self):
+        self.put(self.call(0, "--template"))
+        self.assertIn("\nrun        ", self.call(0, "deck.nml"))
+
+    def test_the_keys_are_the_documentation(self):
+        out = self.call(0, "--keys")
+        path = INPUTS.parent / "docs" / "deck.md"
+        if path.exists():
+            self.assertEqual(out, path.read_text(encoding="utf-8"))
+
+    def test_every_key_of_the_template_is_documented(self):
+        in_template = re.findall(r"(?m)^    (?:! )?(\w+) =", self.call(0, "--template"))
+        in_keys = re.findall(r"(?m)^\| `(\w+)` \|", self.call(0, "--keys"))
+        self.assertGreater(len(in_keys), 30)
+        self.assertEqual(in_template, in_keys)
+
+    def test_what_cannot_be_printed_is_not_done(self):
+        for option in ("--help", "--version", "--template", "--keys"):
+            with self.subTest(option), open("/dev/full", "wb") as full:
+                done = subprocess.run([DEM_BATCH, option], stdout=full, timeout=SECONDS, check=False)
+                self.assertEqual(done.returncode, 5)
+
+
+class Check(Case):
+    def test_the_header_is_printed_and_nothing_written(self):
+        self.put(coarse())
+        out = self.call(0, "--check", "deck.nml")
+        self.assertEqual(self.files(), set())
+        lines = out.splitlines()
+        self.assertEqual([line.split()[0] for line in lines],
+                         ["dem", "deck", "lattice", "contact", "scales", "time", "estimate"])
+        self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
+        self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
+        nodes, springs, triangles, bodies, mass = numbers(
+            "lattice    # nodes, # springs, # triangles, # body, mass # kg", out)
+        self.assertTrue(1 - 4 <= nodes - springs + triangles <= 0, "Euler: one piece with up to four holes")
+        self.assertEqual(bodies, 1)
+        self.assertTrue(0.7 < mass / (1050 * 0.08 * 0.13) < 1.01)
+        may_touch, obstacles, segments = numbers("contact    # nodes may touch # obstacle of # segments", out)
+        self.assertTrue(0 < may_touch < nodes)
+        self.assertEqual((obstacles, segments), (1, 8))
+        spacing, omega_max, v_scale, skin = numbers(
+            "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, skin # m", out)
+        self.assertAlmostEqual(spacing, 0.01)
+        self.assertTrue(1e4 < omega_max < 1e5 and v_scale == 10 and 0 < skin <= 1e-8)
+        t_end, rtol, step = numbers("time       t_end # s, fehlberg45, rtol #, largest step # s", out)
+        self.assertEqual((t_end, rtol), (8e-3, 1e-6))
+        self.assertAlmostEqual(step * omega_max, 0.5, places=3)
+        steps, _, frames, _, _ = numbers("estimate   at least # steps of # evaluations, # frames, up to # MB of "
+                                         "output, # MB of memory", out)
+        self.assertTrue(abs(steps - t_end / step) <= 2)
+        self.assertEqual(frames, 9)
+
+    def test_every_input_is_good(self):
+        for path in sorted(INPUTS.glob("*.nml")):
+            with self.subTest(path.name):
+                self.call(0, "--check", str(path))
+                self.assertEqual(self.files(), set())
+
+    def test_an_output_of_another_problem_does_not_matter(self):
+        self.put(coarse())
+        (self.folder / "rectangle.vtkhdf").write_bytes(b"not ours")
+        self.call(0, "--check", "deck.nml")
+        self.call(0, "--echo", "deck.nml")
+
+
+class Echo(Case):
+    def test_the_echo_resolves_to_itself(self):
+        for path in sorted(INPUTS.glob("*.nml")):
+            with self.subTest(path.name):
+                echo = self.call(0, "--echo", str(path))
+                self.put(echo)
+                again = self.call(0, "--echo", "deck.nml")
+                self.assertEqual(again, unmarked(echo))
+                self.put(again)
+                self.assertEqual(self.call(0, "--echo", "deck.nml"), again)
+                self.assertEqual(self.files(), set())
+
+    def test_the_echo_has_every_key(self):
+        template = self.call(0, "--template")
+        self.put(template)
+        echo = self.call(0, "--echo", "deck.nml")
+        key = r"(?m)^    (?:! )?(\w+) ="
+        self.assertEqual(re.findall(key, echo), re.findall(key, template))
+
+    def test_the_echo_gives_the_same_run(self):
+        self.put(coarse("porous"))
+        self.put(self.call(0, "--echo", "deck.nml"), "echo.nml")
+        logs = []
+        for deck, outdir in (("deck.nml", "a"), ("echo.nml", "b")):
+            (self.folder / outdir).mkdir()
+            logs.append(self.call(0, "--outdir", outdir, deck))
+        self.assertEqual(summary(logs[0]), summary(logs[1]))
+        self.assertEqual(*(re.findall(r"problem (\w+)", log) for log in logs))
+        self.same_data("a/porous.vtkhdf", "b/porous.vtkhdf")
+        self.same_data("a/porous.obstacle.vtkhdf", "b/porous.obstacle.vtkhdf")
+
+    def same_data(self, *names):
+        done = subprocess.run([sys.executable, HERE / "compare.py", *names], cwd=self.folder, capture_output=True,
+                              text=True, timeout=SECONDS, check=False)
+        if done.returncode != 77:
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+class Run(Case):
+    """Each on a fresh coarse deck; `rectangle.vtkhdf` is its output."""
+
+    def setUp(self):
+        super().setUp()
+        self.put(coarse())
+
+    def test_files_written(self):
+        log = self.call(0, "deck.nml")
+        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+        self.assertIn("\noutput     rectangle.vtkhdf\n", log)
+        for name in self.files():
+            self.assertEqual((self.folder / name).read_bytes()[:8], b"\x89HDF\r\n\x1a\n")
+
+    def test_without_an_obstacle_there_is_no_file_of_it(self):
+        text = coarse(clearance="").replace("    clearance = ", "    ! ")
+        self.put(re.sub(r"(?s)&obstacle.*?\n/\n", "", text))
+        log = self.call(0, "deck.nml")
+        self.assertEqual(self.files(), {"rectangle.vtkhdf"})
+        self.assertIn("\ncontact    none\n", log)
+        self.assertNotIn("rebound", log)
+
+    def test_outdir(self):
+        (self.folder / "out").mkdir()
+        log = self.call(0, "deck.nml", "--outdir", "out")
+        self.assertIn("\noutput     out/rectangle.vtkhdf\n", log)
+        self.assertEqual(self.files(), {"out"})
+        self.assertEqual({path.name for path in (self.folder / "out").iterdir()},
+                         {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+
+    def test_the_summary(self):
+        log = self.call(0, "deck.nml")
+        first, last, apart = numbers("contact    first at # s, last at # s, # s apart", log)
+        self.assertTrue(0 < first < last < 8e-3)
+        self.assertAlmostEqual(apart, last - first, delta=1e-4 * apart)
+        at_last, at_end = numbers("rebound    vertical velocity of the centre of mass # m/s at the last contact, "
+                                  "# m/s at t_end", log)
+        self.assertTrue(5 < at_end < at_last < 10)
+        self.assertAlmostEqual(at_last - at_end, 9.81 * (8e-3 - last), delta=1e-3)
+        smallest, _, when_smallest = numbers("strain     smallest # in spring # at # s", log)
+        largest, _, when_largest = numbers("strain     largest # in spring # at # s", log)
+        self.assertTrue(-1 < smallest < -0.05 < 0.05 < largest < 1)
+        area, when_area, guarded = numbers("triangles  smallest area # of its rest area at # s, guard on # at most",
+                                           log)
+        self.assertTrue(0 < area < 1 and guarded >= 0)
+        self.assertTrue(all(first <= t <= 8e-3 for t in (when_smallest, when_largest, when_area)))
+        energies = numbers("energy     kinetic #, elastic #, guard #, gravity # J", log)
+        start, now, taken, projection, closure = numbers(
+            "ledger     start # J = now # + taken by impacts # - projection #; closure #", log)
+        self.assertAlmostEqual(sum(energies), now, delta=1e-3 * now)
+        self.assertAlmostEqual(now + taken - projection, start, delta=2e-3 * start)
+        self.assertLess(abs(closure), 2e-3)
+        share, when = numbers("elastic    largest share # of the largest kinetic energy so far, at # s", log)
+        self.assertTrue(0.5 < share < 1 and first < when < last)
+        counts = numbers("events     # stops: # impacts, # closings, # releases, # ends passed, # late, # behind", log)
+        self.assertTrue(counts[0] > 0 and counts[1] > 0 and all(count >= 0 for count in counts))
+        steps, rejected, retried, evaluations, seconds = numbers(
+            "run        # steps, # rejected, # retried, # evaluations, # s", log)
+        self.assertTrue(steps > 0 and rejected >= 0 and retried >= 0 and evaluations >= 5 * steps and seconds >= 0)
+
+    def test_progress_is_plain_lines_where_there_is_no_terminal(self):
+        done = run("deck.nml", cwd=self.folder, text=False)
+        self.assertEqual(done.returncode, 0)
+        self.assertFalse(set(done.stdout) - set(range(32, 127)) - {10}, "plain text")
+        rows = re.findall(rf"(?m)^ *{NUMBER} %  t ({NUMBER}) s  step \d+  contacts \d+  energy error {NUMBER}"
+                          r"  \d+ steps/s  \d+ s left$", done.stdout.decode())
+        self.assertTrue(10 <= len(rows) <= 20)
+        times = [float(row) for row in rows]
+        self.assertEqual(times, sorted(times))
+
+    def test_the_same_run_on_a_terminal_rewrites_its_progress(self):
+        self.put(coarse(spacing="2.5e-3", t_end="2e-3"))
+        parent, child = pty.openpty()
+        output = b""
+        with subprocess.Popen([DEM_BATCH, "deck.nml"], cwd=self.folder, stdout=child, stderr=child) as process:
+            os.close(child)
+            try:
+                while block := os.read(parent, 4096):
+                    output += block
+            except OSError:  # the other end is closed
+                pass
+            self.assertEqual(process.wait(SECONDS), 0)
+        os.close(parent)
+        text = output.decode().replace("\r\n", "\n")
+        self.assertIn("\nrun        ", text)
+        self.assertEqual(text.count(" %  t "), text.count("\r"), "each line of progress goes back to its beginning")
+        self.assertLessEqual(len(re.findall(r" s left *\n", text)), 1, "only the last one is ended")
+
+    # ---- again
+
+    def test_the_second_run_is_done_already(self):
+        self.call(0, "deck.nml")
+        before = self.state(*self.files())
+        self.assertEqual(self.call(0, "deck.nml"), "rectangle.vtkhdf: done already, this run's result is there\n")
+        self.assertEqual(self.state(*self.files()), before)
+
+    def test_a_comment_makes_no_other_run(self):
+        self.call(0, "deck.nml")
+        self.put("! a remark\n" + coarse().replace("density        = 1050", "density = 1.05e3"))
+        self.assertIn("done already", self.call(0, "deck.nml"))
+
+    def test_another_problem_of_the_same_name(self):
+        self.call(0, "deck.nml")
+        names = self.files()
+        before = self.state(*names)
+        for values in ({"density": "1051"}, {"spacing": "11e-3"}, {"velocity": "0, -9"}, {"gravity": "0, -9.8"}):
+            with self.subTest(values):
+                self.put(coarse(**values))
+                out = self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_PROBLEM}\n")
+                self.assertEqual(out, "")
+                self.assertEqual(self.files(), names)
+                self.assertEqual(self.state(*names), before)
+
+    def test_another_run_of_the_same_problem(self):
+        self.call(0, "deck.nml")
+        names = self.files()
+        before = self.state(*names)
+        for values in ({"t_end": "9e-3"}, {"frame_interval": "2e-3"}, {"title": "'another'"}):
+            with self.subTest(values):
+                self.put(coarse(**values))
+                self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
+                self.assertEqual(self.state(*names), before)
+
+    def test_a_file_that_is_none_of_ours(self):
+        (self.folder / "rectangle.vtkhdf").write_bytes(b"my notes\n")
+        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_PROBLEM}\n")
+        self.assertEqual(self.files(), {"rectangle.vtkhdf"})
+        self.assertEqual((self.folder / "rectangle.vtkhdf").read_bytes(), b"my notes\n")
+
+    # ---- parts
+
+    def test_a_part_that_cannot_be_read_is_replaced(self):
+        self.call(0, "deck.nml")
+        whole = (self.folder / "rectangle.vtkhdf").read_bytes()
+        for part in (b"", b"garbage" * 1000, whole[:100], whole[:len(whole) // 2], b"\0" * len(whole)):
+            with self.subTest(len(part)):
+                (self.folder / "rectangle.vtkhdf").unlink()
+                (self.folder / "rectangle.part.vtkhdf").write_bytes(part)
+                self.assertIn("\nrun        ", self.call(0, "deck.nml"))
+                self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+
+    def kill(self):
+        """Runs the deck until its first lines of progress, and ends it with SIGKILL."""
+        for _ in range(5):
+            with subprocess.Popen([DEM_BATCH, "deck.nml"], cwd=self.folder, stdout=subprocess.PIPE) as process:
+                for line in process.stdout:
+                    if b" %  t " in line:
+                        break
+                process.kill()
+            if process.returncode == -9:
+                self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf"})
+                return
+            (self.folder / "rectangle.vtkhdf").unlink()  # it was faster
+        self.fail("the run always ends before it can be killed")
+
+    def test_a_killed_run_is_completed_by_the_same_command(self):
+        self.put(coarse(spacing="5e-3"))
+        self.kill()
+        log = self.call(0, "deck.nml")
+        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+        (self.folder / "fresh").mkdir()
+        fresh = self.call(0, "--outdir", "fresh", "deck.nml")
+        self.assertEqual(summary(log), summary(fresh))
+
+    def test_an_unfinished_run_of_another_problem(self):
+        self.put(coarse(spacing="5e-3"))
+        self.kill()
+        names = self.files()
+        before = self.state(*names)
+        self.put(coarse())
+        self.call(7, "deck.nml", stderr="rectangle.vtkhdf: error: an unfinished run of another problem is in "
+                                        "rectangle.part.vtkhdf; move it away or change 'name' in &output\n")
+        self.assertEqual(self.files(), names)
+        self.assertEqual(self.state(*names), before)
+
+    # ---- folders
+
+    def test_outdir_missing(self):
+        self.call(5, "--outdir", "no", "deck.nml", stderr="no/rectangle.vtkhdf: error: no/rectangle.part.vtkhdf: "
+                                                          "cannot be created (No such file or directory)\n")
+        self.assertEqual(self.files(), set())
+
+    def test_outdir_is_a_file(self):
+        self.call(5, "--outdir", "deck.nml", "deck.nml",
+                  stderr="deck.nml/rectangle.vtkhdf: error: deck.nml/rectangle.part.vtkhdf: cannot be created "
+                         "(Not a directory)\n")
+        self.assertEqual(self.files(), set())
+
+    def test_outdir_is_read_only(self):
+        out = self.folder / "out"
+        out.mkdir()
+        out.chmod(0o555)
+        if os.geteuid() != 0:  # root writes everywhere
+            self.call(5, "--outdir", "out", "deck.nml", stderr="out/rectangle.vtkhdf: error: "
+                      "out/rectangle.part.vtkhdf: cannot be created (Permission denied)\n")
+        self.assertEqual(list(out.iterdir()), [])
+        out.chmod(0o755)
+
+
+if __name__ == "__main__":
+    DEM_BATCH = os.path.abspath(sys.argv.pop(1))
+    INPUTS = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Does every line stand where docs/contributing.md says? `rooms.py SOURCE_ROOT LIBDEM`."""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
+
+# What stands on what, from below; a file includes only files of lower rows, or of its own noun.
+LAYERS = [
+    {"vec2", "status", "commit"},
+    {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
+    {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance"},
+    {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body"},
+    {"contact", "trajectory", "deck"},
+    {"simulation", "output", "report"},
+    {"dem_batch"},
+]
+# Within a layer: who may include whom all the same.
+BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("history", "hdf5_file"), ("lattice_mesh", "lattice"), ("shape", "pores"),
+          ("pores", "shape")}
+ROOMS = [  # pattern, files that may have it
+    (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
+    (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
+    (r'#include [<"]gsl/', {"drivers/pores.c", "drivers/report.c"}),
+    (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
+    (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
+    (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),
+    (r"\b(TODO|FIXME|XXX|HACK)\b", set()),
+]
+MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS = 600, 60, 6
+
+faults = []
+
+
+def complain(path, line, text):
+    faults.append(f"{path.relative_to(ROOT)}:{line}: {text}")
+
+
+def without_comments(text):
+    """The code with comments and strings blanked, line for line."""
+    blank = lambda m: re.sub(r"[^\n]", " ", m.group(0))
+    text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
+    return re.sub(r'(?m)^(?!\s*#include)(.*)$', lambda m: re.sub(r'"(\\.|[^"\\])*"', blank, m.group(0)), text)
+
+
+def layer_of(noun):
+    return next((k for k, layer in enumerate(LAYERS) if noun in layer), None)
+
+
+def check_includes(path, lines):
+    own = layer_of(path.stem)
+    if own is None:
+        complain(path, 1, f"'{path.stem}' has no layer")
+        return
+    for number, line in enumerate(lines, 1):
+        found = re.match(r'#include "([\w/]+)\.h"', line)
+        if found is None or found.group(1) == path.stem:
+            continue
+        other = layer_of(found.group(1))
+        if other is None or (other >= own and (path.stem, found.group(1)) not in BESIDE):
+            complain(path, number, f"includes {found.group(1)}.h, which does not stand below it")
+
+
+def check_rooms(path, lines):
+    name = str(path.relative_to(ROOT))
+    for pattern, rooms in ROOMS:
+        if name in rooms or (rooms == "drivers" and name.startswith("drivers/")):
+            continue
+        for number, line in enumerate(lines, 1):
+            if re.search(pattern, line):
+                complain(path, number, f"'{line.strip()}' has its place elsewhere")
+
+
+def check_functions(path, lines):
+    start, head = None, ""
+    for number, line in enumerate(lines, 1):
+        if re.match(r"^[A-Za-z_].*\(", line) and not line.rstrip().endswith(";"):
+            start, head = number, line
+        elif start is not None and number == start + 1 and not line.startswith("{"):
+            head += line
+        if line.startswith("}") and start is not None:
+            if number - start >= MAX_FUNCTION:
+                complain(path, start, f"function of {number - start + 1} lines")
+            if path.relative_to(ROOT).parts[0] != "tests" and head.count(",") >= MAX_PARAMETERS and "..." not in head and "(*" not in head:
+                complain(path, start, f"function of {head.count(',') + 1} parameters")
+            start = None
+
+
+def check_symbols():
+    listed = subprocess.run(["nm", "-D", "--defined-only", LIBRARY], capture_output=True, text=True, check=True).stdout
+    for line in listed.splitlines():
+        if not line.split()[-1].startswith("dem_"):
+            faults.append(f"{LIBRARY}: exports {line.split()[-1]}")
+
+
+sources = sorted(p for d in ("src", "drivers", "include/dem", "tests") for p in (ROOT / d).rglob("*.[ch]"))
+for source in sources:
+    text = source.read_text(encoding="utf-8")
+    if not text.startswith("/* SPDX-License-Identifier: BSD-3-Clause */\n"):
+        complain(source, 1, "does not begin with its licence")
+    rows = without_comments(text).splitlines()
+    if len(rows) > MAX_FILE and source.relative_to(ROOT).parts[0] != "tests":
+        complain(source, MAX_FILE, f"{len(rows)} lines")
+    check_functions(source, rows)
+    if source.relative_to(ROOT).parts[0] in ("src", "drivers"):
+        check_includes(source, rows)
+        check_rooms(source, rows)
+check_symbols()
+
+print("\n".join(faults) if faults else f"{len(sources)} files stand where they should")
+sys.exit(1 if faults else 0)

@@ -1,0 +1,675 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* contact.c: every reset of the automaton on its own, without an integrator, and the books kept of it. Numbers are worked out by
+ * hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
+#include "../verification/support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "contact.h"
+
+enum { most_nodes = 3, most_impacts = 16 };
+
+static const double skin = 1e-6, g = 10.0;
+
+/* A scene of up to three loose nodes over obstacles; the listener notes every impact. */
+typedef struct scene {
+    dem_model *model;
+    contact c;
+    double y[4 * most_nodes];
+    dem_impact impacts[most_impacts];
+    int n_impacts;
+    dem_status answer; /* what the listener returns */
+} scene;
+
+static dem_status note(void *context, const dem_impact *impact)
+{
+    scene *s = context;
+    if (s->n_impacts < most_impacts) s->impacts[s->n_impacts] = *impact;
+    s->n_impacts++;
+    return s->answer;
+}
+
+static void start_scene(scene *s, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    const contact_rule rule = {.skin = skin,
+                               .position_error = 1e-9,
+                               .max_step = 0.01,
+                               .storm_time = 0.5,
+                               .max_impacts = 100,
+                               .gravity = {0.0, -g}};
+    *s = (scene){0};
+    assert_ok(dem_model_create(&s->model, lattice, obstacles, n_obstacles));
+    assert_ok(contact_create(&s->c, s->model, &rule));
+}
+
+/* n nodes of 2 kg, each a body of its own, somewhere above. */
+static void open_scene(scene *s, dem_index n, const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    const double x[2 * most_nodes] = {0.0, 5.0, 1.0, 5.0, 2.0, 5.0}, mass[most_nodes] = {2.0, 2.0, 2.0};
+    dem_lattice lattice;
+    support_lattice(&lattice, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
+    lattice.body = malloc((size_t)n * sizeof *lattice.body);
+    assert_non_null(lattice.body);
+    for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;
+    start_scene(s, &lattice, obstacles, n_obstacles);
+    dem_lattice_free(&lattice);
+}
+
+static void close_scene(scene *s)
+{
+    contact_destroy(&s->c);
+    dem_model_destroy(s->model);
+}
+
+static void put(scene *s, dem_index i, double x, double y, double u, double v)
+{
+    double *state = s->y + 2 * i, *velocity = s->y + 2 * (s->model->lattice.n_nodes + i);
+    state[0] = x;
+    state[1] = y;
+    velocity[0] = u;
+    velocity[1] = v;
+}
+
+static void check_node(const scene *s, dem_index i, double x, double y, double u, double v)
+{
+    const double *at = s->y + 2 * i, *velocity = s->y + 2 * (s->model->lattice.n_nodes + i);
+    assert_close(at[0], x, 1e-14);
+    assert_close(at[1], y, 1e-14);
+    assert_close(velocity[0], u, 1e-14);
+    assert_close(velocity[1], v, 1e-14);
+}
+
+static dem_status start(scene *s)
+{
+    const contact_listener listener = {note, s};
+    return contact_start(&s->c, 0.0, s->y, &listener);
+}
+
+static dem_status resolve(scene *s, double t)
+{
+    const contact_listener listener = {note, s};
+    return contact_resolve(&s->c, t, s->y, &listener);
+}
+
+static const double floor_points[4] = {-4.0, 0.0, 4.0, 0.0}, wall_points[4] = {2.0, -1.0, 2.0, 3.0};
+static const dem_obstacle half = {2, floor_points, 0.5}, plastic = {2, floor_points, 0.0};
+
+/* ---- the initial state ---- */
+
+static void touching_is_admissible_and_deeper_than_the_skin_is_not(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 2, &half, 1);
+    put(&s, 0, 0.5, 0.0, 0.0, 0.0);
+    put(&s, 1, 1.5, -skin, 0.0, 0.0);
+    assert_ok(contact_admissible(&s.c, s.y));
+    put(&s, 1, 1.5, -0.25, 0.0, 0.0);
+    assert_int_equal(contact_admissible(&s.c, s.y), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(),
+                        "node 1 at (1.5, -0.25) m starts 0.25 m inside obstacle 0, deeper than the skin of 1e-06 m");
+    close_scene(&s);
+}
+
+static void at_the_start_touching_is_enough_for_a_contact(void **state)
+{
+    scene s;
+    dem_contact list[2 * most_nodes];
+    (void)state;
+    open_scene(&s, 3, &half, 1);
+    put(&s, 0, 0.0, 0.0, 3.0, 0.0);
+    put(&s, 1, 1.0, 0.0, 0.0, -2.0);
+    put(&s, 2, 2.0, 1e-9, 0.0, -2.0);
+    assert_ok(start(&s));
+    check_node(&s, 0, 0.0, 0.0, 3.0, 0.0);
+    check_node(&s, 1, 1.0, 0.0, 0.0, 1.0);
+    check_node(&s, 2, 2.0, 1e-9, 0.0, -2.0);
+    assert_int_equal(contact_list(&s.c, list), 1);
+    assert_int_equal(list[0].nodes[0], 0);
+    assert_int_equal(list[0].state, DEM_CONTACT_SLIP);
+    assert_close(list[0].force, 2.0 * g, 0.0);
+    assert_int_equal(s.n_impacts, 1); /* the resting node's velocity did not change */
+    assert_int_equal(s.c.counts.closings, 1);
+    close_scene(&s);
+}
+
+static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    put(&s, 0, 0.0, 0.0, 0.0, 0.5);
+    assert_ok(start(&s));
+    check_node(&s, 0, 0.0, 0.0, 0.0, 0.5);
+    assert_int_equal(s.c.sites[0].n_closed, 0);
+    assert_int_equal(s.n_impacts, 0);
+    close_scene(&s);
+}
+
+/* ---- impacts ---- */
+
+/* 2 kg at (3, -4) m/s on a floor of eta = 1/2: rises with 2 m/s, the floor gives 2 * 6 N s and takes 2/2 (16 - 4) = 12 J; the lift
+ * by the skin costs 2 g skin. */
+static void an_impact_is_reflected_reported_and_booked(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    put(&s, 0, 0.25, -skin, 3.0, -4.0);
+    assert_ok(resolve(&s, 0.125));
+    check_node(&s, 0, 0.25, 0.0, 3.0, 2.0);
+    assert_int_equal(s.n_impacts, 1);
+    const dem_impact hit = s.impacts[0];
+    assert_close(hit.t, 0.125, 0.0);
+    assert_int_equal(hit.node, 0);
+    assert_int_equal(hit.obstacle, 0);
+    assert_int_equal(hit.segment, 0);
+    assert_int_equal(hit.closed, 0);
+    const double expected[10] = {0.25, 0.0, 0.0, 1.0, 0.0, 12.0, 3.0, -4.0, 3.0, 2.0};
+    const double actual[10] = {hit.x[0],       hit.x[1],      hit.normal[0], hit.normal[1], hit.impulse[0],
+                               hit.impulse[1], hit.before[0], hit.before[1], hit.after[0],  hit.after[1]};
+    for (int k = 0; k < 10; k++) assert_close(actual[k], expected[k], 1e-15);
+    assert_close(s.c.impact_energy, 12.0, 1e-14);
+    assert_close(s.c.impulse[0], 0.0, 0.0);
+    assert_close(s.c.impulse[1], 12.0, 1e-14);
+    assert_close(s.c.projection_energy, 2.0 * g * skin, 1e-14); /* a difference of energies of order 20 m g */
+    assert_int_equal(s.c.counts.impacts, 1);
+    assert_int_equal(s.c.counts.closings, 0);
+    close_scene(&s);
+}
+
+static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void **state)
+{
+    scene s;
+    dem_contact list[2];
+    (void)state;
+    open_scene(&s, 1, &plastic, 1);
+    put(&s, 0, 0.25, -skin, 3.0, -4.0);
+    assert_ok(resolve(&s, 0.125));
+    check_node(&s, 0, 0.25, 0.0, 3.0, 0.0);
+    assert_int_equal(s.impacts[0].closed, 1);
+    assert_int_equal(s.c.counts.closings, 1);
+    assert_int_equal(contact_list(&s.c, list), 1);
+    assert_int_equal(list[0].n_nodes, 1);
+    assert_int_equal(list[0].obstacle, 0);
+    assert_int_equal(list[0].segment, 0);
+    assert_close(list[0].weights[0], 1.0, 0.0);
+    assert_close(list[0].normal[1], 1.0, 0.0);
+    assert_close(list[0].force, 2.0 * g, 0.0);
+    close_scene(&s);
+}
+
+static void a_node_not_yet_as_deep_as_the_skin_is_left_alone(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    put(&s, 0, 0.25, -0.98 * skin, 3.0, -4.0);
+    assert_ok(resolve(&s, 0.0));
+    check_node(&s, 0, 0.25, -0.98 * skin, 3.0, -4.0);
+    assert_int_equal(s.n_impacts, 0);
+    close_scene(&s);
+}
+
+static void land(scene *s, double speed, int closed)
+{
+    open_scene(s, 1, &half, 1);
+    s->c.scene.rule.rest_speed = speed < 1e-2 ? 0.0 : 0.1;
+    put(s, 0, 0.25, -skin, 1.0, -2.0 * speed);
+    assert_ok(resolve(s, 0.0));
+    assert_int_equal(s->impacts[0].closed, closed);
+    check_node(s, 0, 0.25, 0.0, 1.0, closed ? 0.0 : speed);
+    close_scene(s);
+}
+
+/* By the rule up to sqrt(2 g position_error) = sqrt(2 * 10 * 1e-9) m/s, else up to the speed given. */
+static void a_rebound_too_slow_becomes_a_contact(void **state)
+{
+    scene s;
+    const double by_rule = sqrt(2.0 * g * 1e-9);
+    (void)state;
+    land(&s, 0.99 * by_rule, 1);
+    land(&s, 1.01 * by_rule, 0);
+    land(&s, 0.099, 1);
+    land(&s, 0.101, 0);
+}
+
+static void a_contact_does_not_last_against_a_force_that_pulls(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &plastic, 1);
+    s.c.scene.rule.gravity[1] = 0.1;
+    put(&s, 0, 0.25, -skin, 1.0, -1.0);
+    assert_ok(resolve(&s, 0.0));
+    check_node(&s, 0, 0.25, 0.0, 1.0, 0.0);
+    assert_int_equal(s.impacts[0].closed, 0);
+    assert_int_equal(s.c.sites[0].n_closed, 0);
+    close_scene(&s);
+}
+
+static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 3, &half, 1);
+    put(&s, 0, 2.0, -skin, 0.0, -1.0);
+    put(&s, 1, 1.0, -0.995 * skin, 0.0, -2.0); /* within a hundredth of the skin counts as the same */
+    put(&s, 2, 0.0, -1.005 * skin, 0.0, -3.0);
+    assert_ok(resolve(&s, 0.0));
+    assert_int_equal(s.n_impacts, 3);
+    for (int k = 0; k < 3; k++) {
+        assert_int_equal(s.impacts[k].node, k);
+        check_node(&s, k, 2.0 - k, 0.0, 0.0, 0.5 * (1.0 + k));
+    }
+    assert_close(s.c.impulse[1], 2.0 * 1.5 * (1.0 + 2.0 + 3.0), 1e-14);
+    close_scene(&s);
+}
+
+static void an_observer_that_stops_is_heard(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    s.answer = DEM_STOPPED;
+    put(&s, 0, 0.25, -skin, 3.0, -4.0);
+    assert_int_equal(resolve(&s, 0.0), DEM_STOPPED);
+    close_scene(&s);
+}
+
+/* Floor of eta 1/2 and wall of eta 1/4 as two obstacles; the wall's solid is on its right, x > 2. */
+static void in_a_corner_each_obstacle_gets_the_impulse_along_its_normal(void **state)
+{
+    const dem_obstacle corner[2] = {{2, floor_points, 0.5}, {2, wall_points, 0.25}};
+    scene s;
+    (void)state;
+    open_scene(&s, 1, corner, 2);
+    put(&s, 0, 2.0 + skin, -skin, 4.0, -3.0);
+    assert_ok(resolve(&s, 0.0));
+    check_node(&s, 0, 2.0, 0.0, -1.0, 1.5);
+    assert_close(s.c.impulse[0], 0.0, 1e-14);
+    assert_close(s.c.impulse[1], 2.0 * 4.5, 1e-14);
+    assert_close(s.c.impulse[2], -2.0 * 5.0, 1e-14);
+    assert_close(s.c.impulse[3], 0.0, 1e-14);
+    assert_int_equal(s.n_impacts, 1);
+    assert_int_equal(s.impacts[0].obstacle, 1); /* approached faster */
+    assert_close(s.c.impact_energy, 25.0 - 1.0 - 2.25, 1e-13);
+    close_scene(&s);
+}
+
+/* ---- lasting contacts ---- */
+
+/* Node 0 on the floor, node 1 above it on a spring of 100 N and 1 m; 2 kg each. */
+static void open_pair(scene *s)
+{
+    const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {2.0, 2.0};
+    const dem_index ends[2] = {0, 1};
+    dem_lattice lattice;
+    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 100.0, NULL);
+    start_scene(s, &lattice, &plastic, 1);
+    dem_lattice_free(&lattice);
+    put(s, 0, 0.0, 0.0, 0.5, 0.0);
+    put(s, 1, 0.0, 1.0, 0.5, 2.0);
+    assert_ok(start(s));
+    assert_int_equal(s->c.sites[0].n_closed, 1);
+}
+
+static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(void **state)
+{
+    scene s;
+    (void)state;
+    open_pair(&s);
+    put(&s, 1, 0.0, 1.19, 0.5, 2.0); /* pulls with 19 N against 20 N */
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.c.sites[0].n_closed, 1);
+    assert_close(s.c.sites[0].closed[0].force, 1.0, 1e-13);
+    put(&s, 1, 0.0, 1.21, 0.5, 2.0);
+    assert_ok(resolve(&s, 0.2));
+    assert_int_equal(s.c.sites[0].n_closed, 0);
+    check_node(&s, 0, 0.0, 0.0, 0.5, 0.0);
+    assert_int_equal(s.c.counts.releases, 1);
+    assert_int_equal(s.n_impacts, 0);
+    close_scene(&s);
+}
+
+/* By the trapezoidal rule: 20 N at the start of the step, 1 N at its end. */
+static void the_reaction_adds_its_impulse_over_a_step(void **state)
+{
+    scene s;
+    (void)state;
+    open_pair(&s);
+    put(&s, 1, 0.0, 1.19, 0.5, 2.0);
+    contact_follow(&s.c, 0.01, s.y);
+    assert_close(s.c.impulse[1], 0.5 * 0.01 * (20.0 + 1.0), 1e-14);
+    assert_close(s.c.impulse[0], 0.0, 0.0);
+    assert_close(s.c.sites[0].closed[0].force, 1.0, 1e-13);
+    close_scene(&s);
+}
+
+static void closed_contacts_hold_the_acceleration_along_their_normals(void **state)
+{
+    const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}; /* a groove of 90 degrees */
+    const dem_obstacle groove = {3, slope_points, 0.0};
+    scene s;
+    (void)state;
+    open_scene(&s, 3, &groove, 1);
+    put(&s, 0, 0.5, 3.0, 0.0, 0.0);
+    put(&s, 1, 1.0, 1.0, 0.0, 0.0);
+    put(&s, 2, 0.0, 0.0, 0.0, 0.0);
+    assert_ok(start(&s));
+    double a[6] = {1.0, -g, 1.0, -g, 1.0, -g};
+    contact_constrain(&s.c, a);
+    const double expected[6] = {1.0, -g, 0.5 * (1.0 - g), 0.5 * (1.0 - g), 0.0, 0.0};
+    for (int k = 0; k < 6; k++) assert_close(a[k], expected[k], 1e-14);
+    assert_int_equal(s.c.sites[2].n_closed, 2);
+    assert_int_equal(s.c.sites[2].closed[0].state, DEM_CONTACT_STICK);
+    close_scene(&s);
+}
+
+static void contacts_are_listed_in_the_order_of_nodes(void **state)
+{
+    const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
+    const dem_obstacle groove = {3, slope_points, 0.0};
+    dem_contact list[2 * most_nodes];
+    scene s;
+    (void)state;
+    open_scene(&s, 3, &groove, 1);
+    put(&s, 0, 0.0, 0.0, 0.0, 0.0);
+    put(&s, 1, 0.5, 3.0, 0.0, 0.0);
+    put(&s, 2, -1.0, 1.0, 0.0, 0.0);
+    assert_ok(start(&s));
+    assert_int_equal(contact_list(&s.c, list), 3);
+    assert_int_equal(list[0].nodes[0], 0);
+    assert_int_equal(list[1].nodes[0], 0);
+    assert_int_equal(list[0].segment + list[1].segment, 1);
+    assert_int_equal(list[2].nodes[0], 2);
+    assert_int_equal(list[2].segment, 0);
+    for (int k = 0; k < 3; k++) assert_close(list[k].force, 2.0 * g * sqrt(0.5), 1e-13);
+    close_scene(&s);
+}
+
+/* With gravity along (1, -1) the right flank alone is pressed; along (1, 1)/2 none is, and what is left of the pair goes too. */
+static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
+{
+    const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
+    const dem_obstacle groove = {3, slope_points, 0.0};
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &groove, 1);
+    put(&s, 0, 0.0, 0.0, 0.0, 0.0);
+    assert_ok(start(&s));
+    assert_int_equal(s.c.sites[0].n_closed, 2);
+    s.c.scene.rule.gravity[0] = 1.1 * g;
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.c.sites[0].n_closed, 1);
+    assert_int_equal(s.c.sites[0].closed[0].segment, 1);
+    assert_int_equal(s.c.sites[0].closed[0].state, DEM_CONTACT_SLIP);
+    assert_int_equal(s.c.counts.releases, 1);
+    s.c.scene.rule.gravity[0] = 0.0;
+    s.c.scene.rule.gravity[1] = g;
+    assert_ok(resolve(&s, 0.2));
+    assert_int_equal(s.c.sites[0].n_closed, 0);
+    assert_int_equal(s.c.counts.releases, 2);
+    close_scene(&s);
+}
+
+/* ---- ends of segments ---- */
+
+/* Level, then straight on, then down by 45 degrees at x = 2. */
+static const double terrace_points[8] = {-4.0, 0.0, 0.0, 0.0, 2.0, 0.0, 4.0, -2.0};
+static const dem_obstacle terrace = {4, terrace_points, 0.0};
+
+static void slide(scene *s, const dem_obstacle *obstacle, double x, double u)
+{
+    open_scene(s, 1, obstacle, 1);
+    put(s, 0, x, 0.0, u, 0.0);
+    assert_ok(start(s));
+    assert_int_equal(s->c.sites[0].n_closed, 1);
+}
+
+static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
+{
+    scene s;
+    (void)state;
+    slide(&s, &terrace, -1.0, 1.5);
+    put(&s, 0, 1e-15, 0.0, 1.5, 0.0);
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.c.sites[0].closed[0].segment, 1);
+    check_node(&s, 0, 0.0, 0.0, 1.5, 0.0);
+    put(&s, 0, -1e-15, 0.0, -1.5, 0.0); /* and back */
+    assert_ok(resolve(&s, 0.2));
+    assert_int_equal(s.c.sites[0].closed[0].segment, 0);
+    assert_int_equal(s.c.counts.passings, 2);
+    assert_int_equal(s.c.counts.releases, 0);
+    close_scene(&s);
+}
+
+static void a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end(void **state)
+{
+    scene s;
+    (void)state;
+    slide(&s, &terrace, 1.0, 1.5);
+    put(&s, 0, 2.0, 0.0, 1.5, 0.0);
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.c.sites[0].n_closed, 0);
+    check_node(&s, 0, 2.0, 0.0, 1.5, 0.0);
+    assert_int_equal(s.c.counts.passings, 1);
+    assert_int_equal(s.c.counts.releases, 1);
+    close_scene(&s);
+    slide(&s, &terrace, -1.0, -1.5);
+    put(&s, 0, -4.0, 0.0, -1.5, 0.0);
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.c.sites[0].n_closed, 0);
+    close_scene(&s);
+}
+
+/* A rise by 30 degrees: the plastic impact leaves the part of the speed along it, u cos 30. */
+static void a_sliding_node_takes_its_impact_at_a_concave_bend(void **state)
+{
+    const double cosine = sqrt(0.75), ramp_points[6] = {-4.0, 0.0, 0.0, 0.0, 2.0 * cosine, 1.0};
+    const dem_obstacle ramp = {3, ramp_points, 0.0};
+    scene s;
+    (void)state;
+    slide(&s, &ramp, -1.0, 2.0);
+    put(&s, 0, 0.0, 0.0, 2.0, 0.0);
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.n_impacts, 1);
+    check_node(&s, 0, 0.0, 0.0, 2.0 * cosine * cosine, 2.0 * cosine * 0.5);
+    assert_int_equal(s.c.sites[0].n_closed, 1);
+    assert_int_equal(s.c.sites[0].closed[0].segment, 1);
+    assert_int_equal(s.c.counts.passings, 1);
+    close_scene(&s);
+}
+
+static void another_obstacle_stops_a_sliding_node(void **state)
+{
+    const dem_obstacle corner[2] = {{2, floor_points, 0.0}, {2, wall_points, 0.5}};
+    scene s;
+    (void)state;
+    open_scene(&s, 1, corner, 2);
+    put(&s, 0, 1.0, 0.0, 3.0, 0.0);
+    assert_ok(start(&s));
+    put(&s, 0, 2.0 + skin, 0.0, 3.0, 0.0);
+    assert_ok(resolve(&s, 0.1));
+    check_node(&s, 0, 2.0, 0.0, -1.5, 0.0);
+    assert_int_equal(s.c.sites[0].n_closed, 1);
+    assert_int_equal(s.c.sites[0].closed[0].obstacle, 0);
+    assert_close(s.c.impulse[2], -2.0 * 4.5, 1e-14);
+    assert_close(s.c.impulse[1], 0.0, 1e-14);
+    close_scene(&s);
+}
+
+/* ---- what must not happen ---- */
+
+static void a_node_found_deep_inside_is_an_error(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    put(&s, 0, 0.5, -0.125, 0.0, -1.0);
+    assert_int_equal(resolve(&s, 0.25), DEM_ERROR_CONTACT);
+    assert_string_equal(dem_status_message(), "node 0 at (0.5, -0.125) m is 0.125 m inside obstacle 0 at t = 0.25 s");
+    close_scene(&s);
+}
+
+static void too_many_changes_of_one_node_in_a_short_time_are_a_storm(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    s.c.scene.rule.max_impacts = 2;
+    for (int k = 0; k < 3; k++) {
+        put(&s, 0, 0.5, -skin, 0.0, -1.0);
+        assert_int_equal(resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
+    }
+    assert_string_equal(dem_status_message(),
+                        "node 0 at (0.5, 0) m had more than 2 contact events within 0.5 s, at t = 0.3 s");
+    close_scene(&s);
+}
+
+static void changes_further_apart_are_no_storm(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    s.c.scene.rule.max_impacts = 2;
+    for (int k = 0; k < 20; k++) {
+        put(&s, 0, 0.5, -skin, 0.0, -1.0);
+        assert_ok(resolve(&s, 0.3 * (k + 1)));
+    }
+    close_scene(&s);
+}
+
+/* ---- behind a free end ---- */
+
+static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
+{
+    scene s;
+    double guards[SITE_GUARDS];
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    put(&s, 0, -4.0, -0.5, 1.0, 2.0); /* right below the end: from in front to 0.5 m inside */
+    assert_ok(resolve(&s, 0.1));
+    assert_int_equal(s.c.counts.behind, 1);
+    assert_int_equal(s.c.sites[0].behind, 0);
+    contact_guards(&s.c, s.y, guards);
+    assert_close(guards[0], 1.0 + skin, 0.0);
+    put(&s, 0, -3.0, -0.01, 1.0, 2.0);
+    contact_follow(&s.c, 0.01, s.y);
+    assert_int_equal(s.c.counts.behind, 1);
+    put(&s, 0, -3.0, 0.01, 1.0, 2.0);
+    contact_follow(&s.c, 0.01, s.y);
+    assert_int_equal(s.c.counts.behind, 0);
+    assert_int_equal(s.c.sites[0].behind, -1);
+    assert_int_equal(s.n_impacts, 0);
+    close_scene(&s);
+}
+
+/* ---- the check after a step ---- */
+
+/* A step of all nodes at constant velocity from s->y, of length h. */
+static path drift(const scene *s, double h, double *y1, double *f)
+{
+    const dem_index n = 2 * s->model->lattice.n_nodes;
+    for (dem_index k = 0; k < n; k++) {
+        f[k] = y1[n + k] = s->y[n + k];
+        f[n + k] = 0.0;
+        y1[k] = s->y[k] + h * s->y[n + k];
+    }
+    return (path){s->model->lattice.n_nodes, 0.0, h, h, s->y, f, y1, f};
+}
+
+static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
+{
+    scene s;
+    double y1[4 * most_nodes], f[4 * most_nodes], scratch[4 * most_nodes];
+    (void)state;
+    open_scene(&s, 3, &half, 1);
+    put(&s, 0, 0.0, 3.0, 0.0, 0.0);
+    put(&s, 1, 1.0, 0.3, 0.0, -1.0);
+    put(&s, 2, 2.0, 0.2, 0.0, -1.0);
+    path p = drift(&s, 1.0, y1, f);
+    assert_true(contact_check(&s.c, &p, false, scratch));
+    assert_close(p.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
+    assert_int_equal(s.c.counts.late, 1);
+    close_scene(&s);
+}
+
+static void a_step_without_contacts_is_left_as_it_is(void **state)
+{
+    scene s;
+    double y1[4 * most_nodes], f[4 * most_nodes], scratch[4 * most_nodes];
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    put(&s, 0, 0.0, 1.5, 0.0, -1.0);
+    path p = drift(&s, 1.0, y1, f);
+    assert_false(contact_check(&s.c, &p, false, scratch));
+    assert_close(p.end, 1.0, 0.0);
+    assert_int_equal(s.c.counts.late, 0);
+    close_scene(&s);
+}
+
+static void a_closed_contact_that_should_have_ended_cuts_the_step_unless_it_ends_at_a_root(void **state)
+{
+    scene s;
+    double y1[4 * most_nodes], f[4 * most_nodes], scratch[4 * most_nodes];
+    (void)state;
+    slide(&s, &half, 3.0, 2.0);
+    path p = drift(&s, 1.0, y1, f);
+    assert_false(contact_check(&s.c, &p, true, scratch));
+    assert_close(p.end, 1.0, 0.0);
+    assert_true(contact_check(&s.c, &p, false, scratch));
+    assert_close(p.end, 0.5, 1e-13);
+    close_scene(&s);
+}
+
+static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
+{
+    scene s;
+    double guards[2 * SITE_GUARDS];
+    (void)state;
+    open_scene(&s, 2, &half, 1);
+    put(&s, 0, 1.0, 0.25, 0.0, 0.0);
+    put(&s, 1, 3.5, 0.0, 0.0, 0.0);
+    assert_ok(start(&s));
+    contact_guards(&s.c, s.y, guards);
+    const double expected[2 * SITE_GUARDS] = {0.25 + skin, 1.0, 1.0, 2.0 * g, 0.5, 1.0 + skin};
+    for (int k = 0; k < 2 * SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-15);
+    close_scene(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(touching_is_admissible_and_deeper_than_the_skin_is_not),
+        cmocka_unit_test(at_the_start_touching_is_enough_for_a_contact),
+        cmocka_unit_test(a_node_that_leaves_the_surface_at_the_start_is_free),
+        cmocka_unit_test(an_impact_is_reflected_reported_and_booked),
+        cmocka_unit_test(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force),
+        cmocka_unit_test(a_node_not_yet_as_deep_as_the_skin_is_left_alone),
+        cmocka_unit_test(a_rebound_too_slow_becomes_a_contact),
+        cmocka_unit_test(a_contact_does_not_last_against_a_force_that_pulls),
+        cmocka_unit_test(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes),
+        cmocka_unit_test(an_observer_that_stops_is_heard),
+        cmocka_unit_test(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal),
+        cmocka_unit_test(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity),
+        cmocka_unit_test(the_reaction_adds_its_impulse_over_a_step),
+        cmocka_unit_test(closed_contacts_hold_the_acceleration_along_their_normals),
+        cmocka_unit_test(contacts_are_listed_in_the_order_of_nodes),
+        cmocka_unit_test(a_held_node_lets_go_of_the_wall_that_would_pull),
+        cmocka_unit_test(a_sliding_node_glides_on_where_the_line_goes_on),
+        cmocka_unit_test(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end),
+        cmocka_unit_test(a_sliding_node_takes_its_impact_at_a_concave_bend),
+        cmocka_unit_test(another_obstacle_stops_a_sliding_node),
+        cmocka_unit_test(a_node_found_deep_inside_is_an_error),
+        cmocka_unit_test(too_many_changes_of_one_node_in_a_short_time_are_a_storm),
+        cmocka_unit_test(changes_further_apart_are_no_storm),
+        cmocka_unit_test(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front),
+        cmocka_unit_test(a_step_is_cut_at_the_first_contact_that_was_overlooked),
+        cmocka_unit_test(a_step_without_contacts_is_left_as_it_is),
+        cmocka_unit_test(a_closed_contact_that_should_have_ended_cuts_the_step_unless_it_ends_at_a_root),
+        cmocka_unit_test(the_guards_of_all_sites_stand_one_after_the_other),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
