@@ -68,32 +68,38 @@ static void project(contact *c, const contact_site *site, meeting with, moment *
     c->projection_energy += model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x) - before;
 }
 
-/* Rebound speed at or below which a contact with acceleration a_n towards the surface lasts: the next hop would be lower than
- * the position tolerance, or than what rounding leaves of the coordinates. */
-static double resting_speed(const contact *c, vec2 x, double a_n)
+/* Speed at or below which a node that an acceleration `back` returns is at rest: the hop would be lower than the position
+ * tolerance, or than what rounding leaves of the coordinates. Nothing is at rest (-1) that does not return. */
+static double resting_speed(const contact *c, vec2 x, double back)
 {
+    if (!(back > 0.0)) return -1.0;
     if (c->scene.rule.rest_speed > 0.0) return c->scene.rule.rest_speed;
     const double rounding = 64.0 * DBL_EPSILON * fmax(fabs(x.x), fabs(x.y));
-    return sqrt(2.0 * a_n * fmax(c->scene.rule.position_error, rounding));
+    return sqrt(2.0 * back * fmax(c->scene.rule.position_error, rounding));
 }
 
-/* Of the surfaces touched, those on which a node with velocity v comes to rest and which push it. */
+/* Of the surfaces touched, those on which a node with velocity v stays. At rest it is all that push it; in a corner at rest means
+ * that it would not get further out than a hop before the corner has it back. Otherwise it is the one surface it moves along. */
 static meeting lasting(const contact *c, const contact_site *site, meeting with, vec2 v, const double *x)
 {
-    const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, site->node, x);
+    const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, site->node, x),
+               at = vec2_at(x, site->node);
+    const double speed = vec2_norm(v);
     impact_surface surface[2];
-    meeting slow = {0}, held = {0};
-    double reaction[2];
+    double reaction[2], away[2];
+    meeting held = {0};
     for (int k = 0; k < with.n; k++) {
-        const vec2 normal = scene_segment(&c->scene, with.s[k])->normal;
-        const double a_n = fmax(-vec2_dot(a, normal), 0.0);
-        if (vec2_dot(v, normal) > resting_speed(c, vec2_at(x, site->node), a_n)) continue;
-        surface[slow.n] = surface_of(c, with.s[k]);
-        slow.s[slow.n++] = with.s[k];
+        surface[k] = surface_of(c, with.s[k]);
+        away[k] = vec2_dot(v, surface[k].normal);
     }
-    const int holding = slow.n > 0 ? impact_holding(surface, slow.n, a, reaction) : 0;
-    for (int k = 0; k < slow.n; k++)
-        if (holding & (1 << k)) held.s[held.n++] = slow.s[k];
+    const int holding = impact_holding(surface, with.n, a, reaction);
+    if (speed == 0.0 || (holding == 3 && speed <= resting_speed(c, at, -vec2_dot(a, v) / speed))) {
+        for (int k = 0; k < with.n; k++)
+            if (holding & (1 << k)) held.s[held.n++] = with.s[k];
+        return held;
+    }
+    const int along = with.n == 2 && away[1] < away[0] ? 1 : 0;
+    if (away[along] <= resting_speed(c, at, -vec2_dot(a, surface[along].normal))) held = (meeting){1, {with.s[along]}};
     return held;
 }
 

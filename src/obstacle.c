@@ -32,10 +32,12 @@ static bool closed(const dem_obstacle *obstacle)
     return obstacle->n_points > 3 && first.x == last.x && first.y == last.y;
 }
 
-static void compile_segments(segment *s, dem_index first, const dem_obstacle *obstacle, dem_index o)
+static void compile_segments(obstacle_set *set, dem_index o, const dem_obstacle *obstacle)
 {
-    const dem_index n = obstacle->n_points - 1;
+    const dem_index n = obstacle->n_points - 1, first = set->first[o];
     const bool ring = closed(obstacle);
+    segment *s = set->segments;
+    set->first[o + 1] = first + n;
     for (dem_index k = 0; k < n; k++) {
         const vec2 a = vec2_at(obstacle->points, k), b = vec2_at(obstacle->points, k + 1), d = vec2_sub(b, a);
         const double length = vec2_norm(d);
@@ -73,9 +75,11 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
     }
     o.list = calloc((size_t)n + 1, sizeof *o.list);
     o.segments = malloc(((size_t)o.n_segments + 1) * sizeof *o.segments);
-    dem_status status = o.list && o.segments ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for obstacles");
-    for (dem_index first = 0; status == DEM_OK && o.n < n; first += list[o.n++].n_points - 1) {
-        compile_segments(o.segments, first, &list[o.n], o.n);
+    o.first = calloc((size_t)n + 1, sizeof *o.first);
+    dem_status status =
+        o.list && o.segments && o.first ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for obstacles");
+    for (; status == DEM_OK && o.n < n; o.n++) {
+        compile_segments(&o, o.n, &list[o.n]);
         status = copy_points(&o.list[o.n], &list[o.n]);
     }
     if (status == DEM_OK)
@@ -90,6 +94,7 @@ void obstacles_free(obstacle_set *o)
     for (dem_index k = 0; k < o->n && o->list; k++) free((void *)(uintptr_t)o->list[k].points);
     free(o->list);
     free(o->segments);
+    free(o->first);
     *o = (obstacle_set){0};
 }
 
@@ -117,21 +122,22 @@ static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, obstacle_gap
     if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
 }
 
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too)
-{
-    obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
-    for (dem_index k = 0; k < o->n_segments; k++)
-        if (o->segments[k].obstacle != without && o->segments[k].obstacle != without_too)
-            take_nearer(o, k, x, &nearest);
-    return nearest;
-}
-
 obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle)
 {
     obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
-    for (dem_index k = 0; k < o->n_segments; k++)
-        if (o->segments[k].obstacle == obstacle) take_nearer(o, k, x, &nearest);
+    for (dem_index k = o->first[obstacle]; k < o->first[obstacle + 1]; k++) take_nearer(o, k, x, &nearest);
     return nearest;
+}
+
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too)
+{
+    obstacle_gap smallest = {INFINITY, -1, {0.0, 0.0}};
+    for (dem_index k = 0; k < o->n; k++) {
+        if (k == without || k == without_too) continue;
+        const obstacle_gap gap = obstacles_gap_of(o, x, k);
+        if (gap.distance < smallest.distance) smallest = gap;
+    }
+    return smallest;
 }
 
 int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_index without_obstacle, dem_index *hits,

@@ -19,6 +19,7 @@ typedef struct segment {
 typedef struct obstacle_set {
     dem_index n, n_segments;
     dem_obstacle *list; /* [n] with its own copies of the points */
+    dem_index *first;   /* [n + 1] segments first[k] .. first[k+1]-1 are of obstacle k */
     segment *segments;  /* [n_segments] obstacle by obstacle, in order */
 } obstacle_set;
 
@@ -41,11 +42,11 @@ typedef enum obstacle_bend {
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n);
 void obstacles_free(obstacle_set *o);
 
-/** Signed distance of x, leaving out up to two whole obstacles (-1: none). Where two segments meet, a point nearest to the
- *  vertex is in front if it is on the vertex's mean normal's side; nearest to a free end, it is in front. */
+/** Smallest of the signed distances of x to the obstacles, leaving out up to two of them (-1: none). */
 obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too);
 
-/** Signed distance of x to one obstacle alone. */
+/** Signed distance of x to one obstacle: to its nearest point. Where two segments meet, a point nearest to the vertex is in
+ *  front if it is on the side of the vertex's mean normal; nearest to a free end, it is in front. */
 obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle);
 
 /** Segments of which x is within `tolerance` (m), measured to the line and along it; at most `capacity` of them. */
