@@ -161,18 +161,19 @@ static int set_adaptivity(integrator *I)
     return failed;
 }
 
-static int set_guards(integrator *I)
+static dem_status set_guards(integrator *I)
 {
     const dem_index n = I->problem.n_guards;
-    if (n == 0) return 0;
+    if (n == 0) return DEM_OK;
     int *falling = malloc((size_t)n * sizeof *falling);
-    if (falling == NULL) return ARK_MEM_FAIL;
+    CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
     for (dem_index k = 0; k < n; k++) falling[k] = -1;
     int failed = ERKStepRootInit(I->arkode, (int)n, call_guards);
     failed |= ERKStepSetRootDirection(I->arkode, falling);
     failed |= ERKStepSetNoInactiveRootWarn(I->arkode);
     free(falling);
-    return failed;
+    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its root functions: %s", I->message);
+    return DEM_OK;
 }
 
 static dem_status set_up(integrator *I, double t, const double *y)
@@ -195,9 +196,8 @@ static dem_status set_up(integrator *I, double t, const double *y)
     failed |= ERKStepSetMaxNumSteps(I->arkode, -1);
     failed |= ERKStepSetMaxHnilWarns(I->arkode, -1);
     failed |= set_adaptivity(I);
-    failed |= set_guards(I);
     CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its settings: %s", I->message);
-    return DEM_OK;
+    return set_guards(I);
 }
 
 /* ---- public ---- */

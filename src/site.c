@@ -86,23 +86,34 @@ static double time_resolution(const path *p, double t)
     return 100.0 * DBL_EPSILON * (fabs(t) + p->end - p->t0);
 }
 
-double site_first_crossing(const contact_scene *scene, const contact_site *site, const path *p, bool rooted)
+/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0 will do. */
+static double lowest(const contact_scene *scene, const contact_site *site, const path *p, double lo, double hi)
 {
-    enum { samples = 8 };
-    const double h = p->end - p->t0, last = free_guard(scene, site, p, p->end);
-    const double speed =
-        fmax(vec2_norm(path_velocity(p, p->t0, site->node)), vec2_norm(path_velocity(p, p->end, site->node)));
-    if (last > 0.0 && fmin(last, free_guard(scene, site, p, p->t0)) > 2.0 * h * speed)
-        return INFINITY; /* out of reach */
-    double clear = p->t0, deep = INFINITY;
-    for (int k = 1; k <= samples - rooted && isinf(deep); k++) {
-        const double t = k == samples ? p->end : p->t0 + h * k / samples;
-        if (free_guard(scene, site, p, t) <= 0.0)
-            deep = t;
-        else
-            clear = t;
+    const double ratio = 0.6180339887498949;
+    double a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double ga = free_guard(scene, site, p, a), gb = free_guard(scene, site, p, b);
+    for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
+        if (ga < gb) {
+            hi = b;
+            b = a;
+            gb = ga;
+            a = hi - ratio * (hi - lo);
+            ga = free_guard(scene, site, p, a);
+        } else {
+            lo = a;
+            a = b;
+            ga = gb;
+            b = lo + ratio * (hi - lo);
+            gb = free_guard(scene, site, p, b);
+        }
     }
-    while (!isinf(deep) && deep - clear > time_resolution(p, deep)) {
+    return ga < gb ? a : b;
+}
+
+/* The zero of the guard between a time when it is above and one when it is not. */
+static double crossing(const contact_scene *scene, const contact_site *site, const path *p, double clear, double deep)
+{
+    while (deep - clear > time_resolution(p, deep)) {
         const double middle = 0.5 * (clear + deep);
         if (free_guard(scene, site, p, middle) <= 0.0)
             deep = middle;
@@ -110,6 +121,39 @@ double site_first_crossing(const contact_scene *scene, const contact_site *site,
             clear = middle;
     }
     return deep;
+}
+
+/* The guard of a free site at one time, and how fast it grows. */
+typedef struct sample {
+    double t, guard, slope;
+} sample;
+
+static sample sample_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+{
+    const obstacle_gap gap = site_free_gap(scene, site, path_position(p, t, site->node));
+    return (sample){t, gap_guard(scene, gap), vec2_dot(gap.normal, path_velocity(p, t, site->node))};
+}
+
+double site_first_crossing(const contact_scene *scene, const contact_site *site, const path *p, bool rooted)
+{
+    enum { n = 8 };
+    const double h = p->end - p->t0;
+    const double v0 = vec2_norm(path_velocity(p, p->t0, site->node)),
+                 v1 = vec2_norm(path_velocity(p, p->end, site->node));
+    const double reach = 2.0 * h * fmax(v0, v1); /* no site goes further in this step */
+    const sample last = sample_at(scene, site, p, p->end);
+    sample s = sample_at(scene, site, p, p->t0);
+    if (last.guard > reach && s.guard > reach) return INFINITY;
+    for (int k = 1; k <= n; k++) {
+        const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
+        if (next.guard <= 0.0) return k == n && rooted ? INFINITY : crossing(scene, site, p, s.t, next.t);
+        if (s.slope < 0.0 && next.slope > 0.0 && fmin(s.guard, next.guard) < reach / n) { /* a dip in between */
+            const double low = lowest(scene, site, p, s.t, next.t);
+            if (free_guard(scene, site, p, low) <= 0.0) return crossing(scene, site, p, s.t, low);
+        }
+        s = next;
+    }
+    return INFINITY;
 }
 
 double site_first_due(const contact_scene *scene, const contact_site *site, const path *p, double *state)

@@ -65,8 +65,8 @@ void site_guards(const contact_scene *scene, const contact_site *site, const dou
 /** Whether a closed site's contacts have to change in the state y = (x, v). */
 bool site_due(const contact_scene *scene, const contact_site *site, const double *y);
 
-/** First time in the step at which a free site is as deep as the skin; infinity if never, or if only at the end of a step that ends
- *  at a root (`rooted`). A dip within the step is found if it lasts an eighth of it. */
+/** First time in the step at which a free site is as deep as the skin; infinity if never, or if only at the end of a step that
+ *  ends at a root (`rooted`). The step is sampled eight times, and every dip between samples followed to its bottom. */
 double site_first_crossing(const contact_scene *scene, const contact_site *site, const path *p, bool rooted);
 
 /** First time in the step at which a closed site, due at its end, is due.  \param[out] state  [4 n] scratch */

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Every allocation of the library's own code in a standard run fails in turn, once and from then on: the status says so, nothing
+ * crashes, nothing leaks (the sanitizers' run sees that), and what was built before is still good. The linker wraps malloc, calloc
+ * and realloc of the library's objects; HDF5 and SUNDIALS keep theirs. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <dem/trajectory.h>
+
+#include "../unit/close.h"
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t n, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+
+static long allocations, failing; /* the failing-th fails; 0: none */
+static int from_then_on;
+
+static int fails(void)
+{
+    allocations++;
+    return failing > 0 && (allocations == failing || (from_then_on && allocations > failing));
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return fails() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t n, size_t size)
+{
+    return fails() ? NULL : __real_calloc(n, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return fails() ? NULL : __real_realloc(old, size);
+}
+
+static int left_half(void *context, const double x[2])
+{
+    (void)context;
+    return x[0] < 0.021;
+}
+
+static dem_status build(dem_lattice *lattice)
+{
+    const dem_material rubber = {1e7, 1050.0, 1.0, 0.02};
+    const double down[2] = {0.0, -5.0}, lift[2] = {0.0, 1e-4};
+    dem_lattice other;
+    dem_index parts;
+    dem_status status = dem_lattice_rectangle(lattice, 0.05, 0.03, 0.01);
+    if (status == DEM_OK) status = dem_lattice_cut(lattice, left_half, NULL);
+    if (status == DEM_OK) status = dem_lattice_assemble(lattice, &rubber);
+    if (status == DEM_OK) status = dem_lattice_launch(lattice, down);
+    if (status == DEM_OK) status = dem_lattice_parts(lattice, &parts, NULL);
+    dem_lattice_move(lattice, 0.01, lift);
+    if (status != DEM_OK) return status;
+    dem_lattice_init(&other);
+    status = dem_lattice_disc(&other, 0.02, 0.01);
+    if (status == DEM_OK) status = dem_lattice_assemble(&other, &rubber);
+    dem_lattice_move(&other, 0.0, (const double[2]){0.1, 0.021});
+    if (status == DEM_OK) status = dem_lattice_append(lattice, &other);
+    dem_lattice_free(&other);
+    return status;
+}
+
+static dem_status write_and_run(dem_simulation *simulation)
+{
+    dem_trajectory *trajectory = NULL;
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.frame_interval = 2e-4;
+    dem_status status = dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options);
+    if (status != DEM_OK) return status;
+    const dem_observer observer = dem_trajectory_observer(trajectory);
+    status = dem_trajectory_note(trajectory, "title", "memory runs out");
+    if (status == DEM_OK) status = dem_simulation_observe(simulation, &observer);
+    if (status == DEM_OK) status = dem_simulation_advance(simulation, 6e-4);
+    if (status == DEM_OK) status = dem_trajectory_finish(trajectory);
+    dem_trajectory_destroy(trajectory);
+    return status;
+}
+
+static dem_status run(void)
+{
+    const double points[6] = {-0.3, 0.0, 0.0, -0.005, 0.3, 0.0};
+    const dem_obstacle obstacle = {3, points, 0.5};
+    const dem_options options = dem_options_default();
+    dem_lattice lattice;
+    dem_model *model = NULL;
+    dem_simulation *simulation = NULL;
+    dem_lattice_init(&lattice);
+    dem_status status = build(&lattice);
+    if (status == DEM_OK) status = dem_model_create(&model, &lattice, &obstacle, 1);
+    if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);
+    if (status == DEM_OK) status = write_and_run(simulation);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    dem_lattice_free(&lattice);
+    return status;
+}
+
+static void each_allocation_may_fail(int stays_so)
+{
+    failing = allocations = 0;
+    assert_int_equal(run(), DEM_OK);
+    const long all = allocations;
+    assert_true(all > 60);
+    from_then_on = stays_so;
+    for (failing = 1; failing <= all; failing++) {
+        allocations = 0;
+        const dem_status status = run();
+        if (status != DEM_ERROR_MEMORY)
+            fail_msg("allocation %ld of %ld: status %d, %s", failing, all, status, dem_status_message());
+    }
+    failing = allocations = 0;
+    assert_int_equal(run(), DEM_OK);
+    (void)remove("fault.vtkhdf");
+    (void)remove("fault.part.vtkhdf");
+    (void)remove("fault.obstacle.vtkhdf");
+}
+
+static void one_failed_allocation_ends_a_run_with_its_status(void **unused)
+{
+    (void)unused;
+    each_allocation_may_fail(0);
+}
+
+static void memory_that_stays_away_ends_a_run_with_its_status(void **unused)
+{
+    (void)unused;
+    each_allocation_may_fail(1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_failed_allocation_ends_a_run_with_its_status),
+        cmocka_unit_test(memory_that_stays_away_ends_a_run_with_its_status),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
