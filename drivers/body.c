@@ -2,6 +2,7 @@
 /* Bodies: checks of their groups, then mesh or file, parts, place, clearance, velocity. */
 #include "body.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,10 @@
 #include "parts.h"
 #include "shape.h"
 
+enum { MATERIALS_LISTED = 5 };
+
 static const double degree = 0.017453292519943295769; /* pi/180 */
+static const double lost = 1e-6; /* of the spacing: the skin, which rounding of coordinates must not hide */
 
 static namelist_place place_of(const schema_instance *group, const char *key)
 {
@@ -59,7 +63,7 @@ static void check_uses(const schema_instance *group, const use *uses, size_t n, 
     const char *wanted = schema_text(group, "shape"), *name = group->group->name;
     for (size_t k = 0; k < n && wanted[0] != '\0'; k++) {
         const bool used = strstr(uses[k].shapes, wanted) != NULL, given = is_given(group, uses[k].key);
-        if (used && uses[k].needed && !given)
+        if (used && uses[k].needed && !given && !schema_value_of(group, uses[k].key)->faulty)
             namelist_errors_add(errors, group->place, "'%s' in &%s must be given for shape '%s'", uses[k].key, name,
                                 wanted);
         if (!used && given)
@@ -79,27 +83,52 @@ static const schema_instance *find_material(const schema_deck *groups, const cha
     return NULL;
 }
 
-static const char *nearest_material(const schema_deck *groups, const char *name)
+/* Writes " (did you mean 'x'?)" or what names there are. */
+static void hint_material(char *out, size_t size, const schema_deck *groups, const char *name)
 {
     const char *names[64];
-    size_t n = 0, nearest;
-    for (size_t k = 0; k < schema_count(groups, "material") && n < sizeof names / sizeof *names; k++) {
-        const char *candidate = schema_text(schema_get(groups, "material", k), "name");
-        if (strlen(candidate) < 64) names[n++] = candidate; /* schema_nearest() takes no longer ones */
+    size_t n = 0, nearest, length = 0;
+    const size_t count = schema_count(groups, "material");
+    for (; n < count && n < sizeof names / sizeof *names; n++)
+        names[n] = schema_text(schema_get(groups, "material", n), "name");
+    if (schema_nearest(name, names, n, &nearest)) {
+        (void)snprintf(out, size, " (did you mean '%s'?)", names[nearest]);
+        return;
     }
-    return schema_nearest(name, names, n, &nearest) ? names[nearest] : NULL;
+    for (size_t k = 0; k < n && k < MATERIALS_LISTED; k++)
+        length += (size_t)snprintf(out + length, size - length, "%s'%.40s'", k == 0 ? "; known: " : ", ", names[k]);
+    if (count > MATERIALS_LISTED) (void)snprintf(out + length, size - length, ", ...");
+}
+
+static bool has_faulty_name(const schema_deck *groups)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++)
+        if (schema_value_of(schema_get(groups, "material", k), "name")->faulty) return true;
+    return false;
 }
 
 static void check_material(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
 {
+    const schema_value *value = schema_value_of(body, "material");
     const char *name = schema_text(body, "material");
-    if (has_shape(body, "file") || schema_count(groups, "material") == 0 || find_material(groups, name) != NULL) return;
-    const char *nearest = nearest_material(groups, name);
-    if (nearest != NULL)
-        namelist_errors_add(errors, place_of(body, "material"), "there is no material '%.40s' (did you mean '%s'?)",
-                            name, nearest);
-    else
-        namelist_errors_add(errors, place_of(body, "material"), "there is no material '%.40s'", name);
+    char hint[64 * (MATERIALS_LISTED + 1)];
+    if (has_shape(body, "file") || value->faulty || groups->misspelt || has_faulty_name(groups)) return;
+    if (schema_count(groups, "material") == 0 || find_material(groups, name) != NULL) return;
+    hint_material(hint, sizeof hint, groups, name);
+    namelist_errors_add(errors, value->place, "there is no material '%.40s'%s%s", name,
+                        value->given ? "" : ", the default of 'material' in &body", hint);
+}
+
+/* Only lattice files come with springs and masses of their own. */
+static void check_materials(const schema_deck *groups, namelist_errors *errors)
+{
+    bool needed = false;
+    for (size_t k = 0; k < schema_count(groups, "body"); k++) {
+        const schema_instance *body = schema_get(groups, "body", k);
+        needed = needed || has_shape(body, "rectangle") || has_shape(body, "disc");
+    }
+    if (needed && schema_count(groups, "material") == 0 && !groups->misspelt)
+        namelist_errors_add(errors, (namelist_place){1, 1}, "&material must be given");
 }
 
 static void check_names(const schema_deck *groups, namelist_errors *errors)
@@ -107,7 +136,7 @@ static void check_names(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "material"); k++) {
         const schema_instance *material = schema_get(groups, "material", k);
         const schema_instance *first = find_material(groups, schema_text(material, "name"));
-        if (first != material)
+        if (first != material && !has_faulty_name(groups))
             namelist_errors_add(errors, place_of(material, "name"), "material '%.40s' is given twice, first in line %d",
                                 schema_text(material, "name"), first->place.line);
     }
@@ -139,12 +168,18 @@ static void check_clearance(const schema_deck *groups, const schema_instance *bo
         namelist_errors_add(errors, place, "'clearance' in &body needs gravity, which is 0");
 }
 
+static void check_file(const schema_instance *body, namelist_errors *errors)
+{
+    if (has_shape(body, "file") && is_given(body, "file") && schema_text(body, "file")[0] == '\0')
+        namelist_errors_add(errors, place_of(body, "file"), "'file' in &body must name a lattice file, got ''");
+}
+
 /* The body that a &void or &pores is for, from 1 in the deck. */
 static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "body");
     const double number = schema_real(group, "body");
-    if (n == 0) return;
+    if (n == 0 || groups->misspelt) return;
     if (number > (double)n)
         namelist_errors_add(errors, place_of(group, "body"), "&%s is for body %.0f, but the number of bodies is %zu",
                             group->group->name, number, n);
@@ -174,6 +209,7 @@ typedef struct builder {
     size_t number; /* from 1 */
     namelist_errors *errors;
     dem_lattice lattice;
+    body_start start;
 } builder;
 
 /* Passes a status on; one that speaks of a fault is reported with the library's message. */
@@ -213,12 +249,57 @@ static dem_status add_pores(const builder *b, shape *s, const schema_instance *g
                            .wall = wall != NULL ? wall[0] : 2.0 * s->spacing,
                            .seed = (unsigned long)schema_real(group, "seed")};
     size_t n_placed;
-    double lost;
-    const dem_status status = shape_add_pores(s, &recipe, &n_placed, &lost);
+    double radius_lost;
+    const dem_status status = shape_add_pores(s, &recipe, &n_placed, &radius_lost);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(b->errors, group->place,
-                            "pore %zu of %zu, of radius %g m, finds no place in body %zu with walls of %g m",
-                            n_placed + 1, recipe.number, lost, b->number, recipe.wall);
+                            "pore %zu of %zu, of radius %g m, finds no place in body %zu with walls of %g m%s; "
+                            "take fewer or smaller ones, or a thinner 'wall'",
+                            n_placed + 1, recipe.number, radius_lost, b->number, recipe.wall,
+                            wall == NULL ? ", the default" : "");
+    return status;
+}
+
+/* What is wrong with a number that cannot be computed with; NULL if it can. */
+static const char *fault_of(double x)
+{
+    return isnormal(x) ? NULL : (x < 1.0 ? "too small" : "too large");
+}
+
+/* Whether an equilateral triangle has an area, a mass and a stiffness to compute with. */
+static dem_status check_scales(const builder *b, const dem_material *m)
+{
+    const double spacing = schema_real(b->body, "spacing"), area = 0.43301270189221932 * spacing * spacing;
+    const double mass = m->density * m->thickness * area / 3.0, stiffness = m->youngs_modulus * m->thickness * spacing;
+    if (fault_of(area) != NULL)
+        namelist_errors_add(b->errors, place_of(b->body, "spacing"),
+                            "body %zu: the area of a triangle, %g m^2, is %s; its sides are %g m", b->number, area,
+                            fault_of(area), spacing);
+    else if (fault_of(mass) != NULL)
+        namelist_errors_add(
+            b->errors, place_of(b->body, "material"),
+            "body %zu: the mass of a node, %g kg, is %s; density %g kg/m^3, thickness %g m, spacing %g m", b->number,
+            mass, fault_of(mass), m->density, m->thickness, spacing);
+    else if (fault_of(stiffness) != NULL)
+        namelist_errors_add(b->errors, place_of(b->body, "material"),
+                            "body %zu: the stiffness of a spring, %g N, is %s; Young's modulus %g Pa, thickness %g m, "
+                            "spacing %g m",
+                            b->number, stiffness, fault_of(stiffness), m->youngs_modulus, m->thickness, spacing);
+    return isnormal(area) && isnormal(mass) && isnormal(stiffness) ? DEM_OK : DEM_ERROR_MODEL;
+}
+
+static dem_status triangulate(builder *b, const shape *s)
+{
+    dem_status status = shape_mesh(&b->lattice, s);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(b->errors, place_of(b->body, "spacing"),
+                            "body %zu would have more nodes than 2^40 with the spacing %g m", b->number, s->spacing);
+    if (status != DEM_OK) return status;
+    const dem_index n = b->lattice.n_nodes;
+    status = shape_cut(&b->lattice, s);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(b->errors, b->body->place, "body %zu: its voids and pores take all of its %lld nodes",
+                            b->number, (long long)n);
     return status;
 }
 
@@ -236,7 +317,9 @@ static dem_status make_mesh(builder *b)
         const schema_instance *group = schema_get(groups, "pores", k);
         if ((size_t)schema_real(group, "body") == b->number) status = add_pores(b, &s, group);
     }
-    if (status == DEM_OK) status = report(b, shape_lattice(&b->lattice, &s, &material), "spacing");
+    if (status == DEM_OK) status = triangulate(b, &s);
+    if (status == DEM_OK) status = check_scales(b, &material);
+    if (status == DEM_OK) status = report(b, dem_lattice_assemble(&b->lattice, &material), "spacing");
     shape_free(&s);
     return status;
 }
@@ -245,7 +328,11 @@ static dem_status read_file(builder *b)
 {
     char *path = body_file(b->scene, b->body);
     if (path == NULL) return DEM_ERROR_MEMORY;
-    const dem_status status = report(b, dem_lattice_read(&b->lattice, path), "file");
+    const dem_status status = dem_lattice_read(&b->lattice, path);
+    if (status == DEM_ERROR_IO && strstr(dem_status_message(), "file signature not found") != NULL)
+        namelist_errors_add(b->errors, place_of(b->body, "file"), "body %zu: %s: is not an HDF5 file", b->number, path);
+    else
+        (void)report(b, status, "file");
     free(path);
     return status;
 }
@@ -300,6 +387,30 @@ static dem_status clear(builder *b, const dem_model *model)
     return DEM_OK;
 }
 
+static void measure_start(builder *b, const dem_model *model)
+{
+    const dem_lattice *lattice = dem_model_lattice(model);
+    b->start.rest_length = lattice->n_springs > 0 ? dem_model_spacing(model) : (double)INFINITY;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        if ((lattice->flags[i] & (DEM_NODE_CONTACT | DEM_NODE_FIXED)) != DEM_NODE_CONTACT) continue;
+        const double *x = lattice->position + 2 * i, depth = -dem_model_gap(model, x);
+        if (depth > b->start.depth) b->start = (body_start){depth, {x[0], x[1]}, b->start.rest_length};
+    }
+}
+
+/* Whether a body is where its shape survives rounding. */
+static dem_status check_place(const builder *b)
+{
+    double largest = 0.0, least = (double)INFINITY;
+    for (dem_index k = 0; k < 2 * b->lattice.n_nodes; k++) largest = fmax(largest, fabs(b->lattice.x[k]));
+    for (dem_index k = 0; k < b->lattice.n_springs; k++) least = fmin(least, b->lattice.rest_length[k]);
+    if (largest * DBL_EPSILON <= lost * least) return DEM_OK;
+    namelist_errors_add(b->errors, place_of(b->body, "position"),
+                        "body %zu has coordinates of up to %g m, so large that rounding blurs its spacing of %g m",
+                        b->number, largest, least);
+    return DEM_ERROR_MODEL;
+}
+
 static dem_status put(builder *b)
 {
     const double *position = reals_of(b->body, "position"), *velocity = reals_of(b->body, "velocity");
@@ -307,23 +418,58 @@ static dem_status put(builder *b)
     dem_model *model = NULL;
     dem_lattice_move(&b->lattice, degree * schema_real(b->body, "angle"), position);
     dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
-    if (status == DEM_OK && (file || cleared))
+    if (status == DEM_OK) status = check_place(b);
+    if (status == DEM_OK)
         status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),
                         file ? "file" : "shape");
+    if (status == DEM_OK) measure_start(b, model);
     if (status == DEM_OK && cleared) status = clear(b, model);
+    if (cleared) b->start.depth = -schema_real(b->body, "clearance");
     dem_model_destroy(model);
     return status;
+}
+
+/* The obstacle, from 1, that has x deepest inside; 0 when memory runs out. */
+static dem_index find_obstacle(const body_scene *scene, const double x[2])
+{
+    double place[2] = {x[0], x[1]}, mass = 1.0, least = (double)INFINITY;
+    dem_index deepest = 0;
+    dem_lattice point;
+    dem_lattice_init(&point);
+    point.n_nodes = 1, point.x = place, point.mass = &mass;
+    for (dem_index k = 0; k < scene->n_obstacles; k++) {
+        dem_model *model;
+        if (dem_model_create(&model, &point, scene->obstacles + k, 1) != DEM_OK) return 0;
+        const double gap = dem_model_gap(model, x);
+        dem_model_destroy(model);
+        if (gap < least) deepest = k + 1;
+        least = fmin(least, gap);
+    }
+    return deepest;
+}
+
+bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors)
+{
+    if (start->depth <= skin) return true;
+    const dem_index obstacle = find_obstacle(scene, start->x);
+    namelist_errors_add(errors, schema_get(scene->groups, "body", k)->place,
+                        "body %zu starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the skin of %g m; "
+                        "'position' or 'clearance' can put it in front",
+                        k + 1, start->depth, (long long)obstacle, start->x[0], start->x[1], skin);
+    return obstacle > 0;
 }
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
     check_names(groups, errors);
+    check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
         check_uses(body, body_uses, sizeof body_uses / sizeof *body_uses, errors);
         check_material(groups, body, errors);
         check_spacing(body, errors);
         check_clearance(groups, body, errors);
+        check_file(body, errors);
     }
     for (size_t k = 0; k < schema_count(groups, "void"); k++) {
         check_uses(schema_get(groups, "void", k), void_uses, sizeof void_uses / sizeof *void_uses, errors);
@@ -344,14 +490,20 @@ char *body_file(const body_scene *scene, const schema_instance *body)
     return path;
 }
 
-bool body_build(dem_lattice *out, const body_scene *scene, size_t k, namelist_errors *errors)
+bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
 {
-    builder b = {.scene = scene, .body = schema_get(scene->groups, "body", k), .number = k + 1, .errors = errors};
+    const double none = (double)INFINITY;
+    builder b = {.scene = scene,
+                 .body = schema_get(scene->groups, "body", k),
+                 .number = k + 1,
+                 .errors = errors,
+                 .start = {.depth = -none, .rest_length = none}};
     dem_lattice_init(&b.lattice);
     dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
     if (status == DEM_OK) status = settle_parts(&b);
     if (status == DEM_OK) status = put(&b);
     if (status != DEM_OK) dem_lattice_free(&b.lattice);
     *out = b.lattice;
+    *start = b.start;
     return status != DEM_ERROR_MEMORY;
 }

@@ -19,9 +19,19 @@ typedef struct body_scene {
 /* What can be said without geometry: keys a shape lacks or does not use, names and numbers that refer to nothing. */
 void body_check_all(const schema_deck *groups, namelist_errors *errors);
 
+/* How a body starts: its node that may touch and lies deepest in the obstacles. */
+typedef struct body_start {
+    double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */
+    double x[2];        /* of the node, m */
+    double rest_length; /* m, of its shortest spring; infinity without springs */
+} body_start;
+
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.
  * Returns false only when memory runs out (*out is then empty). Caller owns *out. */
-bool body_build(dem_lattice *out, const body_scene *scene, size_t k, namelist_errors *errors);
+bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors);
+
+/* Reports body k if it starts deeper in an obstacle than `skin`, m. Returns false only when memory runs out. */
+bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors);
 
 /* Path of the lattice file of a body of shape 'file', malloc'ed; NULL when memory runs out. */
 char *body_file(const body_scene *scene, const schema_instance *body);

@@ -13,7 +13,7 @@
 #include "body.h"
 #include "schema.h"
 
-enum { MAX_SIZE = 1 << 20 }; /* bytes of a deck */
+static const double most_frames = 1e7;
 
 /* ---- the file ---- */
 
@@ -23,27 +23,27 @@ static deck_status refuse(namelist_errors *errors, const char *why)
     return DECK_UNREADABLE;
 }
 
-/* `text` has MAX_SIZE + 2 bytes: one more than a deck may have tells that it is too long. */
+/* `text` has NAMELIST_MAX_FILE + 2 bytes: one more than a deck may have tells that it is too long. */
 static deck_status read_bytes(char *text, size_t *size, int file, namelist_errors *errors)
 {
     struct stat info;
     if (fstat(file, &info) != 0) return refuse(errors, strerror(errno));
     if (!S_ISREG(info.st_mode)) return refuse(errors, "not a regular file");
-    for (*size = 0; *size <= MAX_SIZE;) {
-        const ssize_t n = read(file, text + *size, MAX_SIZE + 1 - *size);
+    for (*size = 0; *size <= NAMELIST_MAX_FILE;) {
+        const ssize_t n = read(file, text + *size, NAMELIST_MAX_FILE + 1 - *size);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) return refuse(errors, strerror(errno));
         if (n == 0) break;
         *size += (size_t)n;
     }
     text[*size] = '\0';
-    if (*size > MAX_SIZE) return refuse(errors, "the file is larger than 1 MiB");
+    if (*size > NAMELIST_MAX_FILE) return refuse(errors, "the file is larger than 4 MiB");
     return *size == 0 ? refuse(errors, "the file is empty") : DECK_OK;
 }
 
 static deck_status read_text(deck *d, size_t *size, namelist_errors *errors)
 {
-    d->source = malloc(MAX_SIZE + 2);
+    d->source = malloc(NAMELIST_MAX_FILE + 2);
     if (d->source == NULL) return DECK_MEMORY;
     const int file = open(d->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a pipe without writer must not hang */
     if (file < 0) return refuse(errors, strerror(errno));
@@ -54,18 +54,51 @@ static deck_status read_text(deck *d, size_t *size, namelist_errors *errors)
 
 /* ---- checks ---- */
 
-static void check_points(const schema_instance *obstacle, namelist_errors *errors)
+/* Squares of lengths must be numbers that can be computed with. */
+static bool is_degenerate(const double *a)
+{
+    const double x = a[2] - a[0], y = a[3] - a[1];
+    return !isnormal(x * x + y * y);
+}
+
+/* Reports the first degenerate segment, and how many there are. */
+static void check_points(const schema_instance *obstacle, size_t number, namelist_errors *errors)
 {
     const schema_value *points = schema_value_of(obstacle, "points");
-    const double *x = points->reals;
+    const int n_segments = points->count % 2 == 0 ? points->count / 2 - 1 : 0;
+    int first = -1, n = 0;
+    char more[64] = "";
     if (points->count % 2 != 0)
         namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
                             points->count);
-    for (int k = 0; points->count % 2 == 0 && k + 1 < points->count / 2; k++)
-        if (x[2 * k] == x[2 * k + 2] && x[2 * k + 1] == x[2 * k + 3])
-            namelist_errors_add(errors, points->place,
-                                "'points' in &obstacle: segment %d has no length, both its ends are (%g, %g)", k + 1,
-                                x[2 * k], x[2 * k + 1]);
+    for (int k = n_segments - 1; k >= 0; k--) {
+        if (!is_degenerate(points->reals + 2 * k)) continue;
+        first = k;
+        n++;
+    }
+    if (n == 0) return;
+    const double *a = points->reals + 2 * first, length = hypot(a[2] - a[0], a[3] - a[1]);
+    if (n > 1) (void)snprintf(more, sizeof more, "; so it is with %d of %d segments", n, n_segments);
+    namelist_errors_add(errors, points->place,
+                        "'points' in &obstacle: segment %d of obstacle %zu, from (%g, %g) to (%g, %g) m, %s%s",
+                        first + 1, number, a[0], a[1], a[2], a[3],
+                        length > 1.0 ? "is too long" : (length > 0.0 ? "is too short" : "has no length"), more);
+}
+
+static void check_frames(const schema_deck *groups, namelist_errors *errors)
+{
+    const schema_value *interval = schema_value_of(schema_get(groups, "output", 0), "frame_interval");
+    const double frames = schema_real(schema_get(groups, "run", 0), "t_end") / interval->reals[0];
+    if (frames > most_frames && !interval->faulty)
+        namelist_errors_add(errors, interval->place,
+                            "'frame_interval' in &output, %g s, makes %g frames until 't_end'; the limit is %.0f",
+                            interval->reals[0], frames, most_frames);
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t n = strlen(text), m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
 }
 
 static void check_name(const schema_instance *output, namelist_errors *errors)
@@ -76,14 +109,18 @@ static void check_name(const schema_instance *output, namelist_errors *errors)
     if (length == 0 || length > 100 || strchr(text, '/') != NULL || text[0] == '.' || text[0] == '-')
         namelist_errors_add(errors, name->place,
                             "'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'");
+    else if (ends_with(text, ".obstacle") || ends_with(text, ".part"))
+        namelist_errors_add(errors, name->place,
+                            "'name' in &output must not end in '.obstacle' or '.part': other files are called so");
 }
 
 static void check(const schema_deck *groups, namelist_errors *errors)
 {
     body_check_all(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
-        check_points(schema_get(groups, "obstacle", k), errors);
+        check_points(schema_get(groups, "obstacle", k), k + 1, errors);
     check_name(schema_get(groups, "output", 0), errors);
+    check_frames(groups, errors);
 }
 
 /* ---- scalars ---- */
@@ -156,22 +193,51 @@ static char *folder_of(const char *path)
     return strndup(path, slash == NULL ? 0 : (size_t)(slash - path) + 1);
 }
 
+static const uint64_t offset_basis = UINT64_C(0xcbf29ce484222325);
+
 static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 {
     for (size_t k = 0; k < n; k++) hash = (hash ^ (unsigned char)bytes[k]) * UINT64_C(0x100000001b3); /* FNV-1a */
     return hash;
 }
 
-static bool hash_file(uint64_t *hash, const body_scene *scene, const schema_instance *body, namelist_errors *errors)
+static bool hash_file(deck *d, const body_scene *scene, const schema_instance *body, namelist_errors *errors)
 {
     char bytes[4096], *path = body_file(scene, body);
     if (path == NULL) return false;
     FILE *file = fopen(path, "rb");
-    for (size_t n; file != NULL && (n = fread(bytes, 1, sizeof bytes, file)) > 0;) *hash = hash_bytes(*hash, bytes, n);
+    for (size_t n; file != NULL && (n = fread(bytes, 1, sizeof bytes, file)) > 0;) {
+        d->hash = hash_bytes(d->hash, bytes, n);
+        d->run_hash = hash_bytes(d->run_hash, bytes, n);
+    }
     if (file == NULL || ferror(file))
         namelist_errors_add(errors, schema_value_of(body, "file")->place, "%s: %s", path, strerror(errno));
     if (file != NULL) (void)fclose(file);
     free(path);
+    return true;
+}
+
+static bool set_body(deck *d, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
+{
+    const schema_instance *group = schema_get(scene->groups, "body", k);
+    dem_lattice body;
+    if (!body_build(&body, start, scene, k, errors)) return false;
+    const dem_status status = dem_lattice_append(&d->lattice, &body);
+    dem_lattice_free(&body);
+    if (status == DEM_ERROR_MEMORY) return false;
+    if (status != DEM_OK) namelist_errors_add(errors, group->place, "%s", dem_status_message());
+    return strcmp(schema_text(group, "shape"), "file") != 0 || errors->n > 0 || hash_file(d, scene, group, errors);
+}
+
+/* By the rule of the library, which has the last word. */
+static bool check_starts(const deck *d, const body_start *starts, const body_scene *scene, namelist_errors *errors)
+{
+    const size_t n = schema_count(scene->groups, "body");
+    double spacing = d->options.spacing > 0.0 ? d->options.spacing : (double)INFINITY;
+    for (size_t k = 0; k < n && !(d->options.spacing > 0.0); k++) spacing = fmin(spacing, starts[k].rest_length);
+    const double skin = d->options.skin > 0.0 ? d->options.skin : 1e-6 * spacing;
+    for (size_t k = 0; k < n; k++)
+        if (!body_check_start(scene, k, &starts[k], skin, errors)) return false;
     return true;
 }
 
@@ -182,34 +248,30 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                               .obstacles = d->obstacles,
                               .n_obstacles = d->n_obstacles,
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
-    for (size_t k = 0; k < schema_count(groups, "body"); k++) {
-        const schema_instance *group = schema_get(groups, "body", k);
-        dem_lattice body;
-        if (!body_build(&body, &scene, k, errors)) return false;
-        const dem_status status = dem_lattice_append(&d->lattice, &body);
-        dem_lattice_free(&body);
-        if (status == DEM_ERROR_MEMORY) return false;
-        if (status != DEM_OK) namelist_errors_add(errors, group->place, "%s", dem_status_message());
-        if (strcmp(schema_text(group, "shape"), "file") == 0 && errors->n == 0 &&
-            !hash_file(&d->hash, &scene, group, errors))
-            return false;
-    }
-    return true;
+    const size_t n = schema_count(groups, "body");
+    body_start *starts = calloc(n + 1, sizeof *starts);
+    bool good = starts != NULL;
+    for (size_t k = 0; k < n && good; k++) good = set_body(d, &starts[k], &scene, k, errors);
+    good = good && check_starts(d, starts, &scene, errors);
+    free(starts);
+    return good;
 }
 
 /* ---- all of it ---- */
 
 static deck_status interpret(deck *d, const schema_deck *groups, namelist_errors *errors)
 {
-    char *folder = NULL;
-    bool good = schema_echo(groups, false, &d->echo) && schema_echo(groups, true, &d->physics);
-    good = good && set_scalars(d, groups) && set_obstacles(d, groups);
+    char *folder = NULL, *bare = NULL;
+    bool good = schema_echo(groups, SCHEMA_MARKED, &d->echo) && schema_echo(groups, SCHEMA_PHYSICS, &d->physics);
+    good = good && schema_echo(groups, SCHEMA_BARE, &bare) && set_scalars(d, groups) && set_obstacles(d, groups);
     if (good) {
-        d->hash = hash_bytes(UINT64_C(0xcbf29ce484222325), d->physics, strlen(d->physics));
+        d->hash = hash_bytes(offset_basis, d->physics, strlen(d->physics));
+        d->run_hash = hash_bytes(offset_basis, bare, strlen(bare));
         folder = folder_of(d->path);
         good = folder != NULL && set_bodies(d, groups, folder, errors);
     }
     free(folder);
+    free(bare);
     if (!good) return DECK_MEMORY;
     return errors->n > 0 ? DECK_INVALID : DECK_OK;
 }
@@ -219,7 +281,10 @@ static deck_status resolve(deck *d, size_t size, namelist_errors *errors)
     namelist list;
     schema_deck groups = {0};
     deck_status status = DECK_MEMORY;
-    if (namelist_parse(&list, d->source, size, errors) && schema_resolve(&groups, &list, errors)) {
+    const bool parsed = namelist_parse(&list, d->source, size, errors);
+    if (parsed && list.unreadable) {
+        status = DECK_INVALID;
+    } else if (parsed && schema_resolve(&groups, &list, errors)) {
         check(&groups, errors);
         status = errors->n > 0 ? DECK_INVALID : interpret(d, &groups, errors);
     }

@@ -10,7 +10,7 @@
 
 typedef enum deck_status {
     DECK_OK,
-    DECK_UNREADABLE, /* not a regular file of 1 byte to 1 MiB that can be read */
+    DECK_UNREADABLE, /* not a regular file of 1 byte to 4 MiB that can be read */
     DECK_INVALID,    /* has the faults listed */
     DECK_MEMORY      /* memory ran out */
 } deck_status;
@@ -19,7 +19,8 @@ typedef enum deck_status {
 typedef struct deck {
     char *path, *source;  /* the file's name and text */
     char *echo, *physics; /* resolved: every key; only those that make the problem */
-    uint64_t hash;        /* FNV-1a of `physics`, then of the bytes of each lattice file */
+    uint64_t hash;        /* FNV-1a of `physics`, then of the bytes of each lattice file: the problem */
+    uint64_t run_hash;    /* the same of the echo without marks: the run */
     char *title, *name;
     double t_end;            /* s */
     dem_lattice lattice;     /* all bodies, in the order of the deck */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The batch driver: read the deck, build, run, report. Exit codes: docs/deck.md. */
-#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +15,8 @@
 #include "output.h"
 #include "report.h"
 #include "schema.h"
+
+static const double most_steps = 1e10;
 
 enum exit_code {
     EXIT_DONE = 0,
@@ -80,15 +84,16 @@ static enum exit_code code_of(dem_status status)
 
 static dem_status write_provenance(dem_trajectory *trajectory, const deck *d)
 {
-    char versions[256], hash[32], start[32];
+    char versions[256], problem[OUTPUT_HASH], hash[OUTPUT_HASH], start[32];
     const time_t now = time(NULL);
     struct tm utc;
     report_versions(versions, sizeof versions);
-    (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)d->hash);
+    output_print_hash(problem, d->hash);
+    output_print_hash(hash, d->run_hash);
     (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
-    const char *const notes[][2] = {{"versions", versions}, {"kernel", "portable"}, {"problem", hash},
-                                    {"start", start},       {"deck", d->source},    {"resolved", d->echo},
-                                    {"title", d->title},    {"physics", d->physics}};
+    const char *const notes[][2] = {{"versions", versions}, {"kernel", "portable"}, {"problem", problem},
+                                    {"run", hash},          {"start", start},       {"deck", d->source},
+                                    {"resolved", d->echo},  {"title", d->title},    {"physics", d->physics}};
     dem_status status = DEM_OK;
     for (size_t k = 0; k < sizeof notes / sizeof notes[0] && status == DEM_OK; k++)
         status = dem_trajectory_note(trajectory, notes[k][0], notes[k][1]);
@@ -106,8 +111,20 @@ static dem_status advance(const deck *d, dem_simulation *simulation, dem_traject
     return status;
 }
 
+/* Whether the run has an end; says so if it has none. */
+static bool ends(const deck *d, const dem_simulation *simulation)
+{
+    const double step = dem_simulation_options(simulation).max_step, steps = d->t_end / step;
+    if (steps <= most_steps) return true;
+    (void)fprintf(stderr, "%s: error: t_end = %g s takes at least %.3g steps of %.3g s; the limit is %.0e\n", d->path,
+                  d->t_end, steps, step, most_steps);
+    return false;
+}
+
+/* Without a reader of its log it goes on all the same: main() tells in the end. */
 static int run(const deck *d, dem_simulation *simulation, const char *path)
 {
+    (void)signal(SIGPIPE, SIG_IGN);
     dem_trajectory *trajectory;
     report log;
     dem_trajectory_options options = dem_trajectory_options_default();
@@ -155,6 +172,8 @@ static int build_and_run(const command *c, const deck *d)
     int code;
     if (status != DEM_OK) {
         code = complain(code_of(status), d->path);
+    } else if (!ends(d, simulation)) {
+        code = EXIT_INVALID;
     } else if (c->action == ACTION_CHECK) {
         report_header(stdout, d, simulation, NULL);
         code = EXIT_DONE;
@@ -183,12 +202,14 @@ static int with_deck(const command *c)
     namelist_errors errors = {0};
     const deck_status status = deck_read(&d, c->deck, &errors);
     int code = status == DECK_MEMORY ? EXIT_MEMORY : EXIT_INVALID;
-    if (status == DECK_OK && c->action == ACTION_ECHO)
-        code = fputs(d.echo, stdout) >= 0 ? EXIT_DONE : EXIT_IO;
-    else if (status == DECK_OK)
+    if (status == DECK_OK && c->action == ACTION_ECHO) {
+        (void)fputs(d.echo, stdout);
+        code = EXIT_DONE;
+    } else if (status == DECK_OK) {
         code = build_and_run(c, &d);
-    else if (status == DECK_MEMORY)
+    } else if (status == DECK_MEMORY) {
         (void)fprintf(stderr, "%s: error: out of memory\n", c->deck);
+    }
     print_errors(c->deck, &errors);
     namelist_errors_free(&errors);
     deck_free(&d);
@@ -197,20 +218,53 @@ static int with_deck(const command *c)
 
 /* ---- the command line ---- */
 
+typedef struct action_word {
+    const char *word;
+    action action;
+} action_word;
+
+static const action_word action_words[] = {{"--check", ACTION_CHECK},       {"--echo", ACTION_ECHO},
+                                           {"--template", ACTION_TEMPLATE}, {"--keys", ACTION_KEYS},
+                                           {"--version", ACTION_VERSION},   {"--help", ACTION_HELP}};
+static const size_t n_actions = sizeof action_words / sizeof action_words[0];
+
+__attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    (void)fprintf(stderr, "dem_batch: error: ");
+    (void)vfprintf(stderr, format, arguments);
+    (void)fprintf(stderr, "\n%s", usage);
+    va_end(arguments);
+    return false;
+}
+
+/* As it stands on the command line; "" for a run, which needs no word. */
+static const char *word_of(action wanted)
+{
+    for (size_t k = 0; k < n_actions; k++)
+        if (action_words[k].action == wanted) return action_words[k].word;
+    return "";
+}
+
 static bool parse_word(command *c, const char *word)
 {
-    static const struct {
-        const char *word;
-        action action;
-    } words[] = {{"--check", ACTION_CHECK}, {"--echo", ACTION_ECHO},       {"--template", ACTION_TEMPLATE},
-                 {"--keys", ACTION_KEYS},   {"--version", ACTION_VERSION}, {"--help", ACTION_HELP}};
-    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++)
-        if (strcmp(word, words[k].word) == 0) {
-            c->action = words[k].action;
-            return true;
-        }
-    if (word[0] == '-' || c->deck != NULL) return false;
+    for (size_t k = 0; k < n_actions; k++) {
+        if (strcmp(word, action_words[k].word) != 0) continue;
+        if (c->action != ACTION_RUN) return refuse("'%s' does not go with '%s'", word, word_of(c->action));
+        c->action = action_words[k].action;
+        return true;
+    }
+    if (word[0] == '-') return refuse("'%s' is no option", word);
+    if (c->deck != NULL) return refuse("'%s' is a second deck, behind '%s'", word, c->deck);
     c->deck = word;
+    return true;
+}
+
+static bool parse_outdir(command *c, const char *folder)
+{
+    if (folder == NULL || folder[0] == '\0') return refuse("'--outdir' needs a folder");
+    c->outdir = folder;
     return true;
 }
 
@@ -219,28 +273,18 @@ static bool parse(command *c, int argc, char **argv)
     *c = (command){.action = ACTION_RUN, .outdir = "."};
     for (int k = 1; k < argc; k++) {
         const bool outdir = strcmp(argv[k], "--outdir") == 0;
-        if (outdir && k + 1 < argc) {
-            c->outdir = argv[++k];
-        } else if (outdir || !parse_word(c, argv[k])) {
-            (void)fprintf(stderr, "dem_batch: error: %s\n%s",
-                          outdir ? "--outdir needs a folder" : "unknown option or a second deck", usage);
-            return false;
-        }
+        if (!(outdir ? parse_outdir(c, argv[++k]) : parse_word(c, argv[k]))) return false;
     }
     const bool needs_deck = c->action == ACTION_RUN || c->action == ACTION_CHECK || c->action == ACTION_ECHO;
-    if (needs_deck != (c->deck != NULL)) {
-        (void)fprintf(stderr, "dem_batch: error: %s\n%s", needs_deck ? "no deck" : "no deck belongs here", usage);
-        return false;
-    }
+    if (needs_deck && c->deck == NULL) return refuse("no deck");
+    if (!needs_deck && c->deck != NULL) return refuse("'%s' takes no deck, got '%s'", word_of(c->action), c->deck);
     return true;
 }
 
-int main(int argc, char **argv)
+static int act(const command *c)
 {
     char versions[256];
-    command c;
-    if (!parse(&c, argc, argv)) return EXIT_USAGE;
-    switch (c.action) {
+    switch (c->action) {
     case ACTION_TEMPLATE:
         schema_template(stdout);
         break;
@@ -257,7 +301,25 @@ int main(int argc, char **argv)
     case ACTION_RUN:
     case ACTION_CHECK:
     case ACTION_ECHO:
-        return with_deck(&c);
+        return with_deck(c);
     }
-    return fflush(stdout) == 0 ? EXIT_DONE : EXIT_IO;
+    return EXIT_DONE;
+}
+
+/* A file must not get the number of a closed standard stream: what is printed would go into it. */
+static void fill_streams(void)
+{
+    for (int k = 0; k <= STDERR_FILENO; k++)
+        if (fcntl(k, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
+}
+
+int main(int argc, char **argv)
+{
+    command c;
+    fill_streams();
+    if (!parse(&c, argc, argv)) return EXIT_USAGE;
+    const int code = act(&c);
+    const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
+    if (!printed) (void)fprintf(stderr, "dem_batch: error: standard output cannot be written\n");
+    return printed || code != EXIT_DONE ? code : EXIT_IO;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reader of Fortran namelists: one pass over a cleaned copy of the text, one token ahead. What a key or a value means, and
- * whether it is of the right type, is not known here. */
+/* Reader of Fortran namelists: one pass over a cleaned copy of the text, one token ahead. What a key or a value means,
+ * and whether it is of the right type, is not known here. */
 #include "namelist.h"
 #include "scan.h"
 
@@ -11,10 +11,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum {
-    MAX_FILE = 1 << 20,  /* bytes */
     MAX_LINE = 1 << 16,  /* characters */
     MAX_GROUPS = 2000,   /* bounds the resolved echo, which must be readable in its turn */
     MAX_VALUES = 100000, /* in the file; also the largest repeat count and subscript */
@@ -29,6 +27,7 @@ typedef struct reader {
     scanner scan;
     namelist *list;
     namelist_errors *errors;
+    const char *key; /* whose values are read */
     size_t n_values; /* in all groups so far */
     bool failed;     /* memory ran out */
 } reader;
@@ -73,17 +72,22 @@ static namelist_place place_here(const reader *r)
 
 /* ---- cleaning ------------------------------------------------------------------------------------------------ */
 
-/* Replaces what is not text by blanks; reports at most one such fault in a line. */
-static void clean(char *text, size_t size, namelist_errors *errors)
+/* Replaces what is not text by blanks, and reports it once. Returns false if it stands in several lines: then it is not
+ * by oversight, and the rest is better not looked at. */
+static bool clean(char *text, size_t size, namelist_errors *errors)
 {
-    namelist_place place = {1, 1};
-    bool good = true; /* this line, so far */
+    namelist_place place = {1, 1}, first = place;
+    unsigned char byte = 0; /* the first that is not text */
+    size_t n_lines = 0;     /* that have such */
+    bool good = true;       /* this line, so far */
     for (size_t k = 0; k < size;) {
         const size_t n = scan_plain_length(text + k);
         const bool beyond = place.column > MAX_LINE && text[k] != '\n';
-        if (good && n == 0)
-            namelist_errors_add(errors, place, "byte 0x%02X is not text; UTF-8 is expected", (unsigned char)text[k]);
-        else if (good && beyond)
+        if (good && n == 0 && n_lines++ == 0) {
+            byte = (unsigned char)text[k];
+            first = place;
+        }
+        if (good && n > 0 && beyond)
             namelist_errors_add(errors, place, "the line is longer than %d characters", MAX_LINE);
         good = good && n > 0 && !beyond;
         if (n == 0) text[k] = ' ';
@@ -94,16 +98,26 @@ static void clean(char *text, size_t size, namelist_errors *errors)
             good = true;
         }
     }
+    if (n_lines == 1) namelist_errors_add(errors, first, "byte 0x%02X is not text; UTF-8 is expected", byte);
+    if (n_lines > 1)
+        namelist_errors_add(errors, first, "byte 0x%02X is not text; UTF-8 is expected (%zu such lines)", byte,
+                            n_lines);
+    return n_lines <= 1;
 }
 
-static char *cleaned_copy(const char *text, size_t size, namelist_errors *errors)
+static bool is_utf16(const char *s, size_t size)
+{
+    return size >= 2 && (memcmp(s, "\xFF\xFE", 2) == 0 || memcmp(s, "\xFE\xFF", 2) == 0 || !s[0] != !s[1]);
+}
+
+static char *cleaned_copy(const char *text, size_t size, bool *is_text, namelist_errors *errors)
 {
     const size_t mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
     char *copy = malloc(size - mark + 1);
     if (copy == NULL) return NULL;
     if (size > mark) memcpy(copy, text + mark, size - mark);
     copy[size - mark] = '\0';
-    clean(copy, size - mark, errors);
+    *is_text = clean(copy, size - mark, errors);
     return copy;
 }
 
@@ -133,24 +147,8 @@ static char *copy_name(reader *r, const char *s, size_t n)
 
 static void report_fault(reader *r, namelist_value *value, const char *what)
 {
-    namelist_errors_add(r->errors, value->place, "'%.40s' %s", value->text, what);
+    namelist_errors_add(r->errors, value->place, "'%.40s': '%.40s' %s", r->key, value->text, what);
     value->kind = NAMELIST_FAULT;
-}
-
-static bool is_logical(const char *word, bool *logical)
-{
-    static const char *const spellings[] = {".true.", "true", "t", ".false.", "false", "f"};
-    for (int k = 0; k < 6; k++) {
-        *logical = k < 3;
-        if (strcasecmp(word, spellings[k]) == 0) return true;
-    }
-    return false;
-}
-
-static bool is_infinite(const char *word)
-{
-    word += *word == '+' || *word == '-';
-    return strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0 || strncasecmp(word, "nan", 3) == 0;
 }
 
 /* INTEGER, REAL, FAULT for an exponent without its letter, or WORD. */
@@ -205,9 +203,9 @@ static void read_word(reader *r, namelist_value *value)
         report_fault(r, value, "has an exponent without its letter; write 1.5e+3 for 1.5+3");
     else if (value->kind != NAMELIST_WORD)
         read_number(r, value);
-    else if (is_logical(value->text, &value->logical))
+    else if (scan_is_logical(value->text, &value->logical))
         value->kind = NAMELIST_LOGICAL;
-    else if (is_infinite(value->text))
+    else if (scan_is_infinite(value->text))
         report_fault(r, value, "is not a finite number");
 }
 
@@ -339,6 +337,8 @@ static void read_values(reader *r, namelist_key *key)
             if (null) append_null(r, key, place_here(r), 1);
             null = true;
             scan_step(&r->scan);
+        } else if (key->n_values > 0 && !null && scan_at_line_name(&r->scan)) {
+            return; /* the next key, without its '=' */
         } else {
             read_value(r, key);
             null = false;
@@ -414,6 +414,7 @@ static void read_assignment(reader *r, namelist_group *group)
     while (*here(r) != '=' && *here(r) != '\0') scan_step(&r->scan);
     scan_step(&r->scan);
     const size_t faults = r->errors->n;
+    r->key = key.name;
     read_values(r, &key);
     if (key.n_values == 0 && r->errors->n == faults) append_null(r, &key, key.place, 1); /* as f90nml writes None */
     if (room > 0 && key.n_values > (size_t)room)
@@ -573,14 +574,19 @@ void namelist_errors_free(namelist_errors *errors)
 bool namelist_parse(namelist *out, const char *text, size_t size, namelist_errors *errors)
 {
     *out = (namelist){0};
-    if (size > MAX_FILE) {
-        namelist_errors_add(errors, (namelist_place){1, 1}, "the file is larger than %d bytes", MAX_FILE);
-        return true;
-    }
-    char *copy = cleaned_copy(text, size, errors);
+    const namelist_place start = {1, 1};
+    out->unreadable = size > NAMELIST_MAX_FILE || is_utf16(text, size);
+    if (size > NAMELIST_MAX_FILE)
+        namelist_errors_add(errors, start, "the file is larger than %d bytes", NAMELIST_MAX_FILE);
+    else if (out->unreadable)
+        namelist_errors_add(errors, start, "the file is in UTF-16; UTF-8 is expected");
+    if (out->unreadable) return true;
+    bool is_text;
+    char *copy = cleaned_copy(text, size, &is_text, errors);
     if (copy == NULL) return false;
     reader r = {.scan = {.text = copy, .size = strlen(copy), .line = 1, .column = 1}, .list = out, .errors = errors};
-    while (scan_at_group(&r.scan) || find_group(&r)) read_group(&r);
+    out->unreadable = !is_text;
+    while (is_text && (scan_at_group(&r.scan) || find_group(&r))) read_group(&r);
     free(copy);
     if (r.failed) namelist_free(out);
     return !r.failed;

@@ -8,6 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { NAMELIST_MAX_FILE = 4 << 20 }; /* bytes: the echo of a deck of 1 MiB has room */
+
 typedef struct namelist_place {
     int line, column; /* from 1 */
 } namelist_place;
@@ -63,6 +65,7 @@ typedef struct namelist_errors {
 typedef struct namelist {
     size_t n_groups;
     namelist_group *groups;
+    bool unreadable; /* too large, or no text: that has been reported, and nothing else was looked at */
 } namelist;
 
 /* Parses `size` bytes; syntax faults are appended to `errors` and reading goes on behind them.

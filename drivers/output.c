@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outputs carry the hash of their problem and their resolved deck in /provenance. */
+/* Outputs carry the hashes of their problem and of their run in /provenance. */
 #include "output.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -18,21 +17,21 @@ bool output_path(char *path, size_t size, const char *folder, const char *name)
     return n > 0 && (size_t)n + sizeof part_suffix < size;
 }
 
-static bool same_problem(const char *path, const deck *d)
+static bool same_hash(const char *path, const char *note, uint64_t hash)
 {
-    char stored[32], hash[32];
-    (void)snprintf(hash, sizeof hash, "%016llx", (unsigned long long)d->hash);
-    return dem_trajectory_read_note(path, "problem", stored, sizeof stored) == DEM_OK && strcmp(stored, hash) == 0;
+    char stored[OUTPUT_HASH], wanted[OUTPUT_HASH];
+    output_print_hash(wanted, hash);
+    return dem_trajectory_read_note(path, note, stored, sizeof stored) == DEM_OK && strcmp(stored, wanted) == 0;
 }
 
-static bool same_run(const char *path, const deck *d)
+static bool same_problem(const char *path, const deck *d)
 {
-    const size_t size = strlen(d->echo) + 2;
-    char *stored = malloc(size);
-    const bool same = stored != NULL && dem_trajectory_read_note(path, "resolved", stored, size) == DEM_OK &&
-                      strcmp(stored, d->echo) == 0;
-    free(stored);
-    return same;
+    return same_hash(path, "problem", d->hash);
+}
+
+void output_print_hash(char text[OUTPUT_HASH], uint64_t hash)
+{
+    (void)snprintf(text, OUTPUT_HASH, "%016llx", (unsigned long long)hash);
 }
 
 output_state output_claim(const char *path, const deck *d, char *reason, size_t size)
@@ -41,7 +40,7 @@ output_state output_claim(const char *path, const deck *d, char *reason, size_t 
     (void)snprintf(part, sizeof part, "%.*s%s", (int)(strlen(path) - strlen(suffix)), path, part_suffix);
     if (access(path, F_OK) == 0) {
         const bool same = same_problem(path, d);
-        if (same && same_run(path, d)) {
+        if (same && same_hash(path, "run", d->run_hash)) {
             (void)snprintf(reason, size, "this run's result is there");
             return OUTPUT_DONE;
         }

@@ -13,6 +13,11 @@ typedef enum output_state {
     OUTPUT_TAKEN /* something else is there */
 } output_state;
 
+enum { OUTPUT_HASH = 20 }; /* bytes of a hash as text, with some to spare */
+
+/** A hash as it stands in /provenance. */
+void output_print_hash(char text[OUTPUT_HASH], uint64_t hash);
+
 /** Folder and name to the path of NAME.vtkhdf; false if it does not fit. */
 bool output_path(char *path, size_t size, const char *folder, const char *name);
 

@@ -80,6 +80,22 @@ size_t scan_name_length(const char *s)
     return n;
 }
 
+bool scan_is_logical(const char *word, bool *logical)
+{
+    static const char *const spellings[] = {".true.", "true", "t", ".false.", "false", "f"};
+    for (int k = 0; k < 6; k++) {
+        *logical = k < 3;
+        if (strcasecmp(word, spellings[k]) == 0) return true;
+    }
+    return false;
+}
+
+bool scan_is_infinite(const char *word)
+{
+    word += *word == '+' || *word == '-';
+    return strcasecmp(word, "inf") == 0 || strcasecmp(word, "infinity") == 0 || strncasecmp(word, "nan", 3) == 0;
+}
+
 size_t scan_designator_length(const char *s)
 {
     size_t n = scan_name_length(s);
@@ -125,6 +141,14 @@ size_t scan_string_length(const char *s)
     const char next = s[n + 1];
     const bool separated = scan_is_blank(next) || strchr(",;/!", next) != NULL;
     return left_line && !separated ? 0 : n + 1;
+}
+
+bool scan_at_line_name(const scanner *scan)
+{
+    const char *s = scan_here(scan), *before = s;
+    while (before > scan->text && (before[-1] == ' ' || before[-1] == '\t')) before--;
+    const size_t n = scan_name_length(s);
+    return n > 0 && n == scan_word_length(s) && (before == scan->text || before[-1] == '\n');
 }
 
 bool scan_at_stop(const scanner *scan)

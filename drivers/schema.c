@@ -31,6 +31,7 @@ typedef struct assembly {
     const schema_key *key;
     const namelist_key *initial; /* its default, NULL: none */
     bool given, fault;
+    bool meant;                      /* by a misspelt name */
     namelist_place place;            /* of the first assignment, else of the group */
     size_t n;                        /* elements */
     const namelist_value **elements; /* [n], NULL or of kind NULL: nothing assigned */
@@ -325,6 +326,7 @@ static bool store(schema_value *value, const assembly *a)
 {
     const bool text = a->key->type == SCHEMA_STRING || a->key->type == SCHEMA_CHOICE;
     value->given = a->given;
+    value->faulty = a->fault || a->meant;
     value->place = a->place;
     if (a->n == 0) return true;
     value->reals = text ? NULL : calloc(a->n, sizeof *value->reals);
@@ -355,7 +357,7 @@ static const namelist_key *default_of(const resolver *r, int g, const char *name
 static bool resolve_group(resolver *r, int g, const namelist_group *given)
 {
     const schema_group *group = &r->groups[g];
-    const uint32_t meant = given == NULL ? UINT32_MAX : check_key_names(r, group, given);
+    const uint32_t meant = given == NULL ? 0 : check_key_names(r, group, given);
     schema_instance *instance = &r->deck->instances[r->deck->n_instances];
     instance->group = group;
     instance->place = given == NULL ? (namelist_place){1, 1} : given->place;
@@ -365,10 +367,14 @@ static bool resolve_group(resolver *r, int g, const namelist_group *given)
     bool good = true;
     for (int k = 0; k < group->n_keys && good; k++) {
         const schema_key *key = &group->keys[k];
-        assembly a = {.group = group, .key = key, .initial = default_of(r, g, key->name), .place = instance->place};
+        assembly a = {.group = group,
+                      .key = key,
+                      .initial = default_of(r, g, key->name),
+                      .meant = (meant >> k & 1u) != 0,
+                      .place = instance->place};
         good = assemble(r, &a, given) && store(&instance->values[k], &a);
         free(a.elements);
-        if (key->initial == NULL && !a.given && !a.fault && (meant >> k & 1u) == 0)
+        if (key->initial == NULL && given != NULL && !a.given && !a.fault && !a.meant)
             namelist_errors_add(r->errors, instance->place, "'%s' in &%s must be given", key->name, group->name);
     }
     return good;
@@ -428,6 +434,7 @@ bool schema_resolve(schema_deck *out, const namelist *list, namelist_errors *err
     out->instances = calloc(list->n_groups + (size_t)r.n_groups, sizeof *out->instances);
     bool good = out->instances != NULL && parse_defaults(&r);
     if (good) check_group_names(&r);
+    out->misspelt = r.meant_groups != 0;
     for (int g = 0; g < r.n_groups && good; g++) good = resolve_groups(&r, g);
     namelist_free(&r.defaults);
     if (!good) schema_free(out);
@@ -489,6 +496,7 @@ bool schema_nearest(const char *word, const char *const *names, size_t n_names, 
     size_t best = 2 + length / 3;
     if (length > MAX_NAME) return false;
     for (size_t k = 0; k < n_names; k++) {
+        if (strlen(names[k]) > MAX_NAME) continue;
         const size_t d = begins(word, names[k]) ? 1 : distance(word, names[k]);
         if (d >= best) continue;
         best = d;

@@ -38,7 +38,8 @@ const schema_group *schema_groups(int *n_groups);
 /* ---- a deck resolved against the table ---- */
 
 typedef struct schema_value {
-    bool given;           /* stated in the deck (a null value is not) */
+    bool given;  /* stated in the deck (a null value is not) */
+    bool faulty; /* what the deck has for it, or for a misspelt name of it, is at fault, and has been reported */
     namelist_place place; /* of the key, or of the group if not given */
     int count;            /* number of values; 0 where nothing is given and there is no default */
     double *reals;        /* REAL, INTEGER (exact up to 2^53), LOGICAL as 0/1: [count] */
@@ -54,12 +55,13 @@ typedef struct schema_instance {
 typedef struct schema_deck {
     size_t n_instances;
     schema_instance *instances; /* in the order of the table, then of the file */
+    bool misspelt;              /* an unknown group was likely meant to be one of the table */
 } schema_deck;
 
-/* Checks a parsed namelist against the table and fills in defaults. Faults are appended to `errors`: unknown group or key
- * with the nearest name, repeated key, wrong type, wrong count, out of range, missing key or group. Where a value is at
- * fault the default stands in, so that later checks go on. Groups without occurrence that are not repeated get one instance
- * of defaults. Returns false only when memory runs out. Free with schema_free in any case. */
+/* Checks a parsed namelist against the table and fills in defaults. Faults are appended to `errors`: unknown group or
+ * key with the nearest name, repeated key, wrong type, wrong count, out of range, missing key or group. Where a value
+ * is at fault the default stands in, so that later checks go on. Groups without occurrence that are not repeated get
+ * one instance of defaults. Returns false only when memory runs out. Free with schema_free in any case. */
 bool schema_resolve(schema_deck *out, const namelist *list, namelist_errors *errors);
 void schema_free(schema_deck *deck);
 
@@ -72,10 +74,15 @@ const schema_value *schema_value_of(const schema_instance *instance, const char 
 double schema_real(const schema_instance *instance, const char *key);      /* first real; 0 if not given */
 const char *schema_text(const schema_instance *instance, const char *key); /* first text; "" if not given */
 
-/* Writes the deck with every key, "! default" behind what was not given. Reals are printed so that they read back to the
- * same bits; the result is itself a valid deck that resolves to the same values. physics_only: only the keys that make the
- * problem. Text is appended to a malloc'ed string returned in *out; false when memory runs out. */
-bool schema_echo(const schema_deck *deck, bool physics_only, char **out);
+typedef enum schema_form {
+    SCHEMA_MARKED,  /* every key, "! default" behind what was not given */
+    SCHEMA_PHYSICS, /* the keys that make the problem */
+    SCHEMA_BARE     /* every key, however it came to its value: the same for a deck and for its echo */
+} schema_form;
+
+/* Writes the deck resolved. Reals are printed so that they read back to the same bits; with every key, the result is
+ * itself a valid deck that resolves to the same values. *out is malloc'ed; false when memory runs out. */
+bool schema_echo(const schema_deck *deck, schema_form form, char **out);
 
 /* A deck with every key at its default (or an example value where there is none) and its sentence as comment. */
 void schema_template(FILE *file);
@@ -83,8 +90,9 @@ void schema_template(FILE *file);
 /* docs/deck.md, generated: one table per group. */
 void schema_document(FILE *file);
 
-/* Finds the name nearest to `word`: Levenshtein distance at most 1 + length/3, in any case; a name that `word` begins, from
- * three letters on, is at distance 1. Returns false if none is that near. */
+/* Finds the name nearest to `word`: Levenshtein distance at most 1 + length/3, in any case; a name that `word` begins,
+ * from three letters on, is at distance 1. Words and names of more than 63 characters are near to none. Returns false
+ * if none is near. */
 bool schema_nearest(const char *word, const char *const *names, size_t n_names, size_t *nearest);
 
 #endif

@@ -102,14 +102,14 @@ static bool has_physics(const schema_group *group)
     return false;
 }
 
-static void echo_instance(FILE *file, const schema_instance *instance, bool physics_only)
+static void echo_instance(FILE *file, const schema_instance *instance, schema_form form)
 {
     const schema_group *group = instance->group;
-    if (physics_only && !has_physics(group)) return;
+    if (form == SCHEMA_PHYSICS && !has_physics(group)) return;
     (void)fprintf(file, "&%s\n", group->name);
     for (int k = 0; k < group->n_keys; k++)
-        if (!physics_only || group->keys[k].physics)
-            echo_key(file, &group->keys[k], &instance->values[k], !physics_only);
+        if (form != SCHEMA_PHYSICS || group->keys[k].physics)
+            echo_key(file, &group->keys[k], &instance->values[k], form == SCHEMA_MARKED);
     (void)fprintf(file, "/\n");
 }
 
@@ -202,13 +202,13 @@ static void print_table(FILE *file, const schema_group *group)
 
 /* ---- public -------------------------------------------------------------------------------------------------- */
 
-bool schema_echo(const schema_deck *deck, bool physics_only, char **out)
+bool schema_echo(const schema_deck *deck, schema_form form, char **out)
 {
     size_t size = 0;
     *out = NULL;
     FILE *file = open_memstream(out, &size);
     if (file == NULL) return false;
-    for (size_t k = 0; k < deck->n_instances; k++) echo_instance(file, &deck->instances[k], physics_only);
+    for (size_t k = 0; k < deck->n_instances; k++) echo_instance(file, &deck->instances[k], form);
     const bool good = ferror(file) == 0;
     if (fclose(file) == 0 && good) return true;
     free(*out);

@@ -120,7 +120,8 @@ static const schema_key output_keys[] = {
 
 static const schema_group groups[] = {
     {"run", true, false, "What is run, and for how long.", KEYS(run_keys)},
-    {"material", true, true, "A material; one group for each.", KEYS(material_keys)},
+    {"material", false, true, "A material; one group for each. Only bodies from lattice files need none.",
+     KEYS(material_keys)},
     {"body", true, true, "An elastic body; one group for each.", KEYS(body_keys)},
     {"void", false, true, "A hole cut out of a body; one group for each.", KEYS(void_keys)},
     {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},

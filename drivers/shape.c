@@ -35,12 +35,6 @@ static int is_kept(void *context, const double x[2])
     return void_distance(s, x) > -1e-9 * s->spacing; /* a node on the rim stays, whatever its rounding */
 }
 
-static dem_status mesh(dem_lattice *out, const shape *s)
-{
-    if (s->outline.disc) return dem_lattice_disc(out, s->outline.radius, s->spacing);
-    return dem_lattice_rectangle(out, s->outline.size[0], s->outline.size[1], s->spacing);
-}
-
 void shape_free(shape *s)
 {
     free(s->voids);
@@ -80,17 +74,14 @@ dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, dou
     return status;
 }
 
-dem_status shape_lattice(dem_lattice *out, const shape *s, const dem_material *material)
+dem_status shape_mesh(dem_lattice *out, const shape *s)
 {
-    dem_lattice lattice;
+    if (s->outline.disc) return dem_lattice_disc(out, s->outline.radius, s->spacing);
+    return dem_lattice_rectangle(out, s->outline.size[0], s->outline.size[1], s->spacing);
+}
+
+dem_status shape_cut(dem_lattice *lattice, const shape *s)
+{
     shape cut = *s;
-    dem_status status = mesh(&lattice, s);
-    if (status != DEM_OK) return status;
-    if (s->n_voids > 0) status = dem_lattice_cut(&lattice, is_kept, &cut);
-    if (status == DEM_OK) status = dem_lattice_assemble(&lattice, material);
-    if (status == DEM_OK)
-        *out = lattice;
-    else
-        dem_lattice_free(&lattice);
-    return status;
+    return s->n_voids > 0 ? dem_lattice_cut(lattice, is_kept, &cut) : DEM_OK;
 }

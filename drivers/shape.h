@@ -39,7 +39,11 @@ double shape_depth(const shape *s, const double x[2]);
  * a place, *n_placed the number of pores before it. */
 dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, double *radius);
 
-/* Its assembled lattice: nodes on the rim of a void stay. Caller owns *out. */
-dem_status shape_lattice(dem_lattice *out, const shape *s, const dem_material *material);
+/* Triangulation of its outline, without voids. Caller owns *out. */
+dem_status shape_mesh(dem_lattice *out, const shape *s);
+
+/* Takes the voids out of it: nodes on the rim of one stay.
+ * \return DEM_ERROR_MODEL if nothing is left */
+dem_status shape_cut(dem_lattice *lattice, const shape *s);
 
 #endif

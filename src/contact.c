@@ -16,6 +16,7 @@ typedef struct moment {
     double t;
     double *x, *v;
     const contact_listener *listener;
+    dem_status told; /* the first status other than DEM_OK that the listener returned */
 } moment;
 
 /* The one or two segments that a node touches. */
@@ -127,9 +128,9 @@ static void book_impulse(contact *c, meeting with, vec2 impulse)
     }
 }
 
-static dem_status report(const contact *c, const contact_site *site, dem_index s, vec2 before, const moment *now)
+static void report(const contact *c, const contact_site *site, dem_index s, vec2 before, moment *now)
 {
-    if (now->listener->impact == NULL) return DEM_OK;
+    if (now->listener->impact == NULL) return;
     const dem_index i = site->node;
     const vec2 after = vec2_at(now->v, i), x = vec2_at(now->x, i);
     const vec2 impulse = vec2_scale(c->scene.model->lattice.mass[i], vec2_sub(after, before));
@@ -144,23 +145,24 @@ static dem_status report(const contact *c, const contact_site *site, dem_index s
                                .before = {before.x, before.y},
                                .after = {after.x, after.y},
                                .closed = site->n_closed > 0};
-    return now->listener->impact(now->listener->context, &impact);
+    const dem_status status = now->listener->impact(now->listener->context, &impact);
+    if (now->told == DEM_OK) now->told = status;
 }
 
 /* Books what the node's change of velocity means: energy taken, impulse given; tells the listener. */
-static dem_status book_impact(contact *c, const contact_site *site, meeting with, vec2 before, const moment *now)
+static void book_impact(contact *c, const contact_site *site, meeting with, vec2 before, moment *now)
 {
     const vec2 after = vec2_at(now->v, site->node);
     const double m = c->scene.model->lattice.mass[site->node];
-    if (after.x == before.x && after.y == before.y) return DEM_OK;
+    if (after.x == before.x && after.y == before.y) return;
     c->counts.impacts++;
     c->impact_energy += 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after));
     book_impulse(c, with, vec2_scale(m, vec2_sub(after, before)));
-    return report(c, site, with.s[0], before, now);
+    report(c, site, with.s[0], before, now);
 }
 
 /* The node strikes one or two segments, the one approached faster first: projection, rebound, and which contacts last. */
-static dem_status strike(contact *c, contact_site *site, meeting with, moment *now)
+static void strike(contact *c, contact_site *site, meeting with, moment *now)
 {
     const vec2 before = vec2_at(now->v, site->node);
     const int was_closed = site->n_closed;
@@ -172,7 +174,7 @@ static dem_status strike(contact *c, contact_site *site, meeting with, moment *n
     vec2_put(now->v, site->node, without_normals(c, site, after));
     c->counts.closings += site->n_closed > was_closed;
     c->counts.releases += site->n_closed < was_closed;
-    return book_impact(c, site, with, before, now);
+    book_impact(c, site, with, before, now);
 }
 
 /* ---- which reset is due ---- */
@@ -203,6 +205,12 @@ static bool yields(const contact *c, dem_index s, dem_index to, vec2 v)
 static bool corner(const contact *c, dem_index s, dem_index other)
 {
     return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
+}
+
+/* A segment that is run into, with the one slid on if they form a corner. */
+static meeting with_corner(const contact *c, dem_index into, dem_index from)
+{
+    return (meeting){corner(c, into, from) ? 2 : 1, {into, from}};
 }
 
 static double approach(const contact *c, dem_index s, vec2 v)
@@ -262,26 +270,27 @@ static dem_status settle_free(contact *c, contact_site *site, moment *now, bool 
     if (gap.distance > -touch_share * c->scene.rule.skin) return DEM_OK;
     *changed = true;
     const meeting with = gap.distance >= -contact_depth(c, site, now) ? met(c, site, now) : (meeting){0};
-    if (with.n > 0) return strike(c, site, with, now);
-    return go_behind(c, site, gap, now);
+    if (with.n == 0) return go_behind(c, site, gap, now);
+    strike(c, site, with, now);
+    return DEM_OK;
 }
 
 /* A sliding node at the end of its segment: falls free, glides on, or runs into the next segment. */
-static dem_status pass(contact *c, contact_site *site, bool backwards, moment *now)
+static void pass(contact *c, contact_site *site, bool backwards, moment *now)
 {
-    meeting ends = {2, {site->segments[0], -1}}, next = {.n = 1};
-    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, ends.s[0], backwards, &ends.s[1]);
+    const dem_index here = site->segments[0];
+    meeting next = {.n = 1};
+    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, here, backwards, &next.s[0]);
     c->counts.passings++;
-    if (bend == OBSTACLE_CONCAVE) return strike(c, site, ends, now);
     if (bend == OBSTACLE_STRAIGHT) {
-        next.s[0] = ends.s[1];
         close_on(c, site, next);
         project(c, site, next, now);
         vec2_put(now->v, site->node, without_normals(c, site, vec2_at(now->v, site->node)));
-        return DEM_OK;
+    } else if (bend == OBSTACLE_CONCAVE) {
+        strike(c, site, with_corner(c, next.s[0], here), now);
+    } else {
+        release(c, site, (meeting){0});
     }
-    release(c, site, (meeting){0});
-    return DEM_OK;
 }
 
 /* Sliding node: release comes first, then the segment's end, then another segment in the way. */
@@ -295,12 +304,15 @@ static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bo
         return DEM_OK;
     }
     const int passed = site_end_passed(&c->scene, site, now->x, now->v);
-    if (passed != 0) return pass(c, site, passed < 0, now);
+    if (passed != 0) {
+        pass(c, site, passed < 0, now);
+        return DEM_OK;
+    }
     const obstacle_gap other = site_other_gap(&c->scene, site, x);
     if (other.distance < -contact_depth(c, site, now)) return go_behind(c, site, other, now);
     if (other.distance <= -touch_share * c->scene.rule.skin) {
-        const bool both = corner(c, other.segment, site->segments[0]);
-        return strike(c, site, (meeting){both ? 2 : 1, {other.segment, site->segments[0]}}, now);
+        strike(c, site, with_corner(c, other.segment, site->segments[0]), now);
+        return DEM_OK;
     }
     *changed = false;
     return DEM_OK;
@@ -407,14 +419,14 @@ void contact_destroy(contact *c)
 
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener)
 {
-    moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener};
+    moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener, DEM_OK};
     bool changed = true;
     while (changed) {
         changed = false;
         for (dem_index k = 0; k < c->scene.model->n_sites; k++) TRY(settle(c, &c->sites[k], &now, &changed));
     }
     refresh_forces(c, now.x);
-    return DEM_OK;
+    return now.told;
 }
 
 dem_status contact_admissible(const contact *c, const double *x)
@@ -432,14 +444,15 @@ dem_status contact_admissible(const contact *c, const double *x)
 
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener)
 {
-    moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener};
+    moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener, DEM_OK};
     for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
         contact_site *site = &c->sites[k];
         if (site_free_gap(&c->scene, site, vec2_at(now.x, site->node)).distance > 0.0) continue;
         const meeting with = met(c, site, &now);
-        if (with.n > 0) TRY(strike(c, site, with, &now));
+        if (with.n > 0) strike(c, site, with, &now);
     }
-    return contact_resolve(c, t, y, listener);
+    const dem_status status = contact_resolve(c, t, y, listener);
+    return now.told != DEM_OK ? now.told : status;
 }
 
 bool contact_check(contact *c, path *p, bool rooted, double *state)

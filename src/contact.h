@@ -16,7 +16,7 @@ typedef struct contact {
     dem_counts counts;        /* impacts, closings, releases, passings, late, behind */
 } contact;
 
-/** Who is told of impacts; the first status other than DEM_OK is returned by contact_resolve. */
+/** Who is told of impacts. */
 typedef struct contact_listener {
     dem_status (*impact)(void *context, const dem_impact *impact);
     void *context;
@@ -47,7 +47,8 @@ bool contact_check(contact *c, path *p, bool rooted, double *state);
 void contact_follow(contact *c, double h, const double *y);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the forces.
- *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle */
+ *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first status other
+ *  than DEM_OK that the listener returned */
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener);
 
 /** Closed contacts, in the order of nodes, into list [2 n_sites]; returns their number. */

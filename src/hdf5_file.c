@@ -134,7 +134,8 @@ static herr_t read_slab(hid_t dataset, hid_t type, const hsize_t *start, const h
     return result;
 }
 
-static herr_t read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
+/* Reading back gives DEM_OK, DEM_ERROR_MEMORY or DEM_ERROR_IO; the message is the caller's. */
+static dem_status read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
 {
     hsize_t start[MAX_RANK] = {0}, chunk[MAX_RANK] = {1, 1, 1}, cells = 1;
     const hid_t layout = H5Dget_create_plist(dataset);
@@ -142,33 +143,37 @@ static herr_t read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
     (void)H5Pclose(layout);
     for (int d = 1; d < rank; d++) cells *= extent[d];
     void *buffer = malloc((size_t)(chunk[0] * cells) * H5Tget_size(type));
-    if (buffer == NULL) return -1;
+    if (buffer == NULL) return DEM_ERROR_MEMORY;
     for (const hsize_t rows = extent[0]; result >= 0 && start[0] < rows; start[0] += chunk[0]) {
         extent[0] = rows - start[0] < chunk[0] ? rows - start[0] : chunk[0];
         result = read_slab(dataset, type, start, extent, rank, buffer);
     }
     free(buffer);
-    return result;
+    return result < 0 ? DEM_ERROR_IO : DEM_OK;
 }
 
-static herr_t read_scalar(hid_t dataset, hid_t type)
+static dem_status read_scalar(hid_t dataset, hid_t type)
 {
     void *buffer = malloc(H5Tget_size(type));
-    const herr_t result = buffer != NULL ? H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer) : -1;
+    if (buffer == NULL) return DEM_ERROR_MEMORY;
+    const herr_t result = H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
     free(buffer);
-    return result;
+    return result < 0 ? DEM_ERROR_IO : DEM_OK;
 }
 
-static herr_t read_dataset(hid_t dataset)
+static dem_status read_dataset(hid_t dataset)
 {
     hsize_t extent[MAX_RANK] = {0};
+    dem_status status = DEM_ERROR_IO;
     const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
     const int rank = H5Sget_simple_extent_ndims(space);
-    herr_t result = rank < 0 || rank > MAX_RANK ? -1 : H5Sget_simple_extent_dims(space, extent, NULL);
-    if (result >= 0) result = rank == 0 ? read_scalar(dataset, type) : read_slabs(dataset, type, extent, rank);
+    if (rank == 0)
+        status = read_scalar(dataset, type);
+    else if (rank > 0 && rank <= MAX_RANK && H5Sget_simple_extent_dims(space, extent, NULL) >= 0)
+        status = read_slabs(dataset, type, extent, rank);
     (void)H5Sclose(space);
     (void)H5Tclose(type);
-    return result < 0 ? -1 : 0;
+    return status;
 }
 
 typedef struct unread {
@@ -181,8 +186,10 @@ static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *
     unread *u = context;
     (void)info;
     const hid_t object = H5Oopen(root, name, H5P_DEFAULT);
-    if (object < 0 || (H5Iget_type(object) == H5I_DATASET && read_dataset(object) < 0))
-        u->status = hdf5_fail(u->file, name, "cannot be read back");
+    dem_status status = object < 0 ? DEM_ERROR_IO : DEM_OK;
+    if (status == DEM_OK && H5Iget_type(object) == H5I_DATASET) status = read_dataset(object);
+    if (status == DEM_ERROR_IO) u->status = hdf5_fail(u->file, name, "cannot be read back");
+    if (status == DEM_ERROR_MEMORY) u->status = status_fail(status, "out of memory to read back %s", u->file->path);
     if (object >= 0) (void)H5Oclose(object);
     return u->status == DEM_OK ? 0 : -1;
 }

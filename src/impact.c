@@ -24,9 +24,12 @@ static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
 
 vec2 impact_rebound(const impact_surface *surface, int n, vec2 v)
 {
-    double p[2];
+    double p[2], eta[2];
     inward_parts(surface, n, v, p);
-    for (int k = 0; k < n; k++) v = vec2_along(v, -(1.0 + surface[k].restitution) * p[k], surface[k].normal); /* (9) */
+    for (int k = 0; k < n; k++) eta[k] = surface[k].restitution;
+    if (n == 2 && p[0] < 0.0 && p[1] < 0.0 && vec2_dot(surface[0].normal, surface[1].normal) < 0.0)
+        eta[0] = eta[1] = fmin(eta[0], eta[1]);
+    for (int k = 0; k < n; k++) v = vec2_along(v, -(1.0 + eta[k]) * p[k], surface[k].normal); /* (9) */
     return v;
 }
 

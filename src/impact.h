@@ -12,8 +12,9 @@ typedef struct impact_surface {
 } impact_surface;
 
 /** Velocity after an impact with one or two surfaces. For one it is (9), v - (1 + eta) n (n.v) if n.v < 0, with (8) as
- *  eta = 1. For two it is Moreau's law: v - sum (1 + eta_s) p_s n_s, where sum p_s n_s, p_s <= 0, is the part of v that
- *  the cone of the inward normals holds. */
+ *  eta = 1. For two it is Moreau's law: v - sum (1 + eta_s) p_s n_s, where sum p_s n_s, p_s <= 0, is the projection of v on the
+ *  cone of the inward normals. Where both act in an acute corner both have the smaller eta: two different ones could give
+ *  energy there. */
 vec2 impact_rebound(const impact_surface *surface, int n, vec2 v);
 
 /** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls and

@@ -238,6 +238,15 @@ static dem_status retry(integrator *I, double *h)
     return integrator_restart(I, I->t, I->y0);
 }
 
+static dem_status fail_step(integrator *I, int flag)
+{
+    char *name = ERKStepGetReturnFlagName(flag);
+    (void)status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails, rtol may be out of reach: %s %s", I->t,
+                      name != NULL ? name : "", I->message);
+    free(name);
+    return DEM_ERROR_INTEGRATOR;
+}
+
 dem_status integrator_step(integrator *I, path *step, bool *rooted)
 {
     if (I->at_end) { /* go on from the end of the path handed out */
@@ -255,8 +264,7 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
             return DEM_ERROR_INTEGRATOR; /* message: derivative's */
         TRY(retry(I, &h));
     }
-    CHECK(flag == ARK_SUCCESS || flag == ARK_ROOT_RETURN, DEM_ERROR_INTEGRATOR,
-          "the step from t = %.9g s fails, rtol may be out of reach: %s", I->t, I->message);
+    if (flag != ARK_SUCCESS && flag != ARK_ROOT_RETURN) return fail_step(I, flag);
     CHECK(fetch_step(I) == 0, DEM_ERROR_INTEGRATOR, "ARKODE does not give the step: %s", I->message);
     I->counts.steps++;
     I->at_end = true;

@@ -73,19 +73,23 @@ static dem_status check_lattice(const dem_lattice *l)
     return check_triangles(l);
 }
 
-/* A node without springs is legal only as a body of its own. */
-static dem_status check_loose_nodes(const dem_model *m)
+/* A node without springs is legal only as a body of its own; body numbers have no holes. */
+static dem_status check_bodies(const dem_model *m)
 {
     dem_index *size = lattice_zeros(m->n_bodies, sizeof *size);
     CHECK_MEMORY(size);
     const dem_lattice *l = &m->lattice;
-    dem_index loose = -1;
+    dem_index loose = -1, empty = -1;
     for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
     for (dem_index i = l->n_nodes - 1; i >= 0; i--)
         if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1) loose = i;
+    for (dem_index b = m->n_bodies - 1; b >= 0; b--)
+        if (size[b] == 0) empty = b;
     free(size);
     CHECK(loose < 0, DEM_ERROR_MODEL, "node %lld at (%g, %g) m has no springs, though body %d has other nodes",
           (long long)loose, l->x[2 * loose], l->x[2 * loose + 1], l->body[loose]);
+    CHECK(empty < 0, DEM_ERROR_MODEL, "body %lld has no nodes, though there are bodies up to %lld", (long long)empty,
+          (long long)(m->n_bodies - 1));
     return DEM_OK;
 }
 
@@ -145,7 +149,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(obstacles_compile(&m->obstacles, list, n));
     TRY(compile_nodes(m));
     compile_scales(m);
-    return check_loose_nodes(m);
+    return check_bodies(m);
 }
 
 double model_node_energy(const dem_model *model, const double gravity[2], dem_index i, const double *x)

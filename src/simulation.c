@@ -99,22 +99,32 @@ static void look_at(dem_simulation *s, double t, const double *y)
     s->n_contacts = contact_list(&s->contact, s->contacts);
 }
 
+/* Every watcher is told; the first status other than DEM_OK counts. */
+static dem_status first_of(dem_status status, dem_status next)
+{
+    return status != DEM_OK ? status : next;
+}
+
 static dem_status tell_impact(void *context, const dem_impact *impact)
 {
     dem_simulation *s = context;
     dem_status status = DEM_OK;
-    for (int k = 0; k < s->n_watchers && status == DEM_OK; k++)
-        if (s->watchers[k].observer.impact != NULL)
-            status = s->watchers[k].observer.impact(s->watchers[k].observer.context, s, impact);
+    for (int k = 0; k < s->n_watchers; k++) {
+        const dem_observer *o = &s->watchers[k].observer;
+        if (o->impact != NULL) status = first_of(status, o->impact(o->context, s, impact));
+    }
     return status;
 }
 
 static dem_status tell_step(dem_simulation *s)
 {
+    dem_status status = DEM_OK;
     look_at(s, s->t, s->y);
-    for (int k = 0; k < s->n_watchers; k++)
-        if (s->watchers[k].observer.step != NULL) TRY(s->watchers[k].observer.step(s->watchers[k].observer.context, s));
-    return DEM_OK;
+    for (int k = 0; k < s->n_watchers; k++) {
+        const dem_observer *o = &s->watchers[k].observer;
+        if (o->step != NULL) status = first_of(status, o->step(o->context, s));
+    }
+    return status;
 }
 
 /* The watcher whose frame is due first in the step in hand, up to t_end; a frame at t_end is not lost to rounding. */
@@ -161,6 +171,13 @@ static dem_status take_step(dem_simulation *s)
     return DEM_OK;
 }
 
+/* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
+static dem_status go_on(dem_simulation *s, dem_status status)
+{
+    status = first_of(status, integrator_restart(s->integrator, s->t, s->y));
+    return first_of(status, tell_step(s));
+}
+
 static dem_status commit_step(dem_simulation *s)
 {
     const contact_listener listener = {tell_impact, s};
@@ -169,14 +186,10 @@ static dem_status commit_step(dem_simulation *s)
     s->t = s->path.end;
     s->in_hand = false;
     contact_follow(&s->contact, s->step, s->y);
-    if (s->at_event) {
-        s->events++;
-        look_at(s, s->t, s->y);
-        const dem_status status = contact_resolve(&s->contact, s->t, s->y, &listener); /* (8), (9) */
-        TRY(integrator_restart(s->integrator, s->t, s->y));                            /* v has jumped */
-        TRY(status);
-    }
-    return tell_step(s);
+    if (!s->at_event) return tell_step(s);
+    s->events++;
+    look_at(s, s->t, s->y);
+    return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
 }
 
 /* Contacts of the initial state come before the first step, when the observers are there to be told. */
@@ -184,9 +197,7 @@ static dem_status start(dem_simulation *s)
 {
     const contact_listener listener = {tell_impact, s};
     s->started = true;
-    TRY(contact_start(&s->contact, s->t, s->y, &listener));
-    TRY(integrator_restart(s->integrator, s->t, s->y));
-    return tell_step(s);
+    return go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
 }
 
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)

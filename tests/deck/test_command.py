@@ -4,6 +4,7 @@
 
 Options, files written, running again, another problem's output, cut-off runs, the log. Standard library only: never
 skipped. Where h5py is there, outputs are compared with compare.py, otherwise only their summaries are."""
+import math
 import os
 import pathlib
 import pty
@@ -19,6 +20,7 @@ SECONDS = 120  # more than any of these runs takes, under a sanitizer too
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 OTHER_PROBLEM = "the file exists and belongs to another problem; move it away or change 'name' in &output"
+UNPRINTED = "dem_batch: error: standard output cannot be written\n"
 OTHER_RUN = ("the file exists and belongs to another run of the same problem, with other t_end, title or frames; "
              "move it away or change 'name' in &output")
 
@@ -81,6 +83,10 @@ class Case(unittest.TestCase):
         self.assertEqual(done.returncode, code)
         return done.stdout
 
+    def started(self, arguments, **streams):
+        return subprocess.run([DEM_BATCH, *arguments], cwd=self.folder, stderr=subprocess.PIPE, timeout=SECONDS,
+                              check=False, text=True, **streams)
+
     def files(self):
         return {path.name for path in self.folder.iterdir()} - {"deck.nml"}
 
@@ -124,10 +130,13 @@ class Options(Case):
         self.assertEqual(in_template, in_keys)
 
     def test_what_cannot_be_printed_is_not_done(self):
-        for option in ("--help", "--version", "--template", "--keys"):
-            with self.subTest(option), open("/dev/full", "wb") as full:
-                done = subprocess.run([DEM_BATCH, option], stdout=full, timeout=SECONDS, check=False)
-                self.assertEqual(done.returncode, 5)
+        self.put(coarse())
+        for arguments in (["--help"], ["--version"], ["--template"], ["--keys"], ["--echo", "deck.nml"],
+                          ["--check", "deck.nml"]):
+            with self.subTest(arguments), open("/dev/full", "wb") as full:
+                done = self.started(arguments, stdout=full)
+                self.assertEqual((done.returncode, done.stderr), (5, UNPRINTED))
+        self.assertEqual(self.files(), set())
 
 
 class Check(Case):
@@ -191,6 +200,14 @@ class Echo(Case):
         echo = self.call(0, "--echo", "deck.nml")
         key = r"(?m)^    (?:! )?(\w+) ="
         self.assertEqual(re.findall(key, echo), re.findall(key, template))
+
+    def test_an_echo_beyond_a_mebibyte_is_read(self):
+        points = "\n".join(f"{-0.3 + 0.6 * k / 29999:.17g}, {-0.02 - 1e-6 * math.sin(k):.17g}," for k in range(30000))
+        self.put(re.sub(r"(?s)points *=.*?\n/\n", lambda _: f"points = {points}\n/\n", coarse()))
+        echo = self.call(0, "--echo", "deck.nml")
+        self.assertGreater(len(echo), 1 << 20)
+        self.put(echo)
+        self.assertEqual(self.call(0, "--echo", "deck.nml"), unmarked(echo))
 
     def test_the_echo_gives_the_same_run(self):
         self.put(coarse("porous"))
@@ -299,6 +316,21 @@ class Run(Case):
         self.assertEqual(text.count(" %  t "), text.count("\r"), "each line of progress goes back to its beginning")
         self.assertLessEqual(len(re.findall(r" s left *\n", text)), 1, "only the last one is ended")
 
+    def test_a_run_without_its_log_is_completed(self):
+        closed, pipe = os.pipe()
+        os.close(closed)
+        with open("/dev/full", "wb") as full:
+            for name, streams in (("full", {"stdout": full}), ("pipe", {"stdout": pipe}),
+                                  ("closed", {"preexec_fn": lambda: os.close(1)})):
+                with self.subTest(name):
+                    (self.folder / name).mkdir()
+                    done = self.started(["--outdir", name, "deck.nml"], **streams)
+                    self.assertEqual((done.returncode, done.stderr), (5, UNPRINTED))
+                    self.assertEqual({path.name for path in (self.folder / name).iterdir()},
+                                     {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+                    self.assertIn("done already", self.call(0, "--outdir", name, "deck.nml"))
+        os.close(pipe)
+
     # ---- again
 
     def test_the_second_run_is_done_already(self):
@@ -310,6 +342,18 @@ class Run(Case):
     def test_a_comment_makes_no_other_run(self):
         self.call(0, "deck.nml")
         self.put("! a remark\n" + coarse().replace("density        = 1050", "density = 1.05e3"))
+        self.assertIn("done already", self.call(0, "deck.nml"))
+
+    def test_its_echo_makes_no_other_run(self):
+        self.call(0, "deck.nml")
+        self.put(self.call(0, "--echo", "deck.nml"), "deck.nml")
+        self.assertIn("done already", self.call(0, "deck.nml"))
+        self.put(self.call(0, "--echo", "deck.nml"), "deck.nml")
+        self.assertIn("done already", self.call(0, "deck.nml"))
+
+    def test_a_default_that_is_stated_makes_no_other_run(self):
+        self.call(0, "deck.nml")
+        self.put(coarse() + "&solver method = 'fehlberg45' /\n")
         self.assertIn("done already", self.call(0, "deck.nml"))
 
     def test_another_problem_of_the_same_name(self):

@@ -95,7 +95,6 @@ DECKS = [
      ["1:1 &run must be given"]),
     ("text without groups", "Dear reader,\nthis is not a deck.\n",
      ["1:1 &run must be given",
-      "1:1 &material must be given",
       "1:1 &body must be given"]),
     ("repeated key", edit(BASE, "density = 1050 -> density = 1050\n    density = 1100"),
      ["9:5 key 'density' is given twice in &material, first in line 8"]),
@@ -124,21 +123,23 @@ DECKS = [
      ["24:12 'name' in &output expects a string in quotes, got a",
       "24:14 text right behind the '/' that ends &output; does a path lack its quotes?"]),
     ("NaN", edit(BASE, "1050 -> NaN"),
-     ["8:15 'NaN' is not a finite number"]),
+     ["8:15 'density': 'NaN' is not a finite number"]),
     ("Inf", edit(BASE, "-9.81 -> -inf"),
-     ["3:18 '-inf' is not a finite number"]),
+     ["3:18 'gravity': '-inf' is not a finite number"]),
     ("Infinity", edit(BASE, "1e7 -> +Infinity"),
-     ["7:22 '+Infinity' is not a finite number"]),
+     ["7:22 'youngs_modulus': '+Infinity' is not a finite number"]),
     ("real too large", edit(BASE, "1050 -> 1e999"),
-     ["8:15 '1e999' is too large for a real"]),
+     ["8:15 'density': '1e999' is too large for a real"]),
     ("integer too large", edit(BASE, "frame_interval = 1e-4 -> deflate = 99999999999999999999"),
-     ["25:15 '99999999999999999999' is too large for an integer"]),
+     ["25:15 'deflate': '99999999999999999999' is too large for an integer"]),
     ("integer that a real cannot hold", BASE + "&pores number = 1, radius = 1e-3, 1e-3, seed = 9007199254740993 /\n",
      ["27:48 'seed' in &pores must be at most 2^53, got 9007199254740993"]),
     ("complex number", edit(BASE, "0, -9.81 -> (0, -9.81)"),
      ["3:15 a number is expected; complex ones are not understood"]),
+    ("key without its equal sign behind another", edit(BASE, "density = -> density"),
+     ["8:5 '=' is missing after 'density'"]),
     ("exponent without its letter", edit(BASE, "1e7 -> 1.0+7"),
-     ["7:22 '1.0+7' has an exponent without its letter; write 1.5e+3 for 1.5+3"]),
+     ["7:22 'youngs_modulus': '1.0+7' has an exponent without its letter; write 1.5e+3 for 1.5+3"]),
     # ranges
     ("Young's modulus 0", edit(BASE, "1e7 -> 0"),
      ["7:22 'youngs_modulus' in &material must be > 0, got 0"]),
@@ -201,6 +202,17 @@ DECKS = [
      ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
     ("name of the output empty", edit(BASE, "'block' -> ''"),
      ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
+    ("name of the output like that of its obstacles", edit(BASE, "'block' -> 'block.obstacle'"),
+     ["24:5 'name' in &output must not end in '.obstacle' or '.part': other files are called so"]),
+    ("name of the output like that of its part", edit(BASE, "'block' -> 'block.part'"),
+     ["24:5 'name' in &output must not end in '.obstacle' or '.part': other files are called so"]),
+    ("too many frames", edit(BASE, "1e-4 -> 1e-12"),
+     ["25:5 'frame_interval' in &output, 1e-12 s, makes 1e+09 frames until 't_end'; the limit is 10000000"]),
+    ("too many frames of the default interval",
+     without(edit(BASE, "t_end = 1e-3 -> t_end = 1e9"), "    frame_interval = 1e-4\n"),
+     ["23:1 'frame_interval' in &output, 0.001 s, makes 1e+12 frames until 't_end'; the limit is 10000000"]),
+    ("too many steps", edit(BASE, "t_end = 1e-3 -> t_end = 1e9", "= 1e-4 -> = 1e8"),
+     ["- t_end = 1e+09 s takes at least 5.86e+13 steps of 1.71e-05 s; the limit is 1e+10"]),
     ("name of the output hidden", edit(BASE, "'block' -> '.block'"),
      ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
     ("string of 5000 characters", edit(BASE, "1e-3 -> 1e-3, title = '" + 5000 * "t" + "'"),
@@ -211,7 +223,12 @@ DECKS = [
     ("odd number of coordinates", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1, 0, 0.1, 0, 0.2"),
      ["20:5 'points' in &obstacle must be pairs of x and y, got 5 values"]),
     ("degenerate segment", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1, 0, 0.1, 0, 0.1, 0, 0.2, 0"),
-     ["20:5 'points' in &obstacle: segment 2 has no length, both its ends are (0.1, 0)"]),
+     ["20:5 'points' in &obstacle: segment 2 of obstacle 1, from (0.1, 0) to (0.1, 0) m, has no length"]),
+    ("many degenerate segments", edit(BASE, "-0.1, 0, 0.1, 0 -> 2*0, 1, 9*0"),
+     ["20:5 'points' in &obstacle: segment 3 of obstacle 1, from (0, 0) to (0, 0) m, has no length; so it is with "
+      "3 of 5 segments"]),
+    ("segment too short", edit(BASE, "-0.1, 0, 0.1, 0 -> 0, 0, 1e-200, 0"),
+     ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (0, 0) to (1e-200, 0) m, is too short"]),
     ("too many values", edit(BASE, "0, -9.81 -> 0, -9.81, 0"),
      ["3:5 'gravity' in &run expects 2 values, got 3"]),
     ("too few values", edit(BASE, "0.04, 0.05 -> 0.04"),
@@ -223,7 +240,7 @@ DECKS = [
     ("repeat count 0", edit(BASE, "-0.1, 0, 0.1, 0 -> 0*1"),
      ["20:14 repeat count '0' is not in 1 to 100000"]),
     ("repeated fault told once", edit(BASE, "-0.1, 0, 0.1, 0 -> 8*1e999"),
-     ["20:14 '1e999' is too large for a real"]),
+     ["20:14 'points': '1e999' is too large for a real"]),
     ("hole between subscripts", edit(BASE, "points = -0.1, 0, 0.1, 0 -> points(1) = -0.1, 0, points(4) = 1"),
      ["20:5 'points(3)' in &obstacle is not given"]),
     ("hole before a subscript", edit(BASE, "size = 0.04, 0.05 -> size(2) = 0.05"),
@@ -259,12 +276,18 @@ DECKS = [
      ["8:19 byte 0x00 is not text; UTF-8 is expected"]),
     ("not UTF-8", edit(BASE, "1e-3 -> 1e-3, title = 'Größe'").encode("latin-1"),
      ["2:30 byte 0xF6 is not text; UTF-8 is expected"]),
+    ("not UTF-8 in many lines", edit(BASE, "1e-3 -> 1e-3 ! Größe", "1050 -> x ! Größe").encode("latin-1"),
+     ["2:22 byte 0xF6 is not text; UTF-8 is expected (2 such lines)"]),
+    ("UTF-16 with its mark", BASE.encode("utf-16"),
+     ["1:1 the file is in UTF-16; UTF-8 is expected"]),
+    ("UTF-16 without its mark", BASE.encode("utf-16-le"),
+     ["1:1 the file is in UTF-16; UTF-8 is expected"]),
     ("ends of lines of old Macs", BASE.replace("\n", "\r"),
      ["1:5 byte 0x0D is not text; UTF-8 is expected"]),
     ("empty file", b"",
      ["- the file is empty"]),
-    ("file larger than 1 MiB", "!" * 2**20 + "\n" + BASE,
-     ["- the file is larger than 1 MiB"]),
+    ("file larger than 4 MiB", "!" * 2**22 + "\n" + BASE,
+     ["- the file is larger than 4 MiB"]),
     # keys that do not go together
     ("key not used by the shape", edit(BASE, "spacing = 0.01 -> spacing = 0.01\n    radius = 0.02"),
      ["15:5 'radius' in &body is not used by shape 'rectangle'"]),
@@ -279,12 +302,25 @@ DECKS = [
     ("key missing for the shape of a void", BASE + "&void shape = 'rectangle', centre = 0, 0.02, radius = 0.01 /\n",
      ["27:1 'size' in &void must be given for shape 'rectangle'",
       "27:46 'radius' in &void is not used by shape 'rectangle'"]),
+    ("misspelt and therefore missing", edit(BASE, "size = -> siez =", "spacing -> spacng"),
+     ["13:5 unknown key 'siez' in &body (did you mean 'size'?)",
+      "14:5 unknown key 'spacng' in &body (did you mean 'spacing'?)"]),
+    ("subscript at fault and therefore missing", edit(BASE, "size = 0.04, 0.05 -> size(0) = 0.04"),
+     ["13:5 the subscript of 'size' must ascend, from 1 to 100000 at most"]),
+    ("name of the material at fault", edit(BASE, "name = 'rubber' -> name = rubber"),
+     ["6:12 'name' in &material expects a string in quotes, got rubber"]),
+    ("group of the material misspelt", edit(BASE, "&material -> &matrial"),
+     ["5:1 unknown group &matrial (did you mean &material?)"]),
+    ("no material at all", BASE[:BASE.index("&material")] + BASE[BASE.index("&body"):],
+     ["1:1 &material must be given"]),
+    ("lattice file without a name", edit(FILE, "part.h5 -> "),
+     ["13:5 'file' in &body must name a lattice file, got ''"]),
     ("unknown material", edit(BASE, "material = 'rubber' -> material = 'ruber'"),
      ["15:5 there is no material 'ruber' (did you mean 'rubber'?)"]),
     ("unknown material like no other", edit(BASE, "material = 'rubber' -> material = 'steel'"),
-     ["15:5 there is no material 'steel'"]),
+     ["15:5 there is no material 'steel'; known: 'rubber'"]),
     ("material not named", without(BASE, "    material = 'rubber'\n"),
-     ["11:1 there is no material 'solid'"]),
+     ["11:1 there is no material 'solid', the default of 'material' in &body; known: 'rubber'"]),
     ("two materials of one name", BASE + "&material name = 'rubber', youngs_modulus = 1, density = 1 /\n",
      ["27:11 material 'rubber' is given twice, first in line 5"]),
     ("void of a body that does not exist", BASE + "&void body = 2, centre = 0, 0.02, radius = 0.005 /\n",
@@ -309,7 +345,7 @@ DECKS = [
      ["16:5 'clearance' in &body needs gravity, which is 0"]),
     # geometry
     ("void that takes everything", BASE + "&void centre = 0, 0.02, radius = 1 /\n",
-     ["14:5 body 1: none of 32 nodes is left"]),
+     ["11:1 body 1: its voids and pores take all of its 32 nodes"]),
     ("a loose part", BASE + "&void shape = 'rectangle', centre = 0, 0.025, size = 0.06, 0.02 /\n",
      ["11:1 body 1 has 1 part that no spring connects to its largest, of 9 nodes, one at (-0.015, 0.0433013) m in "
       "its own coordinates; 'disconnected' can remove or keep such parts"]),
@@ -317,33 +353,53 @@ DECKS = [
      ["11:1 body 1 has 3 parts that no spring connects to its largest, of 27, 14, 13 nodes, one at (-0.015, "
       "0.112583) m in its own coordinates; 'disconnected' can remove or keep such parts"]),
     ("pores that find no place", BASE + "&pores number = 20, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
-     ["27:1 pore 8 of 20, of radius 0.00553882 m, finds no place in body 1 with walls of 0.001 m"]),
+     ["27:1 pore 8 of 20, of radius 0.00553882 m, finds no place in body 1 with walls of 0.001 m; take fewer or "
+      "smaller ones, or a thinner 'wall'"]),
     ("pores larger than the body", BASE + "&pores number = 1, radius = 0.05, 0.06 /\n",
-     ["27:1 pore 1 of 1, of radius 0.0541702 m, finds no place in body 1 with walls of 0.02 m"]),
+     ["27:1 pore 1 of 1, of radius 0.0541702 m, finds no place in body 1 with walls of 0.02 m, the default; take "
+      "fewer or smaller ones, or a thinner 'wall'"]),
     ("rectangle of too many nodes", edit(BASE, "0.04, 0.05 -> 1e9, 1e9", "0.01\n -> 1e-9\n"),
-     ["14:5 body 1: a rectangle of 1e+09 m x 1e+09 m with the spacing 1e-09 m would have 1.15e+36 nodes; the limit"
-      " is 1.1e+12"]),
+     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-09 m"]),
     ("disc of too many nodes", edit(DISC, "0.03 -> 1e9", "0.01\n -> 1e-9\n"),
-     ["14:5 body 1: a disc of radius 1e+09 m with the spacing 1e-09 m would have 4.62e+36 nodes; the limit is "
-      "1.1e+12"]),
+     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-09 m"]),
     ("numbers of nodes that overflow", edit(BASE, "0.04, 0.05 -> 1e300, 1e300", "0.01\n -> 1e-300\n"),
-     ["14:5 body 1: a rectangle of 1e+300 m x 1e+300 m with the spacing 1e-300 m would have inf nodes; the limit "
-      "is 1.1e+12"]),
+     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-300 m"]),
+    ("spacing far too small", edit(BASE, "0.01\n -> 1e-300\n"),
+     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-300 m"]),
+    ("position far away", edit(BASE, "0, 0.001 -> 0, 1e300"),
+     ["16:5 body 1 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 0.01 m"]),
+    ("masses that underflow", edit(BASE, "1050 -> 1e-308", "thickness = 1 -> thickness = 1e-308"),
+     ["15:5 body 1: the mass of a node, 0 kg, is too small; density 1e-308 kg/m^3, thickness 1e-308 m, spacing "
+      "0.01 m"]),
     ("areas that underflow", edit(BASE, "0.04, 0.05 -> 2*1e-200", "0.01\n -> 1e-200\n"),
-     ["14:5 body 1: triangle 0 (nodes 0, 1, 2) has the area 0 m^2; it must be > 0"]),
+     ["14:5 body 1: the area of a triangle, 0 m^2, is too small; its sides are 1e-200 m"]),
     ("masses that overflow", edit(BASE, "1050 -> 1e308", "thickness = 1 -> thickness = 1e308"),
-     ["- node 0: mass must be > 0, got inf kg"]),
-    ("stiffness that underflows", edit(BASE, "1e7 -> 1e-308", "thickness = 1 -> thickness = 1e-308"),
-     ["- spring 0: stiffness must be > 0, got 0 N"]),
+     ["15:5 body 1: the mass of a node, inf kg, is too large; density 1e+308 kg/m^3, thickness 1e+308 m, spacing "
+      "0.01 m"]),
+    ("stiffness that underflows", edit(BASE, "1e7 -> 1e-308"),
+     ["15:5 body 1: the stiffness of a spring, 1e-310 N, is too small; Young's modulus 1e-308 Pa, thickness 1 m, "
+      "spacing 0.01 m"]),
     ("obstacle that overflows", edit(BASE, "-0.1, 0, 0.1, 0 -> -1e300, 0, 1e300, 0"),
-     ["- obstacle 0: segment 0 has length inf m"]),
+     ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too long"]),
     ("body deeper in the obstacle than the skin", edit(BASE, "0, 0.001 -> 0, -0.001"),
-     ["- node 0 at (-0.02, -0.001) m starts 0.001 m inside obstacle 0, deeper than the skin of 1e-08 m"]),
+     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 1e-08 m; "
+      "'position' or 'clearance' can put it in front"]),
     ("body just deeper than the skin", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
-     ["- node 0 at (-0.02, -1.1e-08) m starts 1.1e-08 m inside obstacle 0, deeper than the skin of 1e-08 m"]),
+     ["11:1 body 1 starts 1.1e-08 m inside obstacle 1, at (-0.02, -1.1e-08) m, deeper than the skin of 1e-08 m; "
+      "'position' or 'clearance' can put it in front"]),
     ("second body in the obstacle",
      BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n",
-     ["- node 32 at (0.05, -0.0173205) m starts 0.0173205 m inside obstacle 0, deeper than the skin of 1e-08 m"]),
+     ["27:1 body 2 starts 0.0173205 m inside obstacle 1, at (0.05, -0.0173205) m, deeper than the skin of 1e-08 m; "
+      "'position' or 'clearance' can put it in front"]),
+    ("two bodies in two obstacles", edit(BASE, "0, 0.001 -> 0, -0.001") + "&obstacle points = 0.2, 0, 0.1, 0 /\n"
+     "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.15, 0.01 /\n",
+     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 1e-08 m; "
+      "'position' or 'clearance' can put it in front",
+      "28:1 body 2 starts 0.0273205 m inside obstacle 2, at (0.14, 0.0273205) m, deeper than the skin of 1e-08 m; "
+      "'position' or 'clearance' can put it in front"]),
+    ("body deeper than the skin given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact skin = 1e-4 /\n",
+     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 0.0001 m; "
+      "'position' or 'clearance' can put it in front"]),
     ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),
      ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1"]),
     ("clearance against gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 9.81"),
@@ -351,7 +407,7 @@ DECKS = [
     ("lattice file missing", FILE,
      ["13:5 body 1: part.h5: cannot be opened (No such file or directory)"]),
     ("lattice file that is not HDF5", edit(FILE, "part.h5 -> deck.nml"),
-     ["13:5 body 1: deck.nml: cannot be opened (file signature not found)"]),
+     ["13:5 body 1: deck.nml: is not an HDF5 file"]),
     ("lattice file that is a folder", edit(FILE, "part.h5 -> ."),
      ["13:5 body 1: .: is not a regular file"]),
     ("lattice file given by its whole path", edit(FILE, "part.h5 -> /nowhere/part.h5"),
@@ -459,25 +515,32 @@ class Refused(unittest.TestCase):
 
     def test_two_decks(self):
         self.put(BASE)
-        self.refuse_usage("unknown option or a second deck", "deck.nml", "deck.nml")
+        self.refuse_usage("'out' is a second deck, behind 'deck.nml'", "deck.nml", "out")
+
+    def test_two_actions(self):
+        self.put(BASE)
+        self.refuse_usage("'--echo' does not go with '--check'", "--check", "--echo", "deck.nml")
+        self.refuse_usage("'--help' does not go with '--echo'", "--echo", "deck.nml", "--help")
+        self.refuse_usage("'--check' does not go with '--check'", "--check", "--check", "deck.nml")
 
     def test_unknown_option(self):
         self.put(BASE)
         for option in ("--frames", "-c", "-", "--check=yes", "--outdir=out"):
             with self.subTest(option):
-                self.refuse_usage("unknown option or a second deck", option, "deck.nml")
+                self.refuse_usage(f"'{option}' is no option", option, "deck.nml")
 
     def test_outdir_without_a_folder(self):
         self.put(BASE)
-        self.refuse_usage("--outdir needs a folder", "deck.nml", "--outdir")
+        self.refuse_usage("'--outdir' needs a folder", "deck.nml", "--outdir")
+        self.refuse_usage("'--outdir' needs a folder", "--outdir", "", "deck.nml")
 
     def test_a_deck_where_none_belongs(self):
         self.put(BASE)
         for option in ("--template", "--keys", "--version", "--help"):
             with self.subTest(option):
-                self.refuse_usage("no deck belongs here", option, "deck.nml")
+                self.refuse_usage(f"'{option}' takes no deck, got 'deck.nml'", option, "deck.nml")
 
 
 if __name__ == "__main__":
-    DEM_BATCH = sys.argv.pop(1)
+    DEM_BATCH = os.path.abspath(sys.argv.pop(1))
     unittest.main()

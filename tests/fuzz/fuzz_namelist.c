@@ -16,7 +16,7 @@ static char *echo_of(const char *text, size_t size)
     char *echo = NULL;
     if (!namelist_parse(&list, text, size, &errors) || !schema_resolve(&deck, &list, &errors)) abort();
     namelist_errors_sort(&errors);
-    if (errors.n == 0 && !schema_echo(&deck, false, &echo)) abort();
+    if (errors.n == 0 && !schema_echo(&deck, SCHEMA_MARKED, &echo)) abort();
     schema_free(&deck);
     namelist_free(&list);
     namelist_errors_free(&errors);

@@ -225,7 +225,7 @@ static void the_hash_is_of_the_physics_alone(void **state)
     const char *heads[4] = {"&run t_end = 1 /\n",
                             "! another text\n&run t_end = 3, title = 'x' /\n&output name = 'y' /\n",
                             "&run t_end = 1, gravity = 0, -9.8 /\n", "&run t_end = 1 /\n&solver rtol = 1e-7 /\n"};
-    uint64_t hash[4];
+    uint64_t hash[4], run_hash[4];
     for (int k = 0; k < 4; k++) {
         char text[512];
         (void)snprintf(text, sizeof text, "%s%s", heads[k], rest);
@@ -234,10 +234,12 @@ static void the_hash_is_of_the_physics_alone(void **state)
         for (const char *c = d.physics; *c != '\0'; c++) expected = (expected ^ (unsigned char)*c) * 1099511628211u;
         assert_true(d.hash == expected);
         hash[k] = d.hash;
+        run_hash[k] = d.run_hash;
         deck_free(&d);
     }
     assert_true(hash[0] == hash[1]);
     assert_true(hash[0] != hash[2] && hash[0] != hash[3] && hash[2] != hash[3]);
+    assert_true(run_hash[0] != run_hash[1] && run_hash[0] != run_hash[2]);
 }
 
 static void the_echo_is_a_deck_of_the_same_problem(void **state)
@@ -247,7 +249,7 @@ static void the_echo_is_a_deck_of_the_same_problem(void **state)
                        "&body shape = 'disc', radius = 2, spacing = 0.3, material = 'rubber', clearance = 1e-3 /\n"
                        "&void centre = 0, 0.1, radius = 0.7 /\n" FLOOR);
     deck again = good_deck(d.echo);
-    assert_true(again.hash == d.hash);
+    assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
     assert_string_equal(again.physics, d.physics);
     assert_int_equal(again.lattice.n_nodes, d.lattice.n_nodes);
     assert_memory_equal(again.lattice.x, d.lattice.x, (size_t)d.lattice.n_nodes * 2 * sizeof(double));
@@ -309,7 +311,8 @@ static void names_that_refer_to_nothing_are_named(void **state)
                                     "&body shape = 'disc', radius = 1, spacing = 1 /\n",
                   "3:11: material 'rubber' is given twice, first in line 2\n"
                   "4:48: there is no material 'ruber' (did you mean 'rubber'?)\n"
-                  "5:1: there is no material 'solid'\n");
+                  "5:1: there is no material 'solid', the default of 'material' in &body; known: 'rubber', "
+                  "'rubber'\n");
 }
 
 static void voids_and_pores_need_a_body_that_can_have_them(void **state)
@@ -345,8 +348,14 @@ static void obstacles_must_be_polylines(void **state)
                              "&obstacle points = 0, 0, 1, 1, 2 /\n"
                              "&obstacle points = 0, 0, 0.5, 1, 0.5, 1, 2, 2, 2, 2 /\n",
                   "4:11: 'points' in &obstacle must be pairs of x and y, got 5 values\n"
-                  "5:11: 'points' in &obstacle: segment 2 has no length, both its ends are (0.5, 1)\n"
-                  "5:11: 'points' in &obstacle: segment 4 has no length, both its ends are (2, 2)\n");
+                  "5:11: 'points' in &obstacle: segment 2 of obstacle 2, from (0.5, 1) to (0.5, 1) m, has no length; "
+                  "so it is with 2 of 4 segments\n");
+    expect_errors(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /\n"
+                             "&obstacle points = -1e300, 0, 1e300, 0 /\n"
+                             "&obstacle points = 0, 0, 1e-300, 0 /\n",
+                  "4:11: 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too "
+                  "long\n"
+                  "5:11: 'points' in &obstacle: segment 1 of obstacle 2, from (0, 0) to (1e-300, 0) m, is too short\n");
 }
 
 static void faults_of_syntax_keys_and_meaning_come_together_sorted(void **state)
@@ -376,12 +385,89 @@ static void faults_of_geometry_are_reported_for_all_bodies(void **state)
         "&body shape = 'disc', radius = 1, spacing = 0.1, material = 'rubber' /\n"
         "&pores body = 4, number = 2, radius = 0.3, 0.3, wall = 0.1 /\n"
         "&void body = 5, centre = 0, 0, radius = 2 /\n" FLOOR,
-        "3:41: body 1: a rectangle of 1 m x 1 m with the spacing 1e-09 m would have 1.15e+18 nodes; the limit is "
-        "1.1e+12\n"
-        "4:35: body 2: a disc of radius 1 m with the spacing 1e-09 m would have 4.62e+18 nodes; the limit is 1.1e+12\n"
+        "3:41: body 1 would have more nodes than 2^40 with the spacing 1e-09 m\n"
+        "4:35: body 2 would have more nodes than 2^40 with the spacing 1e-09 m\n"
         "5:89: 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 3\n"
-        "7:35: body 5: none of 367 nodes is left\n"
-        "8:1: pore 2 of 2, of radius 0.3 m, finds no place in body 4 with walls of 0.1 m\n");
+        "7:1: body 5: its voids and pores take all of its 367 nodes\n"
+        "8:1: pore 2 of 2, of radius 0.3 m, finds no place in body 4 with walls of 0.1 m; take fewer or smaller ones, "
+        "or a "
+        "thinner 'wall'\n");
+}
+
+#define DISC(keys) "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber'" keys " /\n"
+
+static void bodies_that_start_in_an_obstacle_are_named(void **state)
+{
+    (void)state;
+    const char *bodies = RUN RUBBER DISC("") DISC(", position = 0, 1")
+        DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR "&contact skin = 0.25 /\n";
+    expect_errors(bodies,
+                  "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the skin "
+                  "of 0.25 m; 'position' or 'clearance' can put it in front\n"
+                  "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the skin of "
+                  "0.25 m; 'position' or 'clearance' can put it in front\n");
+    const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
+    deck d = good_deck(cleared);
+    deck_free(&d);
+    expect_errors(
+        RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
+        "3:1: body 1 starts 2.54038e-05 m inside obstacle 1, at (-0.5, -2.54038e-05) m, deeper than the skin of "
+        "1e-06 m; 'position' or 'clearance' can put it in front\n");
+    d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
+    deck_free(&d);
+}
+
+static void sizes_that_cannot_be_computed_with_are_named(void **state)
+{
+    (void)state;
+    expect_errors(
+        RUN RUBBER "&material youngs_modulus = 1, density = 1e-308, thickness = 1e-308 /\n"
+                   "&material name = 'soft', youngs_modulus = 1e-308, density = 1, thickness = 1e-9 /\n"
+                   "&body shape = 'disc', radius = 1, spacing = 1 /\n"
+                   "&body shape = 'disc', radius = 1, spacing = 1, material = 'soft' /\n"
+                   "&body shape = 'disc', radius = 1e-200, spacing = 1e-200, material = 'rubber' /\n" DISC(
+                       ", position = 0, 1e300"),
+        "5:1: body 1: the mass of a node, 0 kg, is too small; density 1e-308 kg/m^3, thickness 1e-308 m, spacing 1 m\n"
+        "6:48: body 2: the stiffness of a spring, 1e-317 N, is too small; Young's modulus 1e-308 Pa, thickness "
+        "1e-09 m, spacing 1 m\n"
+        "7:40: body 3: the area of a triangle, 0 m^2, is too small; its sides are 1e-200 m\n"
+        "8:69: body 4 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 1 m\n");
+}
+
+static void one_fault_is_told_once(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER "&body shape = 'disc', radus = 1, spacng = 1, material = 'rubber' /\n"
+                             "&body shape = 'rectangle', size(0) = 1, spacing = 1, material = 'rubber' /\n",
+                  "3:23: unknown key 'radus' in &body (did you mean 'radius'?)\n"
+                  "3:34: unknown key 'spacng' in &body (did you mean 'spacing'?)\n"
+                  "4:28: the subscript of 'size' must ascend, from 1 to 100000 at most\n");
+    expect_errors(RUN "&material name = rubber, youngs_modulus = 1, density = 1 /\n" RUBBER
+                      "&material nam = 'x', youngs_modulus = 1, density = 1 /\n" DISC(
+                          "") "&body shape = 'disc', radius = 1, spacing = 1, material = 'x' /\n",
+                  "2:18: 'name' in &material expects a string in quotes, got rubber\n"
+                  "4:11: unknown key 'nam' in &material (did you mean 'name'?)\n");
+    expect_errors(RUN "&materal name = 'rubber', youngs_modulus = 1, density = 1 /\n" DISC(""),
+                  "2:1: unknown group &materal (did you mean &material?)\n");
+    expect_errors(RUN RUBBER DISC("") "&boby /\n&void body = 2, centre = 0, 0, radius = 1 /\n",
+                  "4:1: unknown group &boby (did you mean &body?)\n");
+}
+
+static void names_and_numbers_of_the_output_are_checked(void **state)
+{
+    (void)state;
+    const char *told = "'name' in &output must not end in '.obstacle' or '.part': other files are called so\n";
+    char expected[200];
+    (void)snprintf(expected, sizeof expected, "4:9: %s", told);
+    expect_errors(RUN RUBBER DISC("") "&output name = 'a.obstacle' /\n", expected);
+    expect_errors(RUN RUBBER DISC("") "&output name = '.part' /\n",
+                  "4:9: 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'\n");
+    expect_errors(RUN RUBBER DISC("") "&output name = 'a.part' /\n", expected);
+    expect_errors(
+        "&run t_end = 1e9 /\n" RUBBER DISC("") "&output frame_interval = 1e-3 /\n",
+        "4:9: 'frame_interval' in &output, 0.001 s, makes 1e+12 frames until 't_end'; the limit is 10000000\n");
+    deck d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
+    deck_free(&d);
 }
 
 /* ---- lattice files ---- */
@@ -435,20 +521,31 @@ static void a_lattice_file_is_turned_placed_cleared_and_launched(void **state)
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
+static void a_material_is_needed_by_meshes_only(void **state)
+{
+    (void)state;
+    expect_errors(RUN DISC(""), "1:1: &material must be given\n");
+    write_lattice("a.h5", 1.0, NULL);
+    deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
+    deck_free(&d);
+    assert_int_equal(unlink(path_of("a.h5")), 0);
+}
+
 static void the_hash_is_of_the_lattice_file_too(void **state)
 {
     (void)state;
     const char *text = RUN RUBBER "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n";
-    uint64_t hash[3];
+    uint64_t hash[3], run_hash[3];
     for (int k = 0; k < 3; k++) {
         if (k != 1) write_lattice("a.h5", 1.0 + k, NULL);
         deck d = good_deck(text);
         assert_int_equal(d.lattice.n_nodes, 3);
         hash[k] = d.hash;
+        run_hash[k] = d.run_hash;
         deck_free(&d);
     }
-    assert_true(hash[0] == hash[1]);
-    assert_true(hash[0] != hash[2]);
+    assert_true(hash[0] == hash[1] && run_hash[0] == run_hash[1]);
+    assert_true(hash[0] != hash[2] && run_hash[0] != run_hash[2]);
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
@@ -492,15 +589,16 @@ static void expect_unreadable(const char *path, const char *expected)
 static void what_is_no_readable_file_is_refused(void **state)
 {
     (void)state;
-    char *big = calloc(1, (1 << 20) + 1);
+    const size_t size = NAMELIST_MAX_FILE + 1;
+    char *big = calloc(1, size);
     assert_non_null(big);
-    memset(big, ' ', (1 << 20) + 1);
+    memset(big, ' ', size);
     expect_unreadable(path_of("none.nml"), "0:0: No such file or directory\n");
     expect_unreadable(folder, "0:0: not a regular file\n");
     write_file("empty.nml", "", 0);
     expect_unreadable(path_of("empty.nml"), "0:0: the file is empty\n");
-    write_file("big.nml", big, (1 << 20) + 1);
-    expect_unreadable(path_of("big.nml"), "0:0: the file is larger than 1 MiB\n");
+    write_file("big.nml", big, size);
+    expect_unreadable(path_of("big.nml"), "0:0: the file is larger than 4 MiB\n");
     assert_int_equal(mkfifo(path_of("pipe.nml"), 0600), 0);
     expect_unreadable(path_of("pipe.nml"), "0:0: not a regular file\n");
     assert_int_equal(unlink(path_of("empty.nml")), 0);
@@ -527,6 +625,11 @@ int main(void)
         cmocka_unit_test(obstacles_must_be_polylines),
         cmocka_unit_test(faults_of_syntax_keys_and_meaning_come_together_sorted),
         cmocka_unit_test(faults_of_geometry_are_reported_for_all_bodies),
+        cmocka_unit_test(bodies_that_start_in_an_obstacle_are_named),
+        cmocka_unit_test(sizes_that_cannot_be_computed_with_are_named),
+        cmocka_unit_test(one_fault_is_told_once),
+        cmocka_unit_test(a_material_is_needed_by_meshes_only),
+        cmocka_unit_test(names_and_numbers_of_the_output_are_checked),
         cmocka_unit_test(a_lattice_file_is_turned_placed_cleared_and_launched),
         cmocka_unit_test(the_hash_is_of_the_lattice_file_too),
         cmocka_unit_test(what_is_wrong_with_a_lattice_file_is_told_at_its_key),

@@ -8,25 +8,25 @@ static void columns_count_characters_not_bytes(void **state)
 {
     (void)state;
     assert_faults("&a t = '\xC3\xA9\xE2\x82\xAC', x = 1+2 /",
-                  "1:18 '1+2' has an exponent without its letter; write 1.5e+3 for 1.5+3");
+                  "1:18 'x': '1+2' has an exponent without its letter; write 1.5e+3 for 1.5+3");
 }
 
 static void infinite_numbers_are_refused(void **state)
 {
     (void)state;
-    assert_faults("&a x = inf, -Infinity nan NaN(3) /", "1:8 'inf' is not a finite number\n"
-                                                        "1:13 '-Infinity' is not a finite number\n"
-                                                        "1:23 'nan' is not a finite number\n"
-                                                        "1:27 'NaN(3)' is not a finite number");
+    assert_faults("&a x = inf, -Infinity nan NaN(3) /", "1:8 'x': 'inf' is not a finite number\n"
+                                                        "1:13 'x': '-Infinity' is not a finite number\n"
+                                                        "1:23 'x': 'nan' is not a finite number\n"
+                                                        "1:27 'x': 'NaN(3)' is not a finite number");
 }
 
 static void numbers_that_do_not_fit_are_refused(void **state)
 {
     (void)state;
     assert_faults("&a x = 9223372036854775808, 1e309, -1d999 /",
-                  "1:8 '9223372036854775808' is too large for an integer\n"
-                  "1:29 '1e309' is too large for a real\n"
-                  "1:36 '-1d999' is too large for a real");
+                  "1:8 'x': '9223372036854775808' is too large for an integer\n"
+                  "1:29 'x': '1e309' is too large for a real\n"
+                  "1:36 'x': '-1d999' is too large for a real");
 }
 
 static void a_number_of_many_digits_is_refused(void **state)
@@ -35,7 +35,7 @@ static void a_number_of_many_digits_is_refused(void **state)
     char text[300] = "&a x = 0.";
     memset(text + 9, '1', 200);
     (void)snprintf(text + 209, 10, " /");
-    assert_faults(text, "1:8 '0.11111111111111111111111111111111111111' has too many digits");
+    assert_faults(text, "1:8 'x': '0.11111111111111111111111111111111111111' has too many digits");
 }
 
 static void a_semicolon_does_not_separate(void **state)
@@ -101,6 +101,8 @@ static void a_missing_equal_sign_is_reported_once(void **state)
 {
     (void)state;
     assert_faults("&a t_end 20e-3 'x = /' y = 1 /", "1:4 '=' is missing after 't_end'");
+    assert_faults("&a x = 1 ! one\n\ty 2\n z = 3 /", "2:2 '=' is missing after 'y'");
+    assert_faults("&a x = 1,\n y 2\n z = 3 /", "");
 }
 
 static void a_key_with_a_fault_is_kept_without_values(void **state)
@@ -137,8 +139,8 @@ static void an_unclosed_string_does_not_swallow_the_next_key(void **state)
 {
     (void)state;
     assert_faults("&a x = 'abc, y = inf /\n&b z = nan /", "1:8 the string is not closed\n"
-                                                          "1:18 'inf' is not a finite number\n"
-                                                          "2:8 'nan' is not a finite number");
+                                                          "1:18 'y': 'inf' is not a finite number\n"
+                                                          "2:8 'z': 'nan' is not a finite number");
 }
 
 static void an_unclosed_string_is_found_where_another_opens(void **state)
@@ -179,24 +181,46 @@ static void an_unquoted_path_does_not_silently_end_its_group(void **state)
     assert_faults("&a x = b/c y = 1 /", "1:10 text right behind the '/' that ends &a; does a path lack its quotes?");
 }
 
-static void bytes_that_are_not_text_are_reported_once_a_line(void **state)
+static void bytes_that_are_not_text_are_reported_once(void **state)
 {
     (void)state;
     static const char text[] = "&a x\0=\001 1\n y = '\xC3\xA9\xE9' ! \xFF\n z = \x7F 3\r/";
-    assert_faults_of(text, sizeof text - 1,
-                     "1:5 byte 0x00 is not text; UTF-8 is expected\n"
-                     "2:8 byte 0xE9 is not text; UTF-8 is expected\n"
-                     "3:6 byte 0x7F is not text; UTF-8 is expected");
+    assert_faults_of(text, sizeof text - 1, "1:5 byte 0x00 is not text; UTF-8 is expected (3 such lines)");
+    assert_faults("&a y = '\xE9' ! \xFF\n z = nan /", "1:9 byte 0xE9 is not text; UTF-8 is expected\n"
+                                                      "2:6 'z': 'nan' is not a finite number");
+}
+
+static void expect_unreadable(const char *text, size_t size, const char *expected)
+{
+    char got[256];
+    reading r = read_bytes(text, size);
+    list_faults(&r.errors, got, sizeof got);
+    assert_string_equal(got, expected);
+    assert_true(r.list.unreadable);
+    assert_int_equal(r.list.n_groups, 0);
+    drop(&r);
+}
+
+static void a_text_in_utf16_is_told_and_not_read(void **state)
+{
+    (void)state;
+    const char *told = "1:1 the file is in UTF-16; UTF-8 is expected";
+    expect_unreadable("\xFF\xFE&\0r\0\n\0", 8, told);
+    expect_unreadable("\xFE\xFF\0&\0r\0\n", 8, told);
+    expect_unreadable("&\0r\0\n\0", 6, told);
+    expect_unreadable("\0&\0r\0\n", 6, told);
+    expect_unreadable("! \xE9\n\n! \xE9\n&b x = nan", 19,
+                      "1:3 byte 0xE9 is not text; UTF-8 is expected (2 such lines)");
 }
 
 static void overlong_characters_and_surrogates_are_not_text(void **state)
 {
     (void)state;
-    assert_faults("\xC0\x80\n\xE0\x80\x80\n\xED\xA0\x80\n\xF4\x90\x80\x80\n\xF0\x9F\x98\x80",
-                  "1:1 byte 0xC0 is not text; UTF-8 is expected\n"
-                  "2:1 byte 0xE0 is not text; UTF-8 is expected\n"
-                  "3:1 byte 0xED is not text; UTF-8 is expected\n"
-                  "4:1 byte 0xF4 is not text; UTF-8 is expected");
+    assert_faults("\xC0\x80\n", "1:1 byte 0xC0 is not text; UTF-8 is expected");
+    assert_faults("\xE0\x80\x80\n", "1:1 byte 0xE0 is not text; UTF-8 is expected");
+    assert_faults("\xED\xA0\x80\n", "1:1 byte 0xED is not text; UTF-8 is expected");
+    assert_faults("\xF4\x90\x80\x80\n", "1:1 byte 0xF4 is not text; UTF-8 is expected");
+    assert_faults("\xF0\x9F\x98\x80", "");
 }
 
 static char *filled(size_t size, char c)
@@ -221,9 +245,9 @@ static void a_long_line_is_reported(void **state)
 static void a_large_file_is_refused(void **state)
 {
     (void)state;
-    char *text = filled((1 << 20) + 1, '\n');
-    assert_faults_of(text, 1 << 20, "");
-    assert_faults_of(text, (1 << 20) + 1, "1:1 the file is larger than 1048576 bytes");
+    char *text = filled(NAMELIST_MAX_FILE + 1, '\n');
+    assert_faults_of(text, NAMELIST_MAX_FILE, "");
+    expect_unreadable(text, NAMELIST_MAX_FILE + 1, "1:1 the file is larger than 4194304 bytes");
     free(text);
 }
 
@@ -313,7 +337,8 @@ int main(void)
         cmocka_unit_test(a_group_that_is_not_closed_ends_at_the_next),
         cmocka_unit_test(an_end_without_group_is_reported),
         cmocka_unit_test(an_unquoted_path_does_not_silently_end_its_group),
-        cmocka_unit_test(bytes_that_are_not_text_are_reported_once_a_line),
+        cmocka_unit_test(bytes_that_are_not_text_are_reported_once),
+        cmocka_unit_test(a_text_in_utf16_is_told_and_not_read),
         cmocka_unit_test(overlong_characters_and_surrogates_are_not_text),
         cmocka_unit_test(a_long_line_is_reported),
         cmocka_unit_test(a_large_file_is_refused),

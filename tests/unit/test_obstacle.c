@@ -233,6 +233,19 @@ static void obstacles_can_be_left_out_or_asked_alone(void **state)
     obstacles_free(&o);
 }
 
+/* 0.1 m in front of the floor, 0.3 m inside the wall: the smaller signed distance, not the nearer surface. */
+static void inside_one_of_several_obstacles_is_inside(void **state)
+{
+    const double ground[4] = {-4.0, 0.0, 4.0, 0.0}, wall[4] = {2.0, -1.0, 2.0, 3.0};
+    const dem_obstacle list[2] = {{2, ground, 0.0}, {2, wall, 0.0}};
+    obstacle_set o;
+    (void)state;
+    assert_ok(obstacles_compile(&o, list, 2));
+    check_gap(&o, 2.3, 0.1, -0.3, 1, -1.0, 0.0);
+    check_gap(&o, 2.1, -0.3, -0.3, 0, 0.0, 1.0);
+    obstacles_free(&o);
+}
+
 /* ---- properties over the plane ---- */
 
 /* A ring with spikes and bays, clockwise. */
@@ -316,8 +329,8 @@ static void the_normal_is_the_gradient_of_the_gap(void **state)
 
 static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends(void **state)
 {
-    const vec2 vertex = {0.0, 0.0}, on_one = {-1.0, 0.0005}, above = {-1.0, 0.002}, beyond = {-2.0005, 0.0},
-               further = {-2.002, 0.0};
+    const vec2 past = {3.0005, -1.0}, vertex = {0.0, 0.0}, on_one = {-1.0, 0.0005}, above = {-1.0, 0.002},
+               beyond = {-2.0005, 0.0}, further = {-2.002, 0.0};
     dem_index hits[4] = {-1, -1, -1, -1};
     (void)state;
     obstacle_set o = compile_both();
@@ -330,6 +343,8 @@ static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_
     assert_int_equal(obstacles_touching(&o, above, 1e-3, -1, hits, 4), 0);
     assert_int_equal(obstacles_touching(&o, beyond, 1e-3, -1, hits, 4), 1);
     assert_int_equal(obstacles_touching(&o, further, 1e-3, -1, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, past, 1e-3, -1, hits, 4), 1);
+    assert_int_equal(hits[0], 2);
     obstacles_free(&o);
 }
 
@@ -402,6 +417,7 @@ int main(void)
         cmocka_unit_test(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise),
         cmocka_unit_test(without_obstacles_the_gap_is_infinite),
         cmocka_unit_test(obstacles_can_be_left_out_or_asked_alone),
+        cmocka_unit_test(inside_one_of_several_obstacles_is_inside),
         cmocka_unit_test(the_gap_is_the_distance_with_the_sign_of_the_side),
         cmocka_unit_test(the_normal_is_the_gradient_of_the_gap),
         cmocka_unit_test(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends),

@@ -77,22 +77,24 @@ static const motion swing = {swing_x, swing_v, swing_a};
 /* Ends that no interpolation would reproduce: positions and velocities have nothing to do with each other. */
 static void the_ends_are_the_states_to_the_bit(void **state)
 {
-    step s;
-    double y[n_state];
     (void)state;
-    make_step(&s, &swing, 0.1, 0.1 + 1.0 / 3.0);
-    for (int k = 0; k < n_state; k++) s.y1[k] += 1.0 / (3.0 + k);
-    path_state(&s.path, s.path.t0, y);
-    assert_memory_equal(y, s.y0, sizeof y);
-    path_state(&s.path, s.path.t1, y);
-    assert_memory_equal(y, s.y1, sizeof y);
-    for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 x0 = path_position(&s.path, s.path.t0, i), x1 = path_position(&s.path, s.path.t1, i);
-        const vec2 v0 = path_velocity(&s.path, s.path.t0, i), v1 = path_velocity(&s.path, s.path.t1, i);
-        assert_memory_equal(&x0, &s.y0[2 * i], sizeof x0);
-        assert_memory_equal(&x1, &s.y1[2 * i], sizeof x1);
-        assert_memory_equal(&v0, &s.y0[2 * (n_nodes + i)], sizeof v0);
-        assert_memory_equal(&v1, &s.y1[2 * (n_nodes + i)], sizeof v1);
+    for (int q = 1; q <= 10; q++) {
+        step s;
+        double y[n_state];
+        make_step(&s, &swing, 0.1 * q, 0.1 * q + 1.0 / (2.0 + q));
+        for (int k = 0; k < n_state; k++) s.y1[k] += 1.0 / (3.0 + k);
+        path_state(&s.path, s.path.t0, y);
+        assert_memory_equal(y, s.y0, sizeof y);
+        path_state(&s.path, s.path.t1, y);
+        assert_memory_equal(y, s.y1, sizeof y);
+        for (dem_index i = 0; i < n_nodes; i++) {
+            const vec2 x0 = path_position(&s.path, s.path.t0, i), x1 = path_position(&s.path, s.path.t1, i);
+            const vec2 v0 = path_velocity(&s.path, s.path.t0, i), v1 = path_velocity(&s.path, s.path.t1, i);
+            assert_memory_equal(&x0, &s.y0[2 * i], sizeof x0);
+            assert_memory_equal(&x1, &s.y1[2 * i], sizeof x1);
+            assert_memory_equal(&v0, &s.y0[2 * (n_nodes + i)], sizeof v0);
+            assert_memory_equal(&v1, &s.y1[2 * (n_nodes + i)], sizeof v1);
+        }
     }
 }
 

@@ -56,11 +56,11 @@ static void assert_body_errors(const char *keys, const char *expected)
     assert_errors(text, expected);
 }
 
-static char *echo_of(const char *text, bool physics_only)
+static char *echo_of(const char *text, schema_form form)
 {
     char *echo;
     resolved r = resolve_clean(text);
-    assert_true(schema_echo(&r.deck, physics_only, &echo));
+    assert_true(schema_echo(&r.deck, form, &echo));
     drop_resolved(&r);
     return echo;
 }
@@ -108,7 +108,7 @@ static void assert_same_deck(const schema_deck *a, const schema_deck *b)
 
 static void assert_echo_reads_back(const char *text)
 {
-    char *echo = echo_of(text, false);
+    char *echo = echo_of(text, SCHEMA_MARKED);
     resolved a = resolve_clean(text), b = resolve_clean(echo);
     assert_same_deck(&a.deck, &b.deck);
     drop_resolved(&a);
@@ -245,6 +245,40 @@ static void the_nearest_name_is_found_in_any_case(void **state)
     assert_int_equal(k, 3);
 }
 
+static void long_names_are_near_to_nothing(void **state)
+{
+    (void)state;
+    char text[301];
+    const char *const names[] = {text, "aab"};
+    size_t k = 99;
+    memset(text, 'a', 300);
+    text[300] = '\0';
+    assert_false(schema_nearest(text, names, 2, &k));
+    assert_true(schema_nearest("aaa", names, 2, &k));
+    assert_int_equal(k, 1);
+    char deck[512];
+    (void)snprintf(deck, sizeof deck, RUN MATERIAL BODY "&contact %s = 1 /", text);
+    assert_errors(deck, "4:10 unknown key 'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa' in &contact");
+}
+
+static void what_was_at_fault_is_known(void **state)
+{
+    (void)state;
+    resolved r = resolve(RUN MATERIAL "&body shape = 'disc', radus = 1, spacing = , size(0) = 1, clearance = 'x'\n"
+                                      " position 2 /\n&obstacel /");
+    const schema_instance *body = schema_get(&r.deck, "body", 0);
+    assert_int_equal(r.errors.n, 5);
+    assert_true(r.deck.misspelt);
+    static const char *const faulty[] = {"radius", "size", "clearance", "position"};
+    static const char *const good[] = {"shape", "spacing", "velocity"};
+    for (int k = 0; k < 4; k++) assert_true(schema_value_of(body, faulty[k])->faulty);
+    for (int k = 0; k < 3; k++) assert_false(schema_value_of(body, good[k])->faulty);
+    drop_resolved(&r);
+    r = resolve("&weather /\n" RUN MATERIAL BODY);
+    assert_false(r.deck.misspelt);
+    drop_resolved(&r);
+}
+
 static void a_far_name_is_not_suggested(void **state)
 {
     (void)state;
@@ -288,7 +322,7 @@ static void an_unknown_group_names_the_nearest(void **state)
 static void required_groups_must_be_given(void **state)
 {
     (void)state;
-    assert_errors("", "1:1 &run must be given\n1:1 &material must be given\n1:1 &body must be given");
+    assert_errors("", "1:1 &run must be given\n1:1 &body must be given");
 }
 
 static void required_keys_must_be_given(void **state)
@@ -400,7 +434,7 @@ static void a_fault_of_the_syntax_is_not_reported_again(void **state)
 {
     (void)state;
     assert_errors("&run t_end 20e-3 gravity = nan /\n" MATERIAL BODY, "1:6 '=' is missing after 't_end'\n"
-                                                                      "1:28 'nan' is not a finite number");
+                                                                      "1:28 'gravity': 'nan' is not a finite number");
 }
 
 static void the_default_stands_in_for_a_fault(void **state)
@@ -418,7 +452,7 @@ static void the_default_stands_in_for_a_fault(void **state)
 static void the_echo_marks_defaults_and_what_is_not_given(void **state)
 {
     (void)state;
-    char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, false);
+    char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, SCHEMA_MARKED);
     assert_contains(echo, "&run\n    title = '' ! default\n    t_end = 0.02\n    gravity = 0, -9.81 ! default\n/\n");
     assert_contains(echo, "    ! clearance = (not given)\n");
     assert_contains(echo, "&solver\n    method = 'fehlberg45' ! default\n    rtol = 1e-06 ! default\n");
@@ -442,7 +476,7 @@ static void long_arrays_go_on_in_the_next_line(void **state)
     char text[8000] = RUN MATERIAL BODY "&obstacle points = ";
     for (int k = 0; k < 400; k++) (void)snprintf(text + strlen(text), 20, "%.6f ", sin(k));
     (void)snprintf(text + strlen(text), 10, "/");
-    char *echo = echo_of(text, false);
+    char *echo = echo_of(text, SCHEMA_MARKED);
     size_t longest = 0;
     for (const char *line = echo; *line != '\0'; line += strcspn(line, "\n") + 1)
         if (strcspn(line, "\n") > longest) longest = strcspn(line, "\n");
@@ -454,19 +488,37 @@ static void long_arrays_go_on_in_the_next_line(void **state)
 static void equal_values_are_repeated_in_the_echo(void **state)
 {
     (void)state;
-    char *echo = echo_of(RUN MATERIAL BODY "&obstacle points = 1000*0.5, 3*1, 4*0, 4*-0 /", false);
+    char *echo = echo_of(RUN MATERIAL BODY "&obstacle points = 1000*0.5, 3*1, 4*0, 4*-0 /", SCHEMA_MARKED);
     assert_contains(echo, "points = 1000*0.5, 1, 1, 1, 4*0, 4*-0.0\n");
     free(echo);
+}
+
+static void a_bare_echo_is_the_same_for_its_deck_and_its_echo(void **state)
+{
+    (void)state;
+    char *marked = echo_of(RUN MATERIAL BODY, SCHEMA_MARKED), *bare = echo_of(RUN MATERIAL BODY, SCHEMA_BARE);
+    char *stated = echo_of("&run gravity = 0., -9.81, t_end = 1.0 /" MATERIAL BODY, SCHEMA_BARE);
+    char *again = echo_of(marked, SCHEMA_BARE), *other = echo_of("&run t_end = 2 /" MATERIAL BODY, SCHEMA_BARE);
+    assert_string_equal(again, bare);
+    assert_string_equal(stated, bare);
+    assert_string_not_equal(other, bare);
+    assert_contains(bare, "    gravity = 0, -9.81\n");
+    assert_lacks(bare, "!");
+    free(marked);
+    free(bare);
+    free(stated);
+    free(again);
+    free(other);
 }
 
 static void the_physics_is_the_same_however_it_is_written(void **state)
 {
     (void)state;
-    char *a = echo_of(RUN MATERIAL BODY, true);
+    char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
     char *b =
         echo_of(BODY "&solver rtol = 1d-6 / &output name = 'other' /\n&material density = 1.05e3, youngs_modulus = "
                      "10000000., thickness = 1. /\n&run t_end = 7, title = 'x', gravity = 0., -9.81 /",
-                true);
+                SCHEMA_PHYSICS);
     assert_string_equal(a, b);
     assert_lacks(a, "default");
     assert_lacks(a, "t_end");
@@ -479,11 +531,11 @@ static void the_physics_depends_on_every_physical_key(void **state)
 {
     (void)state;
     static const char *const changes[] = {"&solver rtol = 1e-5 /", "&contact skin = 1e-9 /", "&void centre = 0, 0 /"};
-    char *a = echo_of(RUN MATERIAL BODY, true);
+    char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
     for (size_t k = 0; k < 3; k++) {
         char text[512];
         (void)snprintf(text, sizeof text, "%s%s", RUN MATERIAL BODY, changes[k]);
-        char *b = echo_of(text, true);
+        char *b = echo_of(text, SCHEMA_PHYSICS);
         assert_string_not_equal(a, b);
         free(b);
     }
@@ -562,6 +614,8 @@ int main(void)
         cmocka_unit_test(elements_without_assignment_keep_defaults),
         cmocka_unit_test(subscripted_assignments_combine),
         cmocka_unit_test(the_nearest_name_is_found_in_any_case),
+        cmocka_unit_test(long_names_are_near_to_nothing),
+        cmocka_unit_test(what_was_at_fault_is_known),
         cmocka_unit_test(a_far_name_is_not_suggested),
         cmocka_unit_test(an_unknown_key_names_the_nearest),
         cmocka_unit_test(a_misspelt_key_is_not_missed_as_well),
@@ -586,6 +640,7 @@ int main(void)
         cmocka_unit_test(the_echo_reads_back_to_the_same_values),
         cmocka_unit_test(long_arrays_go_on_in_the_next_line),
         cmocka_unit_test(equal_values_are_repeated_in_the_echo),
+        cmocka_unit_test(a_bare_echo_is_the_same_for_its_deck_and_its_echo),
         cmocka_unit_test(the_physics_is_the_same_however_it_is_written),
         cmocka_unit_test(the_physics_depends_on_every_physical_key),
         cmocka_unit_test(the_template_is_a_deck_with_every_key),

@@ -59,7 +59,9 @@ static void the_lattice_leaves_voids_out(void **state)
     double mass = 0.0;
     assert_true(shape_add_void(&s, &round_void));
     assert_true(shape_add_void(&s, &square_void));
-    assert_int_equal(shape_lattice(&lattice, &s, &rubber), DEM_OK);
+    assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
+    assert_int_equal(shape_cut(&lattice, &s), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double x = lattice.x[2 * i], y = lattice.x[2 * i + 1];
         assert_true(hypot(x - 1.0, y - 2.0) > 0.5 - 1e-9);
@@ -77,10 +79,14 @@ static void a_void_of_everything_leaves_no_lattice(void **state)
     (void)state;
     const shape_void all = {.outline = {.disc = true, .radius = 50.0}};
     shape s = {.outline = {.disc = true, .radius = 1.0}, .spacing = 0.5};
-    dem_lattice lattice = {.n_nodes = 7};
+    dem_lattice lattice;
+    assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
+    const dem_index n = lattice.n_nodes;
+    assert_int_equal(shape_cut(&lattice, &s), DEM_OK);
+    assert_int_equal(lattice.n_nodes, n);
     assert_true(shape_add_void(&s, &all));
-    assert_int_equal(shape_lattice(&lattice, &s, &rubber), DEM_ERROR_MODEL);
-    assert_int_equal(lattice.n_nodes, 7);
+    assert_int_equal(shape_cut(&lattice, &s), DEM_ERROR_MODEL);
+    dem_lattice_free(&lattice);
     shape_free(&s);
 }
 

@@ -302,6 +302,28 @@ static void a_dip_within_the_step_is_found(void **state)
     close_scene(&scene);
 }
 
+/* A parabola whose bottom, between two of the eight samples, is a micrometre deeper than the skin for 1/500 of the step; one that
+ * stays as much above it is none. Times to rounding over a vertical speed of 4.5 mm/s. */
+static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
+{
+    const double a = 10.0, bottom = 0.2, end = 0.45;
+    (void)state;
+    contact_scene scene = open_scene(room, 2);
+    const contact_site site = free_site();
+    for (int k = 0; k < 2; k++) {
+        const double depth = skin + (k == 0 ? 1e-6 : -1e-6);
+        const double x[2] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
+        flight f;
+        fly(&f, x, v, a, 0.0, end);
+        const double found = site_first_crossing(&scene, &site, &f.path, k == 1);
+        if (k == 0)
+            assert_close(found, bottom - sqrt(2.0 * (depth - skin) / a), 1e-12);
+        else
+            assert_true(isinf(found) != 0);
+    }
+    close_scene(&scene);
+}
+
 static void a_site_out_of_reach_never_crosses(void **state)
 {
     const double x[2] = {1.0, 0.9}, v[2] = {4.0, 0.0};
@@ -348,6 +370,7 @@ int main(void)
         cmocka_unit_test(a_fall_reaches_the_skin_at_the_time_of_free_fall),
         cmocka_unit_test(a_crossing_at_the_end_of_a_rooted_step_is_the_root_itself),
         cmocka_unit_test(a_dip_within_the_step_is_found),
+        cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
         cmocka_unit_test(a_site_out_of_reach_never_crosses),
         cmocka_unit_test(a_sliding_site_is_first_due_when_it_reaches_the_end),
     };
