@@ -53,14 +53,14 @@ static const char usage[] =
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, 6 out of memory,\n"
     "            7 the output exists and belongs to another problem\n";
 
-static int complain(enum exit_code code, const char *where)
+static int complain(int code, const char *where)
 {
     (void)fprintf(stderr, "%s: error: %s\n", where, dem_status_message());
     return code;
 }
 
 /* Exit code for a failure of the library before the run (`invalid`: what a bad model means) or during it. */
-static enum exit_code code_of(dem_status status)
+static int code_of(dem_status status)
 {
     switch (status) {
     case DEM_OK:
