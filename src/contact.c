@@ -69,8 +69,8 @@ static void project(contact *c, const contact_site *site, meeting with, moment *
     c->projection_energy += model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x) - before;
 }
 
-/* Speed at or below which a node that an acceleration `back` returns is at rest: the hop would be lower than the position
- * tolerance, or than what rounding leaves of the coordinates. Nothing is at rest (-1) that does not return. */
+/* Speed at or below which a node that an acceleration `back` returns is at rest: the hop would be lower than the
+ * position tolerance, or than what rounding leaves of the coordinates. Nothing is at rest (-1) that does not return. */
 static double resting_speed(const contact *c, vec2 x, double back)
 {
     if (!(back > 0.0)) return -1.0;
@@ -79,8 +79,9 @@ static double resting_speed(const contact *c, vec2 x, double back)
     return sqrt(2.0 * back * fmax(c->scene.rule.position_error, rounding));
 }
 
-/* Of the surfaces touched, those on which a node with velocity v stays. At rest it is all that push it; in a corner at rest means
- * that it would not get further out than a hop before the corner has it back. Otherwise it is the one surface it moves along. */
+/* Of the surfaces touched, those on which a node with velocity v stays. At rest it is all that push it; in a corner
+ * at rest means that it would not get further out than a hop before the corner has it back. Otherwise it is the one
+ * surface it moves along. */
 static meeting lasting(const contact *c, const contact_site *site, meeting with, vec2 v, const double *x)
 {
     const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, site->node, x),
@@ -128,7 +129,7 @@ static void book_impulse(contact *c, meeting with, vec2 impulse)
     }
 }
 
-static void report(const contact *c, const contact_site *site, dem_index s, vec2 before, moment *now)
+static void tell(const contact *c, const contact_site *site, dem_index s, vec2 before, moment *now)
 {
     if (now->listener->impact == NULL) return;
     const dem_index i = site->node;
@@ -158,10 +159,11 @@ static void book_impact(contact *c, const contact_site *site, meeting with, vec2
     c->counts.impacts++;
     c->impact_energy += 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after));
     book_impulse(c, with, vec2_scale(m, vec2_sub(after, before)));
-    report(c, site, with.s[0], before, now);
+    tell(c, site, with.s[0], before, now);
 }
 
-/* The node strikes one or two segments, the one approached faster first: projection, rebound, and which contacts last. */
+/* The node strikes one or two segments, the one approached faster first: projection, rebound, and which contacts
+ * last. */
 static void strike(contact *c, contact_site *site, meeting with, moment *now)
 {
     const vec2 before = vec2_at(now->v, site->node);
@@ -179,16 +181,16 @@ static void strike(contact *c, contact_site *site, meeting with, moment *now)
 
 /* ---- which reset is due ---- */
 
-/* How deep a node can be at an impact, m: the skin, and how far it moves in the time to which events are located, 100 units of
- * rounding of t and of the step. */
+/* How deep a node can be at an impact, m: twice the skin, and how far it moves in ten times the time to which events
+ * are located (100 units of rounding of t and of the step). */
 static double contact_depth(const contact *c, const contact_site *site, const moment *now)
 {
     const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
     return 2.0 * c->scene.rule.skin + located * vec2_norm(vec2_at(now->v, site->node));
 }
 
-/* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the one
- * approached faster, on a tie the one that ends there. */
+/* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the
+ * one approached faster, on a tie the one that ends there. */
 static bool yields(const contact *c, dem_index s, dem_index to, vec2 v)
 {
     dem_index after, before;

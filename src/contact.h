@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contact automaton of all sites: what changes when a node touches an obstacle, leaves it, slides off a segment's end or is
- * stopped in a corner. Guards (site.c) and resets depend on (t, x, v) and the forces that follow from x, and on nothing of the
- * integrator. What an impact does to a velocity is impact.c's. */
+/* The contact automaton of all sites: what changes when a node touches an obstacle, leaves it, slides off a
+ * segment's end or is stopped in a corner. Guards (site.c) and resets depend on (t, x, v) and the forces that follow
+ * from x, and on nothing of the integrator. What an impact does to a velocity is impact.c's. */
 #ifndef DEM_CONTACT_H
 #define DEM_CONTACT_H
 
@@ -37,18 +37,19 @@ void contact_guards(const contact *c, const double *y, double *g);
 /** Takes from the accelerations a [n][2] what the closed contacts hold. */
 void contact_constrain(const contact *c, double *a);
 
-/** Looks in an accepted step for what the root finder has not seen: a site inside an obstacle, a closed contact that should
- *  have ended, an entry and exit within the step. If there is one, cuts path->end short to the first and returns true.
- *  `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
+/** Looks in an accepted step for what the root finder has not seen: a site inside an obstacle, a closed contact that
+ *  should have ended, an entry and exit within the step. If there is one, cuts path->end short to the first and
+ *  returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
-/** Follows an accepted step of length h that ends at y: adds the reactions' impulse over it, refreshes the forces, and notes which
- *  nodes have come from behind an obstacle to its front. */
+/** Follows an accepted step of length h that ends at y: adds the reactions' impulse over it, refreshes the forces,
+ *  and notes which nodes have come from behind an obstacle to its front. */
 void contact_follow(contact *c, double h, const double *y);
 
-/** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the forces.
- *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first status other
- *  than DEM_OK that the listener returned */
+/** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
+ *  forces.
+ *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first
+ *  status other than DEM_OK that the listener returned */
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener);
 
 /** Closed contacts, in the order of nodes, into list [2 n_sites]; returns their number. */

@@ -11,14 +11,14 @@ typedef struct impact_surface {
     double restitution; /* eta, 0 to 1 */
 } impact_surface;
 
-/** Velocity after an impact with one or two surfaces. For one it is (9), v - (1 + eta) n (n.v) if n.v < 0, with (8) as
- *  eta = 1. For two it is Moreau's law: v - sum (1 + eta_s) p_s n_s, where sum p_s n_s, p_s <= 0, is the projection of v on the
- *  cone of the inward normals. Where both act in an acute corner both have the smaller eta: two different ones could give
- *  energy there. */
+/** Velocity after an impact with one or two surfaces. For one it is (9), v - (1 + eta) n (n.v) if n.v < 0, with (8)
+ *  as eta = 1. For two it is Moreau's law: v - sum (1 + eta_s) p_s n_s, where sum p_s n_s, p_s <= 0, is the
+ *  projection of v on the cone of the inward normals. Where both act in an acute corner both have the smaller eta:
+ *  two different ones could give energy there. */
 vec2 impact_rebound(const impact_surface *surface, int n, vec2 v);
 
-/** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls and
- *  nothing accelerates inwards. Bit s is set if surface s holds; reaction[s] is then its force, N, else 0. */
+/** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls
+ *  and nothing accelerates inwards. Bit s is set if surface s holds; reaction[s] is then its force, N, else 0. */
 int impact_holding(const impact_surface *surface, int n, vec2 force, double *reaction);
 
 #endif

@@ -39,7 +39,8 @@ static int call_derivative(realtype t, N_Vector y, N_Vector f, void *user)
     return I->problem.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f), I->problem.context) == 0 ? 0 : -1;
 }
 
-/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation derivatives there are the stored ones. */
+/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation derivatives there are the
+ * stored ones. */
 static int fetch_step(integrator *I)
 {
     double now;
@@ -65,8 +66,8 @@ static path held_path(const integrator *I)
                   .f1 = N_VGetArrayPointer(I->f1)};
 }
 
-/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in for ARKODE's
- * cubic, so that the root is one of the state which the event is then taken from. */
+/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in
+ * for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
 static int call_guards(realtype t, N_Vector y, realtype *g, void *user)
 {
     integrator *I = user;

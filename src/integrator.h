@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ARKODE behind a few functions: explicit pairs with adaptive steps and root functions. The only place that knows SUNDIALS;
- * it knows no physics but that y = (x, v) with x' = v. */
+/* ARKODE behind a few functions: explicit pairs with adaptive steps and root functions. The only place that knows
+ * SUNDIALS; it knows no physics but that y = (x, v) with x' = v. */
 #ifndef DEM_INTEGRATOR_H
 #define DEM_INTEGRATOR_H
 
@@ -27,8 +27,8 @@ typedef struct integrator_problem {
 dem_status integrator_create(integrator **out, const integrator_problem *problem, double t, const double *y);
 void integrator_destroy(integrator *i);
 
-/** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the integrator and
- *  hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
+/** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the
+ *  integrator and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status integrator_step(integrator *i, path *step, bool *rooted);
 
 /** Goes on from another state, with step size and history kept. */

@@ -45,8 +45,8 @@ void obstacles_free(obstacle_set *o);
 /** Smallest of the signed distances of x to the obstacles, leaving out up to two of them (-1: none). */
 obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too);
 
-/** Signed distance of x to one obstacle: to its nearest point. Where two segments meet, a point nearest to the vertex is in
- *  front if it is on the side of the vertex's mean normal; nearest to a free end, it is in front. */
+/** Signed distance of x to one obstacle: to its nearest point. Where two segments meet, a point nearest to the
+ *  vertex is in front if it is on the side of the vertex's mean normal; nearest to a free end, it is in front. */
 obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle);
 
 /** Segments of which x is within `tolerance` (m), measured to the line and along it; at most `capacity` of them. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Quintic Hermite interpolation of x'' = a, written as the cubic of the velocities plus a bump that closes the positions. */
+/* Quintic Hermite interpolation of x'' = a, written as the cubic of the velocities plus a bump that closes the
+ * positions. */
 #include "path.h"
 
 #include <float.h>
@@ -30,8 +31,8 @@ static basis basis_at(const path *p, double t)
                    .slope = 30.0 * s2 * (1.0 - s) * (1.0 - s)};
 }
 
-/* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the bump's
- * slope would turn into velocity when h is tiny. */
+/* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the
+ * bump's slope would turn into velocity when h is tiny. */
 static double defect(const path *p, dem_index k, double h)
 {
     const dem_index n = 2 * p->n_nodes;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The moving state and the time loop. An accepted step is first taken (`path` is then in hand), shown to the observers whose
- * frames fall into it, and committed: its end becomes the state, the contacts change, and the next step is taken. An advance
- * to t_end stops within a step in hand, which the next advance goes on with: t_end is never stepped to. */
+/* The moving state and the time loop. An accepted step is first taken (`path` is then in hand), shown to the
+ * observers whose frames fall into it, and committed: its end becomes the state, the contacts change, and the next
+ * step is taken. An advance to t_end stops within a step in hand, which the next advance goes on with: t_end is
+ * never stepped to. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -234,8 +235,8 @@ static dem_status check_options(const dem_options *o)
     return DEM_OK;
 }
 
-/* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound, which is
- * omega_max a/2 in a chain of spacing a. */
+/* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound,
+ * which is omega_max a/2 in a chain of spacing a. */
 static double default_v_scale(const dem_simulation *s)
 {
     const dem_lattice *l = &s->model->lattice;

@@ -86,7 +86,8 @@ static double time_resolution(const path *p, double t)
     return 100.0 * DBL_EPSILON * (fabs(t) + p->end - p->t0);
 }
 
-/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0 will do. */
+/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0
+ * will do. */
 static double lowest(const contact_scene *scene, const contact_site *site, const path *p, double lo, double hi)
 {
     const double ratio = 0.6180339887498949;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One contact site: the gaps it has and the reactions it feels, the guards that tell when its contacts change, and the search for
- * such a change within a step. Nothing here changes a state. */
+/* One contact site: the gaps it has and the reactions it feels, the guards that tell when its contacts change, and
+ * the search for such a change within a step. Nothing here changes a state. */
 #ifndef DEM_SITE_H
 #define DEM_SITE_H
 
@@ -65,8 +65,9 @@ void site_guards(const contact_scene *scene, const contact_site *site, const dou
 /** Whether a closed site's contacts have to change in the state y = (x, v). */
 bool site_due(const contact_scene *scene, const contact_site *site, const double *y);
 
-/** First time in the step at which a free site is as deep as the skin; infinity if never, or if only at the end of a step that
- *  ends at a root (`rooted`). The step is sampled eight times, and every dip between samples followed to its bottom. */
+/** First time in the step at which a free site is as deep as the skin; infinity if never, or if only at the end of a
+ *  step that ends at a root (`rooted`). The step is sampled eight times, and every dip between samples followed to
+ *  its bottom. */
 double site_first_crossing(const contact_scene *scene, const contact_site *site, const path *p, bool rooted);
 
 /** First time in the step at which a closed site, due at its end, is due.  \param[out] state  [4 n] scratch */

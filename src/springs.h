@@ -14,7 +14,8 @@ typedef struct springs {
     double *rest_length;  /* [2 n_springs] d0_ij, m */
 } springs;
 
-/** Compiles triplets whose indices are known to be valid; names a pair of nodes joined twice. Free with springs_free. */
+/** Compiles triplets whose indices are known to be valid; names a pair of nodes joined twice. Free with
+ *  springs_free. */
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 

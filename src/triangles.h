@@ -17,7 +17,8 @@ typedef struct triangles {
     double *strength;  /* guard strength g, N/m */
 } triangles;
 
-/** Compiles the guarded triangles of a lattice whose indices and areas are known to be valid. Free with triangles_free. */
+/** Compiles the guarded triangles of a lattice whose indices and areas are known to be valid. Free with
+ *  triangles_free. */
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
 void triangles_free(triangles *t);
 

@@ -124,7 +124,8 @@ DEM_API dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_pa
 /** Keeps the nodes for which keep[i] != 0, with the springs and triangles among them.  \param keep [n_nodes] */
 DEM_API dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep);
 
-/** Turns the lattice by `angle` (radians, about the origin) and shifts it; initial positions and velocities turn too. */
+/** Turns the lattice by `angle` (radians, about the origin) and shifts it; initial positions and velocities turn
+ *  too. */
 DEM_API void dem_lattice_move(dem_lattice *lattice, double angle, const double offset[2]);
 
 /** Adds `velocity` (m/s) to the initial velocity of every node. */
@@ -240,7 +241,8 @@ typedef struct dem_energy {
     double projection; /**< put in by returning nodes from the skin to the surface so far */
 } dem_energy;
 
-/** A lasting contact: a weighted combination of nodes held on a segment. Node against segment is one node of weight 1. */
+/** A lasting contact: a weighted combination of nodes held on a segment. Node against segment is one node of weight
+ *  1. */
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
 
 typedef struct dem_contact {

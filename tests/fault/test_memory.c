@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation of the library's own code in a standard run fails in turn, once and from then on: the status says so, nothing
- * crashes, nothing leaks (the sanitizers' run sees that), and what was built before is still good. The linker wraps malloc, calloc
- * and realloc of the library's objects; HDF5 and SUNDIALS keep theirs. */
+/* Every allocation of the library's own code in a standard run fails in turn, once and from then on: the status says
+ * so, nothing crashes, nothing leaks (the sanitizers' run sees that), and what was built before is still good. The
+ * linker wraps malloc, calloc and realloc of the library's objects; HDF5 and SUNDIALS keep theirs. */
 #include <stdio.h>
 #include <stdlib.h>
 

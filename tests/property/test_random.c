@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random small bodies thrown at random obstacles: nobody sinks in, no impact gives energy, no run ends in a storm.
- * `test_random [CASES [FIRST_SEED]]`. Depth is judged by brute force on densely sampled states: point in polygon and distance to
- * every edge, nothing of the library's. */
+ * `test_random [CASES [FIRST_SEED]]`. Depth is judged by brute force on densely sampled states: point in polygon and
+ * distance to every edge, nothing of the library's. */
 #include <gsl/gsl_rng.h>
 #include <stdio.h>
 #include <stdlib.h>

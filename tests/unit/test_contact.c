@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* contact.c: every reset of the automaton on its own, without an integrator, and the books kept of it. Numbers are worked out by
- * hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
+/* contact.c: every reset of the automaton on its own, without an integrator, and the books kept of it. Numbers are
+ * worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
 #include "../verification/support.h"
 
 #include <stdlib.h>
@@ -149,8 +149,8 @@ static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
 
 /* ---- impacts ---- */
 
-/* 2 kg at (3, -4) m/s on a floor of eta = 1/2: rises with 2 m/s, the floor gives 2 * 6 N s and takes 2/2 (16 - 4) = 12 J; the lift
- * by the skin costs 2 g skin. */
+/* 2 kg at (3, -4) m/s on a floor of eta = 1/2: rises with 2 m/s, the floor gives 2 * 6 N s and takes 2/2 (16 - 4) =
+ * 12 J; the lift by the skin costs 2 g skin. */
 static void an_impact_is_reflected_reported_and_booked(void **state)
 {
     scene s;
@@ -393,7 +393,8 @@ static void contacts_are_listed_in_the_order_of_nodes(void **state)
     close_scene(&s);
 }
 
-/* With gravity along (1, -1) the right flank alone is pressed; along (1, 1)/2 none is, and what is left of the pair goes too. */
+/* With gravity along (1, -1) the right flank alone is pressed; along (1, 1)/2 none is, and what is left of the pair
+ * goes too. */
 static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};

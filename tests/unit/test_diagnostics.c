@@ -166,8 +166,8 @@ static dem_model *make_square(void)
     return model;
 }
 
-/* Node 3 at (0.25, 0.5): spring 1 (3-0) has sqrt(0.3125), spring 0 (2-3) sqrt(0.8125) m; spring 2 sqrt 2 of 2 m. The triangle 0 2 3
- * keeps a quarter of its area, the other all of its. */
+/* Node 3 at (0.25, 0.5): spring 1 (3-0) has sqrt(0.3125), spring 0 (2-3) sqrt(0.8125) m; spring 2 sqrt 2 of 2 m. The
+ * triangle 0 2 3 keeps a quarter of its area, the other all of its. */
 static void extremes_of_strain_are_found_with_their_springs(void **state)
 {
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.25, 0.5};
@@ -191,7 +191,8 @@ static void extremes_of_strain_are_found_with_their_springs(void **state)
     dem_model_destroy(model);
 }
 
-/* Node 1 across the diagonal, at (0.1, 0.9): triangle 0 1 2 has -0.8 of its area and no guard; node 3 at its mirror image. */
+/* Node 1 across the diagonal, at (0.1, 0.9): triangle 0 1 2 has -0.8 of its area and no guard; node 3 at its mirror
+ * image. */
 static void inverted_triangles_have_negative_areas_and_count_where_guarded(void **state)
 {
     double x[8] = {0.0, 0.0, 0.1, 0.9, 1.0, 1.0, 0.0, 1.0};

@@ -65,8 +65,8 @@ static void a_groove_sends_a_velocity_inside_its_cone_straight_back(void **state
     check_vector(impact_rebound(walls, 2, (vec2){0.3, -2.0}), -0.15, 1.0, 1e-15);
 }
 
-/* In a blunt corner a velocity outside the cone of the inward normals meets one wall, whatever the order of the two, although it
- * approaches both: the plastic impact leaves it gliding off the other. */
+/* In a blunt corner a velocity outside the cone of the inward normals meets one wall, whatever the order of the two,
+ * although it approaches both: the plastic impact leaves it gliding off the other. */
 static void a_velocity_outside_the_cone_meets_one_wall_only(void **state)
 {
     const vec2 n0 = direction(1.8), n1 = direction(1.2), v = direction(1.5 - 2.0);
@@ -112,7 +112,8 @@ static void energy_never_grows(void **state)
     gsl_rng_free(w.rng);
 }
 
-/* A wedge of 0.4 rad with an elastic and a plastic wall: with its own restitution for each wall the energy would grow sevenfold. */
+/* A wedge of 0.4 rad with an elastic and a plastic wall: with its own restitution for each wall the energy would
+ * grow sevenfold. */
 static void an_acute_corner_takes_the_smaller_restitution(void **state)
 {
     const impact_surface wedge[2] = {{{0.0, 1.0}, 1.0}, {{sin(0.4), -cos(0.4)}, 0.0}};
@@ -133,8 +134,8 @@ static void an_elastic_corner_keeps_the_energy(void **state)
     gsl_rng_free(w.rng);
 }
 
-/* After a plastic impact nothing approaches either wall, what was taken is a push out of them, and no more than needed: where a wall
- * pushes, the node glides along it. */
+/* After a plastic impact nothing approaches either wall, what was taken is a push out of them, and no more than
+ * needed: where a wall pushes, the node glides along it. */
 static void a_plastic_corner_leaves_what_does_not_approach(void **state)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
@@ -200,8 +201,8 @@ static void the_walls_of_a_corner_hold_together_or_alone(void **state)
     assert_int_equal(impact_holding(walls, 2, (vec2){-2.0, 4.0}, reaction), 0);
 }
 
-/* Complementarity: no reaction pulls, what is left does not press inwards, and a wall that reacts has nothing left along its normal.
- * Restitution has no say in it. */
+/* Complementarity: no reaction pulls, what is left does not press inwards, and a wall that reacts has nothing left
+ * along its normal. Restitution has no say in it. */
 static void reactions_and_what_is_left_are_complementary(void **state)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};

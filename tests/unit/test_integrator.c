@@ -283,8 +283,8 @@ static void step_to_root(integrator *i, path *p)
     assert_true(p->t0 < p->end && p->end <= p->t1);
 }
 
-/* From 0.9 m to a floor at 0.2 m, with time and place to 1e-12: ARKODE's 100 units of rounding of the time, and rounding of the
- * motion. */
+/* From 0.9 m to a floor at 0.2 m, with time and place to 1e-12: ARKODE's 100 units of rounding of the time, and
+ * rounding of the motion. */
 static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 {
     const double y[4] = {0.0, 0.9, 1.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
@@ -299,7 +299,8 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
     integrator_destroy(i);
 }
 
-/* Starts below the floor and rises through it, which is no root; then the ceiling is one, from below, where its guard falls. */
+/* Starts below the floor and rises through it, which is no root; then the ceiling is one, from below, where its
+ * guard falls. */
 static void a_guard_is_looked_for_only_as_it_falls(void **state)
 {
     const double y[4] = {0.0, -0.5, 0.0, 10.0};
@@ -312,8 +313,8 @@ static void a_guard_is_looked_for_only_as_it_falls(void **state)
     integrator_destroy(i);
 }
 
-/* Reflected at the floor it comes down again after 2 v/g; the skin of 1e-9 m below the restart makes the guard positive there. The
- * first step after the restart is as long as before. */
+/* Reflected at the floor it comes down again after 2 v/g; the skin of 1e-9 m below the restart makes the guard
+ * positive there. The first step after the restart is as long as before. */
 static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0}, skin = 1e-9, u = sqrt(2.0 * g * 0.5);

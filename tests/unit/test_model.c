@@ -376,8 +376,8 @@ static void sizes_and_csr_tell_what_is_there(void **state)
     dem_model_destroy(model);
 }
 
-/* Springs 0-1 (k = 10 N/m) and 1-2 (20 N/m) at a right angle: node 0 of 1 kg has 2 * 10, node 1 of 2 kg 2 * 20/2, node 2 of 3 kg
- * less; a fixed node does not count. */
+/* Springs 0-1 (k = 10 N/m) and 1-2 (20 N/m) at a right angle: node 0 of 1 kg has 2 * 10, node 1 of 2 kg 2 * 20/2,
+ * node 2 of 3 kg less; a fixed node does not count. */
 static void spacing_mass_and_the_frequency_bound_are_those_of_the_springs(void **state)
 {
     square s;
@@ -419,8 +419,8 @@ static void without_springs_spacing_and_frequency_are_zero(void **state)
 
 /* ---- force ---- */
 
-/* Central differences over 1e-6 m: truncation of order 1e-12 * 1e3 N/m^2, rounding 1e-16 * 1e3 J/1e-6 m. Node 2 moved so that
- * triangle 0 1 2 is squeezed to 0.1: springs, guard and weight all act. */
+/* Central differences over 1e-6 m: truncation of order 1e-12 * 1e3 N/m^2, rounding 1e-16 * 1e3 J/1e-6 m. Node 2
+ * moved so that triangle 0 1 2 is squeezed to 0.1: springs, guard and weight all act. */
 static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
 {
     const double step = 1e-6, gravity[2] = {0.5, -9.81};

@@ -294,7 +294,8 @@ static void errors_are_sorted_by_place_and_else_stay_in_order(void **state)
     assert_int_equal(errors.n, 0);
 }
 
-/* A text of 1 MiB that repeats a piece. Looking ahead must not make it slow: the time limit of the test is the check. */
+/* A text of 1 MiB that repeats a piece. Looking ahead must not make it slow: the time limit of the test is the
+ * check. */
 static void hostile_repetitions_take_linear_time(void **state)
 {
     (void)state;

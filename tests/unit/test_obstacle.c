@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* obstacle.c: compiling polylines, signed gap and its normal, what a point touches, bends. Tolerances of 1e-15 to 1e-13 are the
- * rounding of coordinates of order 1 m. */
+/* obstacle.c: compiling polylines, signed gap and its normal, what a point touches, bends. Tolerances of 1e-15 to
+ * 1e-13 are the rounding of coordinates of order 1 m. */
 #include "../verification/support.h"
 
 #include <gsl/gsl_rng.h>
 
 #include "obstacle.h"
 
-/* A polyline with a free end at (-2, 0), a convex vertex at (0, 0), a concave one at (1, -1) and a free end at (3, -1). */
+/* A polyline with a free end at (-2, 0), a convex vertex at (0, 0), a concave one at (1, -1) and a free end at (3,
+ * -1). */
 static const double valley[8] = {-2.0, 0.0, 0.0, 0.0, 1.0, -1.0, 3.0, -1.0};
 
 /* A block standing on y = 0, clockwise: its inside is on the right. */
@@ -152,7 +153,8 @@ static void the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it(vo
     obstacles_free(&o);
 }
 
-/* Off the convex vertex (0, 0) the nearest point is the vertex, in front; behind the concave one (1, -1) likewise, inside. */
+/* Off the convex vertex (0, 0) the nearest point is the vertex, in front; behind the concave one (1, -1) likewise,
+ * inside. */
 static void at_a_vertex_the_distance_is_to_the_vertex(void **state)
 {
     (void)state;
@@ -299,8 +301,9 @@ static void the_gap_is_the_distance_with_the_sign_of_the_side(void **state)
     gsl_rng_free(rng);
 }
 
-/* Central differences over 1e-6 m: curvature 1/distance < 1e3 away from vertices gives 1e-9, rounding 1e-15/1e-6. Where two
- * features are equally near there is no gradient: such points are told by one-sided differences that disagree, and are few. */
+/* Central differences over 1e-6 m: curvature 1/distance < 1e3 away from vertices gives 1e-9, rounding 1e-15/1e-6.
+ * Where two features are equally near there is no gradient: such points are told by one-sided differences that
+ * disagree, and are few. */
 static void the_normal_is_the_gradient_of_the_gap(void **state)
 {
     const double h = 1e-6;

@@ -177,8 +177,8 @@ static void it_is_continuous_at_its_ends(void **state)
     }
 }
 
-/* The positions' rounding of 1e-16 m over a step of 1e-15 to 1e-9 s would be a velocity of 0.1 m/s down to 1e-7 m/s. What is left
- * is the change of the velocity over the step, 4 m/s^2 times h, and its rounding. */
+/* The positions' rounding of 1e-16 m over a step of 1e-15 to 1e-9 s would be a velocity of 0.1 m/s down to 1e-7 m/s.
+ * What is left is the change of the velocity over the step, 4 m/s^2 times h, and its rounding. */
 static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step(void **state)
 {
     (void)state;

@@ -94,7 +94,8 @@ static int away_from_the_middle(void *context, const double x[2])
     return hypot(x[0], x[1]) > 0.5;
 }
 
-/* Around a hole of one node the six neighbours come to lie on a boundary: all nodes of the second ring and the first. */
+/* Around a hole of one node the six neighbours come to lie on a boundary: all nodes of the second ring and the
+ * first. */
 static void the_rim_of_a_hole_is_boundary_too(void **state)
 {
     unsigned char flags[19];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* simulation.c: options and their defaults, the time loop, observers, and that the way a run is cut leaves no trace in it. */
+/* simulation.c: options and their defaults, the time loop, observers, and that the way a run is cut leaves no trace
+ * in it. */
 #include "../verification/support.h"
 
 #include <stdio.h>
@@ -202,7 +203,8 @@ static void defaults_come_from_the_model(void **state)
     dem_model_destroy(model);
 }
 
-/* Without an initial speed: the drop of 1 m to the floor; a stiff body at rest without obstacles: a thousandth of omega_max a/2. */
+/* Without an initial speed: the drop of 1 m to the floor; a stiff body at rest without obstacles: a thousandth of
+ * omega_max a/2. */
 static void the_scale_of_speed_is_that_of_the_drop_or_of_sound(void **state)
 {
     dem_options options = point_options();
@@ -611,7 +613,8 @@ static void a_new_simulation_shows_the_initial_state(void **state)
     dem_model_destroy(model);
 }
 
-/* At rest on the floor after the plastic impact: m g, and m g t of impulse from the beginning on, up to the step in hand. */
+/* At rest on the floor after the plastic impact: m g, and m g t of impulse from the beginning on, up to the step in
+ * hand. */
 static void an_obstacle_feels_the_weight_that_rests_on_it(void **state)
 {
     const dem_options options = point_options();
@@ -632,7 +635,8 @@ static void an_obstacle_feels_the_weight_that_rests_on_it(void **state)
     dem_model_destroy(model);
 }
 
-/* The springs' rest lengths are the distances to rounding, so that forces are 1e-16 E h: 1e-9 N on 1e-2 kg over 10 ms. */
+/* The springs' rest lengths are the distances to rounding, so that forces are 1e-16 E h: 1e-9 N on 1e-2 kg over 10
+ * ms. */
 static void a_body_without_forces_drifts_in_a_straight_line(void **state)
 {
     const double v[2] = {3.0, -2.0};

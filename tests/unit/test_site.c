@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* site.c: guards, reactions and ends of one contact site in each of its states, and when they change within a step. Numbers are
- * worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
+/* site.c: guards, reactions and ends of one contact site in each of its states, and when they change within a step.
+ * Numbers are worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "../verification/support.h"
 
 #include <float.h>
@@ -252,8 +252,8 @@ static void fly(flight *f, const double x[2], const double v[2], double a, doubl
     f->path = (path){1, t0, t1, t1, f->y0, f->f0, f->y1, f->f1};
 }
 
-/* Falls from 0.2 m: at the skin's depth after sqrt(2 (0.2 + skin)/g). The time is found to 100 units of rounding of t + h, and its
- * end is on the deep side. */
+/* Falls from 0.2 m: at the skin's depth after sqrt(2 (0.2 + skin)/g). The time is found to 100 units of rounding of
+ * t + h, and its end is on the deep side. */
 static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
 {
     const double x[2] = {1.0, 0.2}, v[2] = {0.3, 0.0}, start = 7.0, t = sqrt(2.0 * (0.2 + skin) / g);
@@ -302,8 +302,8 @@ static void a_dip_within_the_step_is_found(void **state)
     close_scene(&scene);
 }
 
-/* A parabola whose bottom, between two of the eight samples, is a micrometre deeper than the skin for 1/500 of the step; one that
- * stays as much above it is none. Times to rounding over a vertical speed of 4.5 mm/s. */
+/* A parabola whose bottom, between two of the eight samples, is a micrometre deeper than the skin for 1/500 of the
+ * step; one that stays as much above it is none. Times to rounding over a vertical speed of 4.5 mm/s. */
 static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
 {
     const double a = 10.0, bottom = 0.2, end = 0.45;

@@ -106,7 +106,8 @@ static void nodes_without_springs_feel_nothing(void **state)
 
 /* ---- force and energy ---- */
 
-/* E = 100 N, d0 = 2 m, d = 5 m: 100 N (5 - 2)/2 = 150 N along (3, 4)/5; energy 100 * 2/2 * 1.5^2 = 225 J. Rounding only. */
+/* E = 100 N, d0 = 2 m, d = 5 m: 100 N (5 - 2)/2 = 150 N along (3, 4)/5; energy 100 * 2/2 * 1.5^2 = 225 J. Rounding
+ * only. */
 static void a_stretched_spring_pulls_with_stiffness_times_strain(void **state)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0};
@@ -142,7 +143,8 @@ static void stir(double *x, dem_index n, double by, unsigned long seed)
     gsl_rng_free(rng);
 }
 
-/* Central differences over 1e-5 m: truncation of order 1e-10 times E/d^3 = 1e3 N/m^3, rounding of order 1e-16 * 100 J/1e-5 m. */
+/* Central differences over 1e-5 m: truncation of order 1e-10 times E/d^3 = 1e3 N/m^3, rounding of order 1e-16 * 100
+ * J/1e-5 m. */
 static void the_force_is_minus_the_gradient_of_the_energy(void **state)
 {
     const double step = 1e-5;

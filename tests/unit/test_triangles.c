@@ -39,8 +39,8 @@ static void the_guard_is_exactly_zero_from_its_onset_on(void **state)
     assert_true(slope_at(0.399) < 0.0);
 }
 
-/* Near the onset w = (d/0.4)^3 (1 + 3/2 d/0.4 + ...) at the distance d below it: value, slope and curvature vanish. The next term
- * of the series is what the tolerance leaves out. */
+/* Near the onset w = (d/0.4)^3 (1 + 3/2 d/0.4 + ...) at the distance d below it: value, slope and curvature vanish.
+ * The next term of the series is what the tolerance leaves out. */
 static void the_guard_sets_in_with_the_third_power_of_the_distance(void **state)
 {
     (void)state;
@@ -75,8 +75,8 @@ static void its_slope_is_the_derivative_of_its_energy(void **state)
                      1e-6 + 1e-15 * energy_at(ratio) / d);
 }
 
-/* Where the polynomial takes over: values, slopes and difference quotients of slopes from the two sides. The curvature is
- * (6 L + 3 L^2)/J^2, L = ln 8; over d = 1e-7 it varies by w''' d = 0.06. */
+/* Where the polynomial takes over: values, slopes and difference quotients of slopes from the two sides. The
+ * curvature is (6 L + 3 L^2)/J^2, L = ln 8; over d = 1e-7 it varies by w''' d = 0.06. */
 static void the_polynomial_takes_over_twice_continuously_differentiable(void **state)
 {
     const double J = taylor_below, d = 1e-7, L = log(8.0), curvature = (6.0 * L + 3.0 * L * L) / (J * J);
@@ -179,8 +179,8 @@ static void a_lattice_at_rest_feels_no_guard(void **state)
     triangles_free(&t);
 }
 
-/* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area: W = A0 g w(2 y), force -g w'(2 y) dA/dy with
- * dA/dy = 1/2, as the others are above the onset. Rounding only. */
+/* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area: W = A0 g w(2 y), force -g w'(2 y)
+ * dA/dy with dA/dy = 1/2, as the others are above the onset. Rounding only. */
 static void a_squeezed_triangle_pushes_its_corner_back(void **state)
 {
     const double ratios[3] = {0.1, 0.02, -0.3};
@@ -210,7 +210,8 @@ static void squeeze(double *x, gsl_rng *rng)
         x[k] = (k % 2 == 0 ? 1.0 : 0.2) * corners[k] + 0.1 * (2.0 * gsl_rng_uniform(rng) - 1.0);
 }
 
-/* Central differences over 1e-7 m: truncation 1e-14 g w''' A0 (dJ/dx)^3 = 1e-6 N at worst, rounding 1e-15 * 1e3 J/1e-7 m. */
+/* Central differences over 1e-7 m: truncation 1e-14 g w''' A0 (dJ/dx)^3 = 1e-6 N at worst, rounding 1e-15 * 1e3
+ * J/1e-7 m. */
 static void forces_are_minus_the_gradient_of_the_energy(void **state)
 {
     const double step = 1e-7;

@@ -15,8 +15,8 @@
         if ((expression) != DEM_OK) fail_msg("%s: %s", #expression, dem_status_message());                             \
     } while (0)
 
-/** A body of n nodes at x [n][2] with masses, joined by n_springs springs of one rest length and stiffness; every node may touch.
- *  `fixed` [n] or NULL. Arrays are copied; free with dem_lattice_free. */
+/** A body of n nodes at x [n][2] with masses, joined by n_springs springs of one rest length and stiffness; every
+ *  node may touch. `fixed` [n] or NULL. Arrays are copied; free with dem_lattice_free. */
 void support_lattice(dem_lattice *out, dem_index n, const double *x, const double *mass, dem_index n_springs,
                      const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed);
 
@@ -40,8 +40,8 @@ void support_close(support_run *run);
 /** The state at t, reached by advancing. */
 dem_state support_at(support_run *run, double t);
 
-/** One node of mass m at (x, y) with velocity (u, v), over one open or closed polyline. Tolerances fit a scale of 1 m and the
- *  accuracy of the exact tests: rtol 1e-12, skin 1e-13 m, steps of at most 0.01 s. */
+/** One node of mass m at (x, y) with velocity (u, v), over one open or closed polyline. Tolerances fit a scale of 1
+ *  m and the accuracy of the exact tests: rtol 1e-12, skin 1e-13 m, steps of at most 0.01 s. */
 void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
                    dem_index n_points, double restitution);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A point mass dropped on a floor (row e): impact times, the end of bouncing, rest. Exact values are closed forms. With a skin of
- * 1e-13 m an impact is late by skin/|v_n| < 1e-11 s for the eight impacts compared; 1e-9 s is the table's tolerance. */
+/* A point mass dropped on a floor (row e): impact times, the end of bouncing, rest. Exact values are closed forms.
+ * With a skin of 1e-13 m an impact is late by skin/|v_n| < 1e-11 s for the eight impacts compared; 1e-9 s is the
+ * table's tolerance. */
 #include "support.h"
 
 static const double g = 9.81, height = 1.0;

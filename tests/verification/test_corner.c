@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One node against the vertices of polylines: every outcome is a closed form of ballistics. Tolerances: the skin of 1e-13 m, rtol of
- * 1e-12 and the rounding of coordinates near 1 m leave errors well below 1e-9. */
+/* One node against the vertices of polylines: every outcome is a closed form of ballistics. Tolerances: the skin of
+ * 1e-13 m, rtol of 1e-12 and the rounding of coordinates near 1 m leave errors well below 1e-9. */
 #include "support.h"
 
 static const double g = 9.81;
@@ -15,7 +15,8 @@ static void check_state(dem_state state, double x, double y, double u, double v,
 
 static const double roof[6] = {-1.0, -1.0, 0.0, 0.0, 1.0, -1.0};
 
-/* On the ridge of a roof both flanks are approached alike: the one that ends there is met, and turns (0, -u) into (-u, 0). */
+/* On the ridge of a roof both flanks are approached alike: the one that ends there is met, and turns (0, -u) into
+ * (-u, 0). */
 static void a_node_falling_on_a_ridge_meets_the_flank_that_ends_there(void **unused)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall;
@@ -75,7 +76,8 @@ static void a_node_sliding_off_a_free_end_flies_on(void **unused)
     support_close(&run);
 }
 
-/* Off a convex end on to a slope of 45 degrees below: flight of 2 u/g, then it slides with what the slope leaves of its speed. */
+/* Off a convex end on to a slope of 45 degrees below: flight of 2 u/g, then it slides with what the slope leaves of
+ * its speed. */
 static void a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope(void **unused)
 {
     const double points[6] = {-1.0, 0.0, 0.0, 0.0, 5.0, -5.0}, x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0};
@@ -156,7 +158,8 @@ static void an_elastic_node_falling_into_a_groove_comes_straight_back(void **unu
     support_close(&run);
 }
 
-/* Back and forth in a plastic V groove the speed falls by cos(bend) at each passage of the bottom, a series with an end: rest. */
+/* Back and forth in a plastic V groove the speed falls by cos(bend) at each passage of the bottom, a series with an
+ * end: rest. */
 static void a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom(void **unused)
 {
     const double points[6] = {-2.0, 1.0, 0.0, 0.0, 2.0, 1.0}, x[2] = {-1.0, 0.5}, v[2] = {0.0, 0.0};

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The paper's three bodies over whole runs, watched every microsecond and at every accepted step: no node is ever deeper than 1e-5 of
- * a spacing below a straight part of the obstacle. The obstacle is a graph y(x) here, and depth is measured from that, not with the
- * library's own gaps. The same runs close their energy ledger. Spacing: the argument, 5 mm by default. */
+/* The paper's three bodies over whole runs, watched every microsecond and at every accepted step: no node is ever
+ * deeper than 1e-5 of a spacing below a straight part of the obstacle. The obstacle is a graph y(x) here, and depth
+ * is measured from that, not with the library's own gaps. The same runs close their energy ledger. Spacing: the
+ * argument, 5 mm by default. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,7 +66,8 @@ static void read_deck(deck *d, const char *name)
     (void)remove(path);
 }
 
-/* Runs the deck with another restitution and tolerance; returns the closure of the ledger over the initial kinetic energy. */
+/* Runs the deck with another restitution and tolerance; returns the closure of the ledger over the initial kinetic
+ * energy. */
 static double run_deck(const char *name, double restitution, double rtol)
 {
     deck d;
@@ -95,7 +97,8 @@ static double run_deck(const char *name, double restitution, double rtol)
     return fabs(closure);
 }
 
-/* 2e-3 is what the ledger is asked to hold at rtol 1e-6; Fehlberg's weak instability leaves about 1e-4 of it in 20 ms. */
+/* 2e-3 is what the ledger is asked to hold at rtol 1e-6; Fehlberg's weak instability leaves about 1e-4 of it in 20
+ * ms. */
 static void plastic_bodies_never_sink_in_and_close_their_ledger(void **unused)
 {
     (void)unused;

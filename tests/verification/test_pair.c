@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two masses on one spring, along it and rotating; one mass between two fixed ends. Exact values from quadrature of the energy
- * integral (rows a1 to a3 of docs/verification.md). Tolerances are those of the table; the runs use rtol 1e-13, whose error over
- * these times is below 1e-11 m. A time error is measured as a velocity over an acceleration at a turning point. */
+/* Two masses on one spring, along it and rotating; one mass between two fixed ends. Exact values from quadrature of
+ * the energy integral (rows a1 to a3 of docs/verification.md). Tolerances are those of the table; the runs use rtol
+ * 1e-13, whose error over these times is below 1e-11 m. A time error is measured as a velocity over an acceleration
+ * at a turning point. */
 #include "support.h"
 
 static const double stiffness = 100.0, rest_length = 1.0;
@@ -17,7 +18,8 @@ static dem_options tight_options(void)
     return options;
 }
 
-/* A pair with its centre of mass at rest in the origin, `distance` apart along x, with relative velocity (0, relative). */
+/* A pair with its centre of mass at rest in the origin, `distance` apart along x, with relative velocity (0,
+ * relative). */
 static void open_pair(support_run *run, double distance, double relative)
 {
     const double x[4] = {-0.75 * rest_length, 0.0, 0.25 * rest_length, 0.0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A free plate in large vibration against GSL's rkf45 with the same fixed steps: an independent integrator, and forces summed spring
- * by spring from the triplets instead of row by row from CSR. */
+/* A free plate in large vibration against GSL's rkf45 with the same fixed steps: an independent integrator, and
+ * forces summed spring by spring from the triplets instead of row by row from CSR. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <stdlib.h>
@@ -60,8 +60,8 @@ static void integrate_with_gsl(dem_lattice *plate, double h, double *y)
     free(error);
 }
 
-/* Both take 500 equal steps with the same weights, so that only rounding differs: 500 steps times a few 1e-16 of 0.06 m, times what
- * the motion amplifies. 1e-9 m is what the comparison is asked to hold. */
+/* Both take 500 equal steps with the same weights, so that only rounding differs: 500 steps times a few 1e-16 of
+ * 0.06 m, times what the motion amplifies. 1e-9 m is what the comparison is asked to hold. */
 static void fixed_steps_agree_with_gsl(void **unused)
 {
     dem_lattice plate;
@@ -89,8 +89,8 @@ static void fixed_steps_agree_with_gsl(void **unused)
     dem_lattice_free(&plate);
 }
 
-/* A free body keeps its linear momentum to rounding, its angular momentum and energy to the tolerance: row d allows 1e-6 of the energy
- * in 100 fundamental periods of 2 L/c = 1.23e-3 s at rtol 1e-9. */
+/* A free body keeps its linear momentum to rounding, its angular momentum and energy to the tolerance: row d allows
+ * 1e-6 of the energy in 100 fundamental periods of 2 L/c = 1.23e-3 s at rtol 1e-9. */
 static void a_free_body_keeps_its_momenta_and_energy(void **unused)
 {
     dem_lattice plate;
@@ -118,7 +118,8 @@ static void a_free_body_keeps_its_momenta_and_energy(void **unused)
     dem_lattice_free(&plate);
 }
 
-/* Mean error at equal work falls with rtol: at least 30 times for 100 in rtol (row i; typically 100). Reference: rtol 1e-12. */
+/* Mean error at equal work falls with rtol: at least 30 times for 100 in rtol (row i; typically 100). Reference:
+ * rtol 1e-12. */
 static void the_error_falls_with_the_tolerance(void **unused)
 {
     static const double rtol[3] = {1e-5, 1e-7, 1e-12};
