@@ -10,7 +10,6 @@
 
 #include <dem/trajectory.h>
 
-#include "clearance.h"
 #include "parts.h"
 #include "shape.h"
 
@@ -69,6 +68,23 @@ static void check_uses(const schema_instance *group, const use *uses, size_t n, 
         if (!used && given)
             namelist_errors_add(errors, place_of(group, uses[k].key), "'%s' in &%s is not used by shape '%s'",
                                 uses[k].key, name, wanted);
+    }
+}
+
+static void drop_unused(schema_instance *group, const use *uses, size_t n)
+{
+    for (size_t k = 0; k < n; k++)
+        if (strstr(uses[k].shapes, schema_text(group, "shape")) == NULL) schema_drop(group, uses[k].key);
+}
+
+void body_drop_unused(schema_deck *groups)
+{
+    for (size_t k = 0; k < groups->n_instances; k++) {
+        schema_instance *group = &groups->instances[k];
+        if (strcmp(group->group->name, "body") == 0)
+            drop_unused(group, body_uses, sizeof body_uses / sizeof *body_uses);
+        if (strcmp(group->group->name, "void") == 0)
+            drop_unused(group, void_uses, sizeof void_uses / sizeof *void_uses);
     }
 }
 
@@ -288,12 +304,31 @@ static dem_status check_scales(const builder *b, const dem_material *m)
     return isnormal(area) && isnormal(mass) && isnormal(stiffness) ? DEM_OK : DEM_ERROR_MODEL;
 }
 
+/* A void that takes nothing is a fault where it is not in the body at all; one between nodes is only small. */
+static dem_status check_voids(const builder *b, const shape *s)
+{
+    const schema_deck *groups = b->scene->groups;
+    dem_status status = DEM_OK;
+    size_t v = 0; /* the voids of a shape begin with those of its groups */
+    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
+        const schema_instance *group = schema_get(groups, "void", k);
+        if ((size_t)schema_real(group, "body") != b->number) continue;
+        const shape_void *hole = &s->voids[v++];
+        if (shape_outline_depth(s, hole->centre) > 0.0 || shape_takes(s, hole, &b->lattice)) continue;
+        namelist_errors_add(b->errors, place_of(group, "centre"),
+                            "void takes no node of body %zu: its centre is in the body's own coordinates", b->number);
+        status = DEM_ERROR_MODEL;
+    }
+    return status;
+}
+
 static dem_status triangulate(builder *b, const shape *s)
 {
     dem_status status = shape_mesh(&b->lattice, s);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(b->errors, place_of(b->body, "spacing"),
                             "body %zu would have more nodes than 2^40 with the spacing %g m", b->number, s->spacing);
+    if (status == DEM_OK) status = check_voids(b, s);
     if (status != DEM_OK) return status;
     const dem_index n = b->lattice.n_nodes;
     status = shape_cut(&b->lattice, s);
@@ -374,13 +409,17 @@ static dem_status settle_parts(builder *b)
 
 /* ---- place and velocity ---- */
 
+static const char reversed[] = "or reverse the obstacle's points: bodies live on the left of each segment";
+
 static dem_status clear(builder *b, const dem_model *model)
 {
     double shift[2];
     if (!clearance_shift(shift, model, b->scene->gravity, schema_real(b->body, "clearance"))) {
-        namelist_errors_add(b->errors, place_of(b->body, "clearance"),
-                            "'clearance' in &body cannot be reached: along gravity there is no obstacle below body %zu",
-                            b->number);
+        namelist_errors_add(
+            b->errors, place_of(b->body, "clearance"),
+            "'clearance' in &body cannot be reached: along gravity there is no obstacle below body %zu; "
+            "move it, %s",
+            b->number, reversed);
         return DEM_ERROR_MODEL;
     }
     dem_lattice_move(&b->lattice, 0.0, shift);
@@ -394,7 +433,9 @@ static void measure_start(builder *b, const dem_model *model)
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if ((lattice->flags[i] & (DEM_NODE_CONTACT | DEM_NODE_FIXED)) != DEM_NODE_CONTACT) continue;
         const double *x = lattice->position + 2 * i, depth = -dem_model_gap(model, x);
-        if (depth > b->start.depth) b->start = (body_start){depth, {x[0], x[1]}, b->start.rest_length};
+        if (depth <= b->start.depth) continue;
+        b->start.depth = depth;
+        b->start.x[0] = x[0], b->start.x[1] = x[1];
     }
 }
 
@@ -426,6 +467,9 @@ static dem_status put(builder *b)
     if (status == DEM_OK && cleared) status = clear(b, model);
     if (cleared) b->start.depth = -schema_real(b->body, "clearance");
     dem_model_destroy(model);
+    const body_scene *scene = b->scene;
+    if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &b->lattice, scene->obstacles, scene->n_obstacles))
+        status = DEM_ERROR_MEMORY;
     return status;
 }
 
@@ -450,13 +494,24 @@ static dem_index find_obstacle(const body_scene *scene, const double x[2])
 
 bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors)
 {
-    if (start->depth <= skin) return true;
-    const dem_index obstacle = find_obstacle(scene, start->x);
-    namelist_errors_add(errors, schema_get(scene->groups, "body", k)->place,
-                        "body %zu starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the skin of %g m; "
-                        "'position' or 'clearance' can put it in front",
-                        k + 1, start->depth, (long long)obstacle, start->x[0], start->x[1], skin);
-    return obstacle > 0;
+    const clearance_spike *spike = &start->spike;
+    const namelist_place place = schema_get(scene->groups, "body", k)->place;
+    if (start->depth > skin) {
+        const dem_index obstacle = find_obstacle(scene, start->x);
+        namelist_errors_add(errors, place,
+                            "body %zu starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the skin of %g m; "
+                            "'position' or 'clearance' can put it in front, %s",
+                            k + 1, start->depth, (long long)obstacle, start->x[0], start->x[1], skin, reversed);
+        return obstacle > 0;
+    }
+    if (spike->depth > skin)
+        namelist_errors_add(errors, place,
+                            "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
+                            "its nodes, deeper than the skin of %g m; 'position' or a larger 'clearance' can put it "
+                            "in front",
+                            k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0],
+                            spike->x[1], spike->depth, skin);
+    return true;
 }
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)

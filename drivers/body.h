@@ -5,6 +5,7 @@
 
 #include <dem/dem.h>
 
+#include "clearance.h"
 #include "schema.h"
 
 /* What a body is built from and put into. */
@@ -19,18 +20,23 @@ typedef struct body_scene {
 /* What can be said without geometry: keys a shape lacks or does not use, names and numbers that refer to nothing. */
 void body_check_all(const schema_deck *groups, namelist_errors *errors);
 
-/* How a body starts: its node that may touch and lies deepest in the obstacles. */
+/* Takes the defaults of keys away that a shape does not use: they mean nothing, and stated they are faults. */
+void body_drop_unused(schema_deck *groups);
+
+/* How a body starts: its node that may touch and lies deepest in the obstacles; their point deepest in its triangles */
 typedef struct body_start {
     double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */
     double x[2];        /* of the node, m */
     double rest_length; /* m, of its shortest spring; infinity without springs */
+    clearance_spike spike;
 } body_start;
 
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.
  * Returns false only when memory runs out (*out is then empty). Caller owns *out. */
 bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors);
 
-/* Reports body k if it starts deeper in an obstacle than `skin`, m. Returns false only when memory runs out. */
+/* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `skin`, m. Returns false only when
+ * memory runs out. */
 bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors);
 
 /* Path of the lattice file of a body of shape 'file', malloc'ed; NULL when memory runs out. */

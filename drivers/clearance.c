@@ -4,6 +4,7 @@
 #include "clearance.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 typedef struct path {
     const dem_model *model;
@@ -73,8 +74,9 @@ static double way_to_sides(const double x[2], const double d[2], const double a[
     const double length = hypot(b[0] - a[0], b[1] - a[1]), e[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
     const double r[2] = {x[0] - a[0], x[1] - a[1]};
     const double height = e[0] * r[1] - e[1] * r[0], fall = e[0] * d[1] - e[1] * d[0];
-    const double speed = height > 0.0 ? -fall : fall, way = (fabs(height) - c) / speed;
     const double slack = 1e-12 * length; /* neither a vertex nor a node already at distance c is missed by rounding */
+    const double toward = height > 0.0 ? -fall : fall, speed = fabs(height) <= slack ? fabs(fall) : toward;
+    const double way = (fabs(height) - c) / speed;
     if (speed <= 0.0 || way * speed < -slack) return (double)INFINITY;
     const double place = (r[0] + way * d[0]) * e[0] + (r[1] + way * d[1]) * e[1];
     return place >= -slack && place <= length + slack ? fmax(0.0, way) : (double)INFINITY;
@@ -116,4 +118,145 @@ bool clearance_shift(double shift[2], const dem_model *model, const double gravi
     const double way = advance(&p, s);
     for (int c = 0; c < 2; c++) shift[c] = (s + way) * p.direction[c];
     return isfinite(way);
+}
+
+/* ---- points of obstacles between nodes ---- */
+
+typedef struct candidate {
+    clearance_spike spike;
+    bool inside;
+} candidate;
+
+typedef struct side {
+    dem_index ends[2]; /* ascending */
+} side;
+
+static int by_x(const void *a, const void *b)
+{
+    const clearance_spike *p = &((const candidate *)a)->spike, *q = &((const candidate *)b)->spike;
+    if (p->x[0] < q->x[0] || p->x[0] > q->x[0]) return p->x[0] < q->x[0] ? -1 : 1;
+    if (p->obstacle != q->obstacle) return p->obstacle < q->obstacle ? -1 : 1;
+    return p->point < q->point ? -1 : 1;
+}
+
+static int by_ends(const void *a, const void *b)
+{
+    const side *p = a, *q = b;
+    if (p->ends[0] != q->ends[0]) return p->ends[0] < q->ends[0] ? -1 : 1;
+    return (p->ends[1] > q->ends[1]) - (p->ends[1] < q->ends[1]);
+}
+
+static const double *start_of(const dem_lattice *lattice, dem_index i)
+{
+    return (lattice->position != NULL ? lattice->position : lattice->x) + 2 * i;
+}
+
+static bool can_move(const dem_lattice *lattice, const dem_index corners[3])
+{
+    for (int c = 0; c < 3; c++)
+        if (lattice->flags == NULL || (lattice->flags[corners[c]] & DEM_NODE_FIXED) == 0) return true;
+    return false;
+}
+
+/* Twice the area of a, b, x. */
+static double turn(const double a[2], const double b[2], const double x[2])
+{
+    return (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
+}
+
+/* Marks the points, sorted, that are in a triangle or on its rim. */
+static void mark(candidate *list, size_t n, const double a[2], const double b[2], const double c[2])
+{
+    const double left = fmin(a[0], fmin(b[0], c[0])), right = fmax(a[0], fmax(b[0], c[0]));
+    size_t low = 0, high = n;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (list[middle].spike.x[0] < left)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < n && list[low].spike.x[0] <= right; low++) {
+        const double *x = list[low].spike.x, p = turn(a, b, x), q = turn(b, c, x), r = turn(c, a, x);
+        if ((p >= 0.0 && q >= 0.0 && r >= 0.0) || (p <= 0.0 && q <= 0.0 && r <= 0.0)) list[low].inside = true;
+    }
+}
+
+static double distance_to(const double x[2], const double a[2], const double b[2])
+{
+    const double e[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {x[0] - a[0], x[1] - a[1]};
+    const double square = e[0] * e[0] + e[1] * e[1], along = r[0] * e[0] + r[1] * e[1];
+    const double place = square > 0.0 ? fmin(fmax(along / square, 0.0), 1.0) : 0.0;
+    return hypot(r[0] - place * e[0], r[1] - place * e[1]);
+}
+
+/* The sides of one triangle only; NULL when memory runs out. */
+static side *find_sides(const dem_lattice *lattice, size_t *n)
+{
+    const size_t most = 3 * (size_t)lattice->n_triangles;
+    side *list = calloc(most + 1, sizeof *list);
+    if (list == NULL) return NULL;
+    for (size_t k = 0; k < most; k++) {
+        const dem_index a = lattice->triangles[k], b = lattice->triangles[k % 3 == 2 ? k - 2 : k + 1];
+        list[k] = a < b ? (side){{a, b}} : (side){{b, a}};
+    }
+    qsort(list, most, sizeof *list, by_ends);
+    *n = 0;
+    for (size_t k = 0, next; k < most; k = next) {
+        for (next = k + 1; next < most && by_ends(&list[k], &list[next]) == 0;) next++;
+        if (next == k + 1) list[(*n)++] = list[k];
+    }
+    return list;
+}
+
+/* The obstacles' points, sorted; NULL when memory runs out. */
+static candidate *list_points(const dem_obstacle *obstacles, dem_index n_obstacles, size_t *n)
+{
+    *n = 0;
+    for (dem_index k = 0; k < n_obstacles; k++) *n += (size_t)obstacles[k].n_points;
+    candidate *list = calloc(*n + 1, sizeof *list), *at = list;
+    for (dem_index k = 0; list != NULL && k < n_obstacles; k++)
+        for (dem_index i = 0; i < obstacles[k].n_points; i++, at++) {
+            const double *x = obstacles[k].points + 2 * i;
+            at->spike = (clearance_spike){.obstacle = k, .point = i, .x = {x[0], x[1]}};
+        }
+    if (list != NULL) qsort(list, *n, sizeof *list, by_x);
+    return list;
+}
+
+static bool measure(clearance_spike *deepest, const dem_lattice *lattice, const candidate *list, size_t n)
+{
+    size_t n_sides = 0;
+    side *sides = NULL;
+    for (size_t k = 0; k < n; k++) {
+        double depth = (double)INFINITY;
+        if (!list[k].inside) continue;
+        if (sides == NULL && (sides = find_sides(lattice, &n_sides)) == NULL) return false;
+        for (size_t s = 0; s < n_sides && depth > deepest->depth; s++)
+            depth = fmin(depth, distance_to(list[k].spike.x, start_of(lattice, sides[s].ends[0]),
+                                            start_of(lattice, sides[s].ends[1])));
+        if (depth <= deepest->depth) continue;
+        *deepest = list[k].spike;
+        deepest->depth = depth;
+    }
+    free(sides);
+    return true;
+}
+
+bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, const dem_obstacle *list,
+                          dem_index n_obstacles)
+{
+    size_t n;
+    candidate *points = list_points(list, n_obstacles, &n);
+    *deepest = (clearance_spike){0};
+    if (points == NULL) return false;
+    for (dem_index k = 0; k < lattice->n_triangles; k++) {
+        const dem_index *corners = lattice->triangles + 3 * k;
+        if (can_move(lattice, corners))
+            mark(points, n, start_of(lattice, corners[0]), start_of(lattice, corners[1]),
+                 start_of(lattice, corners[2]));
+    }
+    const bool good = measure(deepest, lattice, points, n);
+    free(points);
+    return good;
 }

@@ -201,19 +201,57 @@ static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
     return hash;
 }
 
-static bool hash_file(deck *d, const body_scene *scene, const schema_instance *body, namelist_errors *errors)
+/* Puts a file's whole path in the place of its name. */
+static bool name_file(schema_instance *body, const body_scene *scene, namelist_errors *errors)
 {
-    char bytes[4096], *path = body_file(scene, body);
+    char here[4096] = "", *path = body_file(scene, body);
     if (path == NULL) return false;
+    if (path[0] != '/' && getcwd(here, sizeof here) == NULL)
+        namelist_errors_add(errors, schema_value_of(body, "file")->place, "%s: %s", path, strerror(errno));
+    const size_t size = strlen(here) + strlen(path) + 2;
+    char *whole = malloc(size);
+    if (whole != NULL) (void)snprintf(whole, size, "%s%s%s", here, path[0] == '/' ? "" : "/", path);
+    const bool good = whole != NULL && schema_set_text(body, "file", whole);
+    free(whole);
+    free(path);
+    return good;
+}
+
+/* Puts the hash of its bytes there: where a file lies makes no other problem. */
+static bool hash_file(schema_instance *body, namelist_errors *errors)
+{
+    const char *path = schema_text(body, "file");
+    char bytes[4096], text[32];
+    uint64_t hash = offset_basis;
     FILE *file = fopen(path, "rb");
-    for (size_t n; file != NULL && (n = fread(bytes, 1, sizeof bytes, file)) > 0;) {
-        d->hash = hash_bytes(d->hash, bytes, n);
-        d->run_hash = hash_bytes(d->run_hash, bytes, n);
-    }
+    for (size_t n; file != NULL && (n = fread(bytes, 1, sizeof bytes, file)) > 0;) hash = hash_bytes(hash, bytes, n);
     if (file == NULL || ferror(file))
         namelist_errors_add(errors, schema_value_of(body, "file")->place, "%s: %s", path, strerror(errno));
     if (file != NULL) (void)fclose(file);
-    free(path);
+    (void)snprintf(text, sizeof text, "fnv1a:%016llx", (unsigned long long)hash);
+    return schema_set_text(body, "file", text);
+}
+
+static bool is_file(const schema_instance *group)
+{
+    return strcmp(group->group->name, "body") == 0 && strcmp(schema_text(group, "shape"), "file") == 0;
+}
+
+/* Echoes and hashes; to be called when the bodies are built, since it changes the names of files in `groups`. */
+static bool set_texts(deck *d, schema_deck *groups, const char *folder, namelist_errors *errors)
+{
+    const body_scene scene = {.folder = folder};
+    char *bare = NULL;
+    for (size_t k = 0; k < groups->n_instances; k++)
+        if (is_file(&groups->instances[k]) && !name_file(&groups->instances[k], &scene, errors)) return false;
+    if (errors->n > 0) return true;
+    if (!schema_echo(groups, SCHEMA_MARKED, &d->echo)) return false;
+    for (size_t k = 0; k < groups->n_instances; k++)
+        if (is_file(&groups->instances[k]) && !hash_file(&groups->instances[k], errors)) return false;
+    if (!schema_echo(groups, SCHEMA_PHYSICS, &d->physics) || !schema_echo(groups, SCHEMA_BARE, &bare)) return false;
+    d->hash = hash_bytes(offset_basis, d->physics, strlen(d->physics));
+    d->run_hash = hash_bytes(offset_basis, bare, strlen(bare));
+    free(bare);
     return true;
 }
 
@@ -226,7 +264,7 @@ static bool set_body(deck *d, body_start *start, const body_scene *scene, size_t
     dem_lattice_free(&body);
     if (status == DEM_ERROR_MEMORY) return false;
     if (status != DEM_OK) namelist_errors_add(errors, group->place, "%s", dem_status_message());
-    return strcmp(schema_text(group, "shape"), "file") != 0 || errors->n > 0 || hash_file(d, scene, group, errors);
+    return true;
 }
 
 /* By the rule of the library, which has the last word. */
@@ -259,19 +297,14 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
 
 /* ---- all of it ---- */
 
-static deck_status interpret(deck *d, const schema_deck *groups, namelist_errors *errors)
+static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *errors)
 {
-    char *folder = NULL, *bare = NULL;
-    bool good = schema_echo(groups, SCHEMA_MARKED, &d->echo) && schema_echo(groups, SCHEMA_PHYSICS, &d->physics);
-    good = good && schema_echo(groups, SCHEMA_BARE, &bare) && set_scalars(d, groups) && set_obstacles(d, groups);
-    if (good) {
-        d->hash = hash_bytes(offset_basis, d->physics, strlen(d->physics));
-        d->run_hash = hash_bytes(offset_basis, bare, strlen(bare));
-        folder = folder_of(d->path);
-        good = folder != NULL && set_bodies(d, groups, folder, errors);
-    }
+    char *folder = folder_of(d->path);
+    bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups);
+    body_drop_unused(groups);
+    good = good && set_bodies(d, groups, folder, errors);
+    if (good && errors->n == 0) good = set_texts(d, groups, folder, errors);
     free(folder);
-    free(bare);
     if (!good) return DECK_MEMORY;
     return errors->n > 0 ? DECK_INVALID : DECK_OK;
 }

@@ -18,9 +18,9 @@ typedef enum deck_status {
 /* Everything is owned by the deck. */
 typedef struct deck {
     char *path, *source;  /* the file's name and text */
-    char *echo, *physics; /* resolved: every key; only those that make the problem */
-    uint64_t hash;        /* FNV-1a of `physics`, then of the bytes of each lattice file: the problem */
-    uint64_t run_hash;    /* the same of the echo without marks: the run */
+    char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
+    uint64_t hash;     /* FNV-1a of `physics`, in which a lattice file stands as the hash of its bytes: the problem */
+    uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
     double t_end;            /* s */
     dem_lattice lattice;     /* all bodies, in the order of the deck */

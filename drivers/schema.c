@@ -32,6 +32,7 @@ typedef struct assembly {
     const namelist_key *initial; /* its default, NULL: none */
     bool given, fault;
     bool meant;                      /* by a misspelt name */
+    bool counts;                     /* the number of elements is right */
     namelist_place place;            /* of the first assignment, else of the group */
     size_t n;                        /* elements */
     const namelist_value **elements; /* [n], NULL or of kind NULL: nothing assigned */
@@ -198,6 +199,8 @@ static bool check_value(resolver *r, const assembly *a, const namelist_value *va
     const bool integer = key->type == SCHEMA_INTEGER;
     if (!type_fits(key->type, value->kind)) {
         report_type(r, a, value);
+    } else if (!a->counts) {
+        return true; /* the number of values is reported, and they may be none that were meant */
     } else if (key->type == SCHEMA_CHOICE) {
         return is_choice(r, a, value);
     } else if ((integer || key->type == SCHEMA_REAL) && !in_range(key->range, value->real)) {
@@ -279,12 +282,33 @@ static void check_values(resolver *r, assembly *a)
     }
 }
 
-static void check_count(resolver *r, assembly *a)
+static bool has_count(const assembly *a)
 {
     const size_t least = (size_t)a->key->min_count, most = (size_t)a->key->max_count;
-    if (a->n >= least && (most == 0 || a->n <= most)) return;
-    namelist_errors_add(r->errors, a->place, "'%s' in &%s expects %s%zu value%s, got %zu", a->key->name, a->group->name,
-                        most == least ? "" : "at least ", least, least == 1 ? "" : "s", a->n);
+    return a->n >= least && (most == 0 || a->n <= most);
+}
+
+/* Whether one of the commas looks like that of a decimal fraction: 0,03. */
+static bool has_decimal_comma(const assembly *a)
+{
+    for (size_t k = 0; a->key->type == SCHEMA_REAL && k + 1 < a->n; k++) {
+        const namelist_value *whole = a->elements[k], *part = a->elements[k + 1];
+        if (whole == NULL || part == NULL || whole->kind != NAMELIST_INTEGER || whole->text == part->text) continue;
+        if (isdigit((unsigned char)part->text[0]) && part->place.line == whole->place.line &&
+            part->place.column == whole->place.column + (int)strlen(whole->text) + 1)
+            return true;
+    }
+    return false;
+}
+
+static void check_count(resolver *r, assembly *a)
+{
+    const size_t least = (size_t)a->key->min_count;
+    const bool comma = a->key->max_count != 0 && a->n > least && has_decimal_comma(a);
+    if (a->counts) return;
+    namelist_errors_add(r->errors, a->place, "'%s' in &%s expects %s%zu value%s, got %zu%s", a->key->name,
+                        a->group->name, a->key->max_count == a->key->min_count ? "" : "at least ", least,
+                        least == 1 ? "" : "s", a->n, comma ? "; a decimal point is written '.', not ','" : "");
     a->fault = true;
 }
 
@@ -312,6 +336,7 @@ static bool assemble(resolver *r, assembly *a, const namelist_group *given)
     if (a->given) {
         for (size_t k = 0; k < given->n_keys; k++)
             if (strcmp(given->keys[k].name, a->key->name) == 0) place_values(r, a, &given->keys[k]);
+        a->counts = has_count(a);
         check_values(r, a);
         if (!a->fault) check_count(r, a);
         fill_holes(r, a);
@@ -441,16 +466,21 @@ bool schema_resolve(schema_deck *out, const namelist *list, namelist_errors *err
     return good;
 }
 
+static void empty(schema_value *value)
+{
+    for (int j = 0; value->texts != NULL && j < value->count; j++) free(value->texts[j]);
+    free(value->texts);
+    free(value->reals);
+    value->texts = NULL;
+    value->reals = NULL;
+    value->count = 0;
+}
+
 void schema_free(schema_deck *deck)
 {
     for (size_t k = 0; k < deck->n_instances; k++) {
         schema_instance *instance = &deck->instances[k];
-        for (int i = 0; i < instance->group->n_keys; i++) {
-            schema_value *value = &instance->values[i];
-            for (int j = 0; value->texts != NULL && j < value->count; j++) free(value->texts[j]);
-            free(value->texts);
-            free(value->reals);
-        }
+        for (int i = 0; i < instance->group->n_keys; i++) empty(&instance->values[i]);
         free(instance->values);
     }
     free(deck->instances);
@@ -469,6 +499,24 @@ const schema_instance *schema_get(const schema_deck *deck, const char *group, si
     for (size_t i = 0; i < deck->n_instances; i++)
         if (strcmp(deck->instances[i].group->name, group) == 0 && k-- == 0) return &deck->instances[i];
     return NULL;
+}
+
+void schema_drop(schema_instance *instance, const char *key)
+{
+    schema_value *value = &instance->values[find_key(instance->group, key)];
+    empty(value);
+    value->given = false;
+}
+
+bool schema_set_text(schema_instance *instance, const char *key, const char *text)
+{
+    schema_value *value = &instance->values[find_key(instance->group, key)];
+    char *copy = strdup(text);
+    assert(value->texts != NULL);
+    if (copy == NULL) return false;
+    free(value->texts[0]);
+    value->texts[0] = copy;
+    return true;
 }
 
 const schema_value *schema_value_of(const schema_instance *instance, const char *key)

@@ -69,6 +69,11 @@ void schema_free(schema_deck *deck);
 size_t schema_count(const schema_deck *deck, const char *group);
 const schema_instance *schema_get(const schema_deck *deck, const char *group, size_t k);
 
+/* Takes a value away, as if nothing had been stated and there were no default. */
+void schema_drop(schema_instance *instance, const char *key);
+/* Puts `text` in the place of a text; false when memory runs out. */
+bool schema_set_text(schema_instance *instance, const char *key, const char *text);
+
 /* A value by key name; the key must be in the table. */
 const schema_value *schema_value_of(const schema_instance *instance, const char *key);
 double schema_real(const schema_instance *instance, const char *key);      /* first real; 0 if not given */

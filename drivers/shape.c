@@ -50,10 +50,24 @@ bool shape_add_void(shape *s, const shape_void *v)
     return true;
 }
 
-double shape_depth(const shape *s, const double x[2])
+double shape_outline_depth(const shape *s, const double x[2])
 {
     const double middle = s->outline.disc ? 0.0 : 0.5 * s->outline.size[1];
-    return fmin(-distance(&s->outline, x[0], x[1] - middle), void_distance(s, x));
+    return -distance(&s->outline, x[0], x[1] - middle);
+}
+
+double shape_depth(const shape *s, const double x[2])
+{
+    return fmin(shape_outline_depth(s, x), void_distance(s, x));
+}
+
+bool shape_takes(const shape *s, const shape_void *hole, const dem_lattice *lattice)
+{
+    shape_void only = *hole;
+    shape alone = {.spacing = s->spacing, .n_voids = 1, .voids = &only};
+    for (dem_index i = 0; i < lattice->n_nodes; i++)
+        if (!is_kept(&alone, lattice->x + 2 * i)) return true;
+    return false;
 }
 
 dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, double *radius)

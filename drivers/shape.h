@@ -35,6 +35,12 @@ bool shape_add_void(shape *s, const shape_void *v);
 /* Signed distance to the nearest edge, of the outline or of a void, m: > 0 in the material. */
 double shape_depth(const shape *s, const double x[2]);
 
+/* The same of the outline alone. */
+double shape_outline_depth(const shape *s, const double x[2]);
+
+/* Whether one of its voids takes a node of a lattice. */
+bool shape_takes(const shape *s, const shape_void *hole, const dem_lattice *lattice);
+
 /* Adds pores as voids; the recipe's box is set here. Failures as of pores_place(); *radius is that of the pore without
  * a place, *n_placed the number of pores before it. */
 dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, double *radius);

@@ -52,20 +52,28 @@ static void close_on(contact *c, contact_site *site, meeting on)
     }
 }
 
-/* Moves the node on to one segment's line, or to where two lines meet; books the energy that this puts in. */
-static void project(contact *c, const contact_site *site, meeting with, moment *now)
+/* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
+static vec2 way_back(const contact *c, meeting with, vec2 x)
+{
+    const segment *a = scene_segment(&c->scene, with.s[0]), *b = scene_segment(&c->scene, with.s[with.n - 1]);
+    vec2 vertex;
+    if (with.n == 2 && obstacles_share(&c->scene.model->obstacles, with.s[0], with.s[1], &vertex))
+        return vec2_sub(vertex, x);
+    const double h0 = segment_height(a, x), h1 = segment_height(b, x), place = segment_place(a, x);
+    if (with.n == 2) /* n0.shift = -h0 and n1.shift = -h1 */
+        return vec2_scale(1.0 / vec2_cross(a->tangent, b->tangent),
+                          vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
+    const double beyond =
+        (place < 0.0 && a->before >= 0) ? place : (place > a->length && a->after >= 0 ? place - a->length : 0.0);
+    return vec2_along(vec2_scale(-h0, a->normal), -beyond, a->tangent);
+}
+
+/* Moves the node and books the energy that this puts in. */
+static void move(contact *c, const contact_site *site, vec2 shift, moment *now)
 {
     const dem_index i = site->node;
-    const segment *a = scene_segment(&c->scene, with.s[0]);
-    const vec2 x = vec2_at(now->x, i);
-    vec2 shift = vec2_scale(-segment_height(a, x), a->normal);
-    if (with.n == 2) {
-        const segment *b = scene_segment(&c->scene, with.s[1]); /* n0.shift = -h0 and n1.shift = -h1 */
-        const double h0 = segment_height(a, x), h1 = segment_height(b, x), d = vec2_cross(a->tangent, b->tangent);
-        shift = vec2_scale(1.0 / d, vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
-    }
     const double before = model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x);
-    vec2_put(now->x, i, vec2_add(x, shift));
+    vec2_put(now->x, i, vec2_add(vec2_at(now->x, i), shift));
     c->projection_energy += model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x) - before;
 }
 
@@ -95,7 +103,8 @@ static meeting lasting(const contact *c, const contact_site *site, meeting with,
         away[k] = vec2_dot(v, surface[k].normal);
     }
     const int holding = impact_holding(surface, with.n, a, reaction);
-    if (speed == 0.0 || (holding == 3 && speed <= resting_speed(c, at, -vec2_dot(a, v) / speed))) {
+    const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
+    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= resting_speed(c, at, back)))) {
         for (int k = 0; k < with.n; k++)
             if (holding & (1 << k)) held.s[held.n++] = with.s[k];
         return held;
@@ -170,8 +179,9 @@ static void strike(contact *c, contact_site *site, meeting with, moment *now)
     const int was_closed = site->n_closed;
     impact_surface surface[2];
     for (int k = 0; k < with.n; k++) surface[k] = surface_of(c, with.s[k]);
-    project(c, site, with, now);
-    const vec2 after = impact_rebound(surface, with.n, before);
+    move(c, site, way_back(c, with, vec2_at(now->x, site->node)), now);
+    vec2 after = impact_rebound(surface, with.n, before);
+    if (vec2_norm(after) <= 64.0 * DBL_EPSILON * vec2_norm(before)) after = (vec2){0.0, 0.0};
     close_on(c, site, lasting(c, site, with, after, now->x));
     vec2_put(now->v, site->node, without_normals(c, site, after));
     c->counts.closings += site->n_closed > was_closed;
@@ -203,16 +213,14 @@ static bool yields(const contact *c, dem_index s, dem_index to, vec2 v)
     return mine > other || (mine == other && follows);
 }
 
-/* Whether two segments form a corner, rather than one nearly straight surface or a channel. */
-static bool corner(const contact *c, dem_index s, dem_index other)
+/* Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:
+ * neighbours, which bend up here, form one at their vertex. */
+static bool corner(const contact *c, dem_index s, dem_index other, vec2 x, double tolerance)
 {
+    vec2 vertex;
+    if (obstacles_share(&c->scene.model->obstacles, s, other, &vertex))
+        return vec2_norm(vec2_sub(x, vertex)) <= 4.0 * tolerance;
     return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
-}
-
-/* A segment that is run into, with the one slid on if they form a corner. */
-static meeting with_corner(const contact *c, dem_index into, dem_index from)
-{
-    return (meeting){corner(c, into, from) ? 2 : 1, {into, from}};
 }
 
 static double approach(const contact *c, dem_index s, vec2 v)
@@ -227,8 +235,8 @@ static meeting met(const contact *c, const contact_site *site, const moment *now
     dem_index hits[capacity];
     meeting out = {0};
     const vec2 x = vec2_at(now->x, site->node), v = vec2_at(now->v, site->node);
-    const obstacle_set *obstacles = &c->scene.model->obstacles;
-    const int n = obstacles_touching(obstacles, x, contact_depth(c, site, now), site->behind, hits, capacity);
+    const obstacle_touch touch = {contact_depth(c, site, now), scene_margin(&c->scene), site->behind};
+    const int n = obstacles_touching(&c->scene.model->obstacles, x, &touch, hits, capacity);
     for (int k = 0; k < n; k++) {
         bool meets = true;
         for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[k], hits[q], v);
@@ -239,7 +247,7 @@ static meeting met(const contact *c, const contact_site *site, const moment *now
         out.s[place] = hits[k];
         out.n = out.n < 2 ? out.n + 1 : 2;
     }
-    if (out.n == 2 && !corner(c, out.s[0], out.s[1])) out.n = 1;
+    if (out.n == 2 && !corner(c, out.s[0], out.s[1], x, touch.tolerance)) out.n = 1;
     return out;
 }
 
@@ -255,8 +263,9 @@ static dem_status go_behind(contact *c, contact_site *site, obstacle_gap gap, co
     const vec2 x = vec2_at(now->x, site->node);
     const segment *s = scene_segment(&c->scene, gap.segment);
     const double place = segment_place(s, x), tolerance = contact_depth(c, site, now);
-    const bool at_free_end =
-        (s->before < 0 && fabs(place) <= tolerance) || (s->after < 0 && fabs(place - s->length) <= tolerance);
+    const double margin = scene_margin(&c->scene) + tolerance;
+    const bool at_free_end = (s->before < 0 && fabs(place) <= fmax(margin, s->buried[0] + tolerance)) ||
+                             (s->after < 0 && fabs(place - s->length) <= fmax(margin, s->buried[1] + tolerance));
     CHECK(at_free_end && site->behind < 0, DEM_ERROR_CONTACT,
           "node %lld at (%g, %g) m is %g m inside obstacle %lld at t = %.9g s", (long long)site->node, x.x, x.y,
           -gap.distance, (long long)s->obstacle, now->t);
@@ -286,10 +295,10 @@ static void pass(contact *c, contact_site *site, bool backwards, moment *now)
     c->counts.passings++;
     if (bend == OBSTACLE_STRAIGHT) {
         close_on(c, site, next);
-        project(c, site, next, now);
+        move(c, site, way_back(c, next, vec2_at(now->x, site->node)), now);
         vec2_put(now->v, site->node, without_normals(c, site, vec2_at(now->v, site->node)));
     } else if (bend == OBSTACLE_CONCAVE) {
-        strike(c, site, with_corner(c, next.s[0], here), now);
+        strike(c, site, (meeting){2, {next.s[0], here}}, now);
     } else {
         release(c, site, (meeting){0});
     }
@@ -313,7 +322,8 @@ static dem_status settle_sliding(contact *c, contact_site *site, moment *now, bo
     const obstacle_gap other = site_other_gap(&c->scene, site, x);
     if (other.distance < -contact_depth(c, site, now)) return go_behind(c, site, other, now);
     if (other.distance <= -touch_share * c->scene.rule.skin) {
-        strike(c, site, with_corner(c, other.segment, site->segments[0]), now);
+        const bool both = corner(c, other.segment, site->segments[0], x, contact_depth(c, site, now));
+        strike(c, site, (meeting){both ? 2 : 1, {other.segment, site->segments[0]}}, now);
         return DEM_OK;
     }
     *changed = false;
@@ -372,10 +382,25 @@ static void refresh_behind(contact *c, const double *x)
     for (dem_index k = 0; k < c->scene.model->n_sites && c->counts.behind > 0; k++) {
         contact_site *site = &c->sites[k];
         if (site->behind < 0) continue;
-        if (obstacles_gap_of(&c->scene.model->obstacles, vec2_at(x, site->node), site->behind).distance <= 0.0)
+        if (obstacles_gap_of(&c->scene.model->obstacles, vec2_at(x, site->node), scene_margin(&c->scene), site->behind)
+                .distance <= 0.0)
             continue;
         site->behind = -1;
         c->counts.behind--;
+    }
+}
+
+/* Puts closed nodes back where rounding has taken them from. */
+static void straighten(contact *c, moment *now)
+{
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
+        const contact_site *site = &c->sites[k];
+        const vec2 x = vec2_at(now->x, site->node);
+        const meeting on = {site->n_closed, {site->segments[0], site->segments[1]}};
+        if (site->n_closed == 2) move(c, site, way_back(c, on, x), now);
+        if (site->n_closed != 1) continue;
+        const segment *s = scene_segment(&c->scene, on.s[0]);
+        move(c, site, vec2_scale(-segment_height(s, x), s->normal), now);
     }
 }
 
@@ -423,6 +448,7 @@ dem_status contact_resolve(contact *c, double t, double *y, const contact_listen
 {
     moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener, DEM_OK};
     bool changed = true;
+    straighten(c, &now);
     while (changed) {
         changed = false;
         for (dem_index k = 0; k < c->scene.model->n_sites; k++) TRY(settle(c, &c->sites[k], &now, &changed));
@@ -463,10 +489,11 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     for (dem_index k = 0; k < c->scene.model->n_sites; k++)
         if (c->sites[k].n_closed == 0) first = fmin(first, site_first_crossing(&c->scene, &c->sites[k], p, rooted));
     path_state(p, p->end, state);
-    for (dem_index k = 0; k < c->scene.model->n_sites && !rooted; k++) {
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
         const contact_site *site = &c->sites[k];
         if (site->n_closed == 0 || !site_due(&c->scene, site, state)) continue;
-        first = fmin(first, site_first_due(&c->scene, site, p, state));
+        const double t = site_first_due(&c->scene, site, p, state);
+        if (!rooted || t < p->end) first = fmin(first, t);
         path_state(p, p->end, state);
     }
     if (isinf(first)) return false;

@@ -2,6 +2,8 @@
 /* Restitution (8), (9), Moreau's law for a corner, and the complementarity of reactions. Nowhere else. */
 #include "impact.h"
 
+#include <stdbool.h>
+
 /* Parts p[s] <= 0 of v that the cone of the inward normals holds: the projection of v on it. */
 static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
 {
@@ -27,9 +29,10 @@ vec2 impact_rebound(const impact_surface *surface, int n, vec2 v)
     double p[2], eta[2];
     inward_parts(surface, n, v, p);
     for (int k = 0; k < n; k++) eta[k] = surface[k].restitution;
-    if (n == 2 && p[0] < 0.0 && p[1] < 0.0 && vec2_dot(surface[0].normal, surface[1].normal) < 0.0)
-        eta[0] = eta[1] = fmin(eta[0], eta[1]);
-    for (int k = 0; k < n; k++) v = vec2_along(v, -(1.0 + eta[k]) * p[k], surface[k].normal); /* (9) */
+    const bool both = n == 2 && p[0] < 0.0 && p[1] < 0.0; /* then all of v is in the cone */
+    if (both && vec2_dot(surface[0].normal, surface[1].normal) < 0.0) eta[0] = eta[1] = fmin(eta[0], eta[1]);
+    if (both) v = (vec2){0.0, 0.0};
+    for (int k = 0; k < n; k++) v = vec2_along(v, -(both ? eta[k] : 1.0 + eta[k]) * p[k], surface[k].normal); /* (9) */
     return v;
 }
 

@@ -39,6 +39,19 @@ static int call_derivative(realtype t, N_Vector y, N_Vector f, void *user)
     return I->problem.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f), I->problem.context) == 0 ? 0 : -1;
 }
 
+/* Derivatives at both ends of the step. ARKODE's interpolant has those of a pair of order 4 or 5; for a lower order its
+ * degree is lower, and they are evaluated. */
+static int fetch_derivatives(integrator *I, double now)
+{
+    const integrator_problem *problem = &I->problem;
+    if (problem->method != DEM_METHOD_BS23)
+        return ERKStepGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS ||
+               ERKStepGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS;
+    I->counts.evaluations += 2;
+    return problem->derivative(I->t, I->y0, N_VGetArrayPointer(I->f0), problem->context) != 0 ||
+           problem->derivative(now, N_VGetArrayPointer(I->y1), N_VGetArrayPointer(I->f1), problem->context) != 0;
+}
+
 /* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation derivatives there are the
  * stored ones. */
 static int fetch_step(integrator *I)
@@ -47,8 +60,7 @@ static int fetch_step(integrator *I)
     if (ERKStepGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
     if (I->holds_step && I->t1 == now) return 0;
     if (ERKStepGetDky(I->arkode, now, 0, I->y1) != ARK_SUCCESS) return -1;
-    if (ERKStepGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS) return -1;
-    if (ERKStepGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS) return -1;
+    if (fetch_derivatives(I, now) != 0) return -1;
     I->t1 = now;
     I->holds_step = true;
     return 0;

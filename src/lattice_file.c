@@ -30,7 +30,7 @@ enum array {
     N_ARRAYS
 };
 
-/* The first dataset of each length decides it. */
+/* The first dataset of each length decides it. Without springs their datasets may all be absent. */
 static const struct dataset {
     const char *name;
     hdf5_kind kind;
@@ -62,6 +62,7 @@ typedef struct reader {
     hdf5_file file;
     hsize_t rows[N_ROWS_OF]; /* valid once `known` */
     int known[N_ROWS_OF];
+    int springs; /* one of their datasets is there */
     void *data[N_ARRAYS];
 } reader;
 
@@ -77,11 +78,24 @@ static dem_status refuse(const reader *r, const char *name, const char *reason)
     return status_fail(DEM_ERROR_IO, "%s: %s: %s", r->file.path, name, reason);
 }
 
+/* As h5py stores it: an enumeration of FALSE = 0 and TRUE = 1. */
+static int is_boolean(hid_t type)
+{
+    signed char no = -1, yes = -1;
+    if (H5Tget_class(type) != H5T_ENUM || H5Tget_size(type) != 1 || H5Tget_nmembers(type) != 2) return 0;
+    return H5Tenum_valueof(type, "FALSE", &no) >= 0 && H5Tenum_valueof(type, "TRUE", &yes) >= 0 && no == 0 && yes == 1;
+}
+
 static dem_status check_type(const reader *r, const struct dataset *d, hid_t type)
 {
-    const H5T_class_t wanted = d->kind == HDF5_F64 ? H5T_FLOAT : H5T_INTEGER;
-    if (H5Tget_class(type) == wanted && H5Tget_size(type) <= 16) return DEM_OK;
-    return refuse(r, d->name, wanted == H5T_FLOAT ? "is not floating-point" : "is not integer");
+    const H5T_class_t class = H5Tget_class(type);
+    const int number = d->kind == HDF5_F64, flag = d->kind == HDF5_U8;
+    const int fits = class == H5T_INTEGER || (number && class == H5T_FLOAT) || (flag && is_boolean(type));
+    if (fits && H5Tget_size(type) <= 16) return DEM_OK;
+    return refuse(r, d->name,
+                  number ? "is neither floating-point nor integer"
+                  : flag ? "is neither integer nor boolean"
+                         : "is not integer");
 }
 
 static dem_status check_filters(const reader *r, const struct dataset *d, hid_t layout)
@@ -191,7 +205,7 @@ static dem_status read_array(reader *r, enum array a)
     const struct dataset *d = &datasets[a];
     int present = 0;
     TRY(check_link(r, d->name, &present));
-    if (!present) return d->required ? refuse(r, d->name, "is missing") : DEM_OK;
+    if (!present) return d->required && (d->of != SPRINGS || r->springs) ? refuse(r, d->name, "is missing") : DEM_OK;
     const hid_t dataset = H5Dopen2(r->file.id, d->name, H5P_DEFAULT);
     if (dataset < 0) return hdf5_fail(&r->file, d->name, "is not a readable dataset");
     dem_status status = check_dataset(r, d, dataset);
@@ -200,11 +214,47 @@ static dem_status read_array(reader *r, enum array a)
     return status;
 }
 
+/* A name that is not known is a misspelt one, and what it holds would be missed without a word. */
+static herr_t check_name(hid_t group, const char *name, const H5L_info_t *info, void *context)
+{
+    reader *r = context;
+    char known[160] = "", printable[41];
+    size_t n = 0;
+    (void)group, (void)info;
+    for (int a = 0; a < N_ARRAYS; a++) {
+        const char *own = datasets[a].name + sizeof "/lattice";
+        if (strcmp(name, own) == 0) {
+            r->springs |= datasets[a].of == SPRINGS;
+            return 0;
+        }
+        n += (size_t)snprintf(known + n, sizeof known - n, "%s%s", a == 0 ? "" : ", ", own);
+    }
+    for (n = 0; n + 1 < sizeof printable && name[n] != '\0'; n++)
+        printable[n] = name[n] > ' ' && name[n] <= '~' ? name[n] : '?';
+    printable[n] = '\0';
+    (void)status_fail(DEM_ERROR_IO, "%s: /lattice/%s: is none of the datasets of a lattice: %s", r->file.path,
+                      printable, known);
+    return 1;
+}
+
+static dem_status check_names(reader *r)
+{
+    const hid_t group = H5Gopen2(r->file.id, "/lattice", H5P_DEFAULT);
+    if (group < 0) return hdf5_fail(&r->file, "/lattice", "is not a readable group");
+    const herr_t stopped = H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, NULL, check_name, r);
+    const dem_status status = stopped < 0   ? hdf5_fail(&r->file, "/lattice", "cannot be listed")
+                              : stopped > 0 ? DEM_ERROR_IO
+                                            : DEM_OK;
+    (void)H5Gclose(group);
+    return status;
+}
+
 static dem_status read_arrays(reader *r)
 {
     int present = 0;
     TRY(check_link(r, "/lattice", &present));
     if (!present) return refuse(r, "/lattice", "is missing");
+    TRY(check_names(r));
     for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
     if (r->data[GUARD] != NULL && r->data[CORNERS] == NULL)
         return refuse(r, "/lattice/guard", "is there without triangles");

@@ -41,6 +41,8 @@ static dem_status check_springs(const dem_lattice *l)
     for (dem_index k = 0; k < l->n_springs; k++) {
         const dem_index i = l->ends[2 * k], j = l->ends[2 * k + 1];
         CHECK(i != j, DEM_ERROR_MODEL, "spring %lld joins node %lld to itself", (long long)k, (long long)i);
+        CHECK(l->x[2 * i] != l->x[2 * j] || l->x[2 * i + 1] != l->x[2 * j + 1], DEM_ERROR_MODEL,
+              "spring %lld: its nodes %lld and %lld are at the same place", (long long)k, (long long)i, (long long)j);
         CHECK(isfinite(l->rest_length[k]) && l->rest_length[k] > 0.0, DEM_ERROR_MODEL,
               "spring %lld: rest length must be > 0, got %g m", (long long)k, l->rest_length[k]);
         CHECK(isfinite(l->stiffness[k]) && l->stiffness[k] > 0.0, DEM_ERROR_MODEL,
@@ -233,5 +235,5 @@ double dem_model_mass(const dem_model *model)
 
 double dem_model_gap(const dem_model *model, const double x[2])
 {
-    return obstacles_gap(&model->obstacles, vec2_at(x, 0), -1, -1).distance;
+    return obstacles_gap(&model->obstacles, vec2_at(x, 0), 0.0, -1, -1).distance;
 }

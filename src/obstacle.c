@@ -32,6 +32,35 @@ static bool closed(const dem_obstacle *obstacle)
     return obstacle->n_points > 3 && first.x == last.x && first.y == last.y;
 }
 
+/* Whether segments ab and cd have a point in common. */
+static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
+{
+    const vec2 ab = vec2_sub(b, a), cd = vec2_sub(d, c), ac = vec2_sub(c, a);
+    const double turn = vec2_cross(ab, cd), along = vec2_cross(ac, cd), across = vec2_cross(ac, ab);
+    if (turn != 0.0) return along / turn >= 0.0 && along / turn <= 1.0 && across / turn >= 0.0 && across / turn <= 1.0;
+    if (across != 0.0) return false; /* parallel lines */
+    const double length = vec2_dot(ab, ab), u = vec2_dot(ac, ab), v = u + vec2_dot(cd, ab);
+    return fmax(u, v) >= 0.0 && fmin(u, v) <= length;
+}
+
+/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. */
+static dem_status check_crossings(const dem_obstacle *obstacle, dem_index o)
+{
+    const dem_index n = obstacle->n_points - 1;
+    const double *p = obstacle->points;
+    for (dem_index i = 0; i + 1 < n; i++) {
+        const vec2 here = vec2_sub(vec2_at(p, i + 1), vec2_at(p, i)),
+                   next = vec2_sub(vec2_at(p, i + 2), vec2_at(p, i + 1));
+        CHECK(vec2_cross(here, next) != 0.0 || vec2_dot(here, next) > 0.0, DEM_ERROR_MODEL,
+              "obstacle %lld: segment %lld goes back over segment %lld", (long long)o, (long long)(i + 1),
+              (long long)i);
+        for (dem_index k = i + 2; k < n - (i == 0 && closed(obstacle)); k++)
+            CHECK(!meet(vec2_at(p, i), vec2_at(p, i + 1), vec2_at(p, k), vec2_at(p, k + 1)), DEM_ERROR_MODEL,
+                  "obstacle %lld: segments %lld and %lld meet", (long long)o, (long long)i, (long long)k);
+    }
+    return DEM_OK;
+}
+
 static void compile_segments(obstacle_set *set, dem_index o, const dem_obstacle *obstacle)
 {
     const dem_index n = obstacle->n_points - 1, first = set->first[o];
@@ -66,11 +95,115 @@ static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
     return DEM_OK;
 }
 
+/* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
+static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
+{
+    return neighbour < 0 ? (vec2){0.0, 0.0} : vec2_add(s->normal, o->segments[neighbour].normal);
+}
+
+/* Whether a place along the segment is on it, free ends being longer by `margin`, or by what of it is buried. */
+static bool on_segment(const segment *s, double place, double tolerance, double margin)
+{
+    const double before = s->before < 0 ? fmax(margin, s->buried[0]) : 0.0;
+    const double after = s->after < 0 ? fmax(margin, s->buried[1]) : 0.0;
+    return place >= -(tolerance + before) && place <= s->length + tolerance + after;
+}
+
+/* Takes segment k for the nearest if it is nearer than what was nearest so far. */
+static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, double margin, obstacle_gap *nearest)
+{
+    const segment *s = &o->segments[k];
+    const double place = segment_place(s, x), height = segment_height(s, x);
+    if (on_segment(s, place, 0.0, margin)) {
+        if (fabs(height) < fabs(nearest->distance)) *nearest = (obstacle_gap){height, k, s->normal};
+        return;
+    }
+    const vec2 from = vec2_sub(x, place < 0.0 ? s->start : s->end);
+    const double distance = vec2_norm(from);
+    if (distance >= fabs(nearest->distance)) return;
+    const vec2 mean = vertex_normal(o, s, place < 0.0 ? s->before : s->after);
+    const double signed_distance = vec2_dot(mean, from) >= 0.0 ? distance : -distance;
+    *nearest = (obstacle_gap){signed_distance, k, s->normal};
+    if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
+}
+
+obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
+{
+    obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
+    for (dem_index k = o->first[obstacle]; k < o->first[obstacle + 1]; k++) take_nearer(o, k, x, margin, &nearest);
+    return nearest;
+}
+
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, double margin, dem_index without, dem_index without_too)
+{
+    obstacle_gap smallest = {INFINITY, -1, {0.0, 0.0}};
+    for (dem_index k = 0; k < o->n; k++) {
+        if (k == without || k == without_too) continue;
+        const obstacle_gap gap = obstacles_gap_of(o, x, margin, k);
+        if (gap.distance < smallest.distance) smallest = gap;
+    }
+    return smallest;
+}
+
+/* A wall that stands on another obstacle goes on inside it, so that nothing slips through the joint: how far, m, up to its
+ * own length. */
+static double buried_length(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
+{
+    const double touching = 1e-6 * s->length;
+    if (obstacles_gap(o, end, 0.0, s->obstacle, -1).distance > touching) return 0.0;
+    for (double length = s->length; length > touching; length *= 0.5)
+        if (obstacles_gap(o, vec2_along(end, length, out), 0.0, s->obstacle, -1).distance < 0.0) return length;
+    return 0.0;
+}
+
+static void bury_ends(obstacle_set *o)
+{
+    for (dem_index k = 0; k < o->n_segments && o->n > 1; k++) {
+        const segment *s = &o->segments[k];
+        const double before = s->before < 0 ? buried_length(o, s, s->start, vec2_scale(-1.0, s->tangent)) : 0.0;
+        const double after = s->after < 0 ? buried_length(o, s, s->end, s->tangent) : 0.0;
+        o->segments[k].buried[0] = before;
+        o->segments[k].buried[1] = after;
+    }
+}
+
+int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity)
+{
+    int n = 0;
+    for (dem_index k = 0; k < o->n_segments && n < capacity; k++) {
+        const segment *s = &o->segments[k];
+        if (s->obstacle == touch->without || fabs(segment_height(s, x)) > touch->tolerance) continue;
+        if (on_segment(s, segment_place(s, x), touch->tolerance, touch->margin)) hits[n++] = k;
+    }
+    return n;
+}
+
+bool obstacles_share(const obstacle_set *o, dem_index s, dem_index other, vec2 *vertex)
+{
+    const bool ends = o->segments[s].after == other, starts = o->segments[s].before == other;
+    *vertex = ends ? o->segments[s].end : o->segments[s].start;
+    return ends || starts;
+}
+
+obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond)
+{
+    const segment *here = &o->segments[s];
+    *beyond = backwards ? here->before : here->after;
+    if (*beyond < 0) return OBSTACLE_FREE_END;
+    const segment *there = &o->segments[*beyond];
+    const double turn =
+        backwards ? vec2_cross(there->tangent, here->tangent) : vec2_cross(here->tangent, there->tangent);
+    const double along = vec2_dot(here->tangent, there->tangent);
+    if (fabs(turn) < straight_below && along > 0.0) return OBSTACLE_STRAIGHT;
+    return turn < 0.0 ? OBSTACLE_CONVEX : OBSTACLE_CONCAVE;
+}
+
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
 {
     obstacle_set o = {0};
     for (dem_index k = 0; k < n; k++) {
         TRY(check_obstacle(&list[k], k));
+        TRY(check_crossings(&list[k], k));
         o.n_segments += list[k].n_points - 1;
     }
     o.list = calloc((size_t)n + 1, sizeof *o.list);
@@ -82,6 +215,7 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
         compile_segments(&o, o.n, &list[o.n]);
         status = copy_points(&o.list[o.n], &list[o.n]);
     }
+    if (status == DEM_OK) bury_ends(&o);
     if (status == DEM_OK)
         *out = o;
     else
@@ -96,72 +230,4 @@ void obstacles_free(obstacle_set *o)
     free(o->segments);
     free(o->first);
     *o = (obstacle_set){0};
-}
-
-/* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
-static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
-{
-    return neighbour < 0 ? (vec2){0.0, 0.0} : vec2_add(s->normal, o->segments[neighbour].normal);
-}
-
-/* Takes segment k for the nearest if it is nearer than what was nearest so far. */
-static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, obstacle_gap *nearest)
-{
-    const segment *s = &o->segments[k];
-    const double place = segment_place(s, x), height = segment_height(s, x);
-    if (place >= 0.0 && place <= s->length) {
-        if (fabs(height) < fabs(nearest->distance)) *nearest = (obstacle_gap){height, k, s->normal};
-        return;
-    }
-    const vec2 from = vec2_sub(x, place < 0.0 ? s->start : s->end);
-    const double distance = vec2_norm(from);
-    if (distance >= fabs(nearest->distance)) return;
-    const vec2 mean = vertex_normal(o, s, place < 0.0 ? s->before : s->after);
-    const double signed_distance = vec2_dot(mean, from) >= 0.0 ? distance : -distance;
-    *nearest = (obstacle_gap){signed_distance, k, s->normal};
-    if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
-}
-
-obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle)
-{
-    obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
-    for (dem_index k = o->first[obstacle]; k < o->first[obstacle + 1]; k++) take_nearer(o, k, x, &nearest);
-    return nearest;
-}
-
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too)
-{
-    obstacle_gap smallest = {INFINITY, -1, {0.0, 0.0}};
-    for (dem_index k = 0; k < o->n; k++) {
-        if (k == without || k == without_too) continue;
-        const obstacle_gap gap = obstacles_gap_of(o, x, k);
-        if (gap.distance < smallest.distance) smallest = gap;
-    }
-    return smallest;
-}
-
-int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_index without_obstacle, dem_index *hits,
-                       int capacity)
-{
-    int n = 0;
-    for (dem_index k = 0; k < o->n_segments && n < capacity; k++) {
-        const segment *s = &o->segments[k];
-        const double place = segment_place(s, x);
-        if (s->obstacle == without_obstacle || fabs(segment_height(s, x)) > tolerance) continue;
-        if (place >= -tolerance && place <= s->length + tolerance) hits[n++] = k;
-    }
-    return n;
-}
-
-obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond)
-{
-    const segment *here = &o->segments[s];
-    *beyond = backwards ? here->before : here->after;
-    if (*beyond < 0) return OBSTACLE_FREE_END;
-    const segment *there = &o->segments[*beyond];
-    const double turn =
-        backwards ? vec2_cross(there->tangent, here->tangent) : vec2_cross(here->tangent, there->tangent);
-    const double along = vec2_dot(here->tangent, there->tangent);
-    if (fabs(turn) < straight_below && along > 0.0) return OBSTACLE_STRAIGHT;
-    return turn < 0.0 ? OBSTACLE_CONVEX : OBSTACLE_CONCAVE;
 }

@@ -14,6 +14,7 @@ typedef struct segment {
     double restitution;        /* eta of its obstacle */
     dem_index obstacle, index; /* which obstacle, which segment of it */
     dem_index before, after;   /* neighbouring segments, -1 at a free end */
+    double buried[2];          /* m, how far it goes on inside another obstacle on which it stands: before, after */
 } segment;
 
 typedef struct obstacle_set {
@@ -42,16 +43,26 @@ typedef enum obstacle_bend {
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n);
 void obstacles_free(obstacle_set *o);
 
-/** Smallest of the signed distances of x to the obstacles, leaving out up to two of them (-1: none). */
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, dem_index without, dem_index without_too);
+/** Smallest of the signed distances of x to the obstacles, leaving out up to two of them (-1: none). Free ends count as
+ *  longer by `margin` (m), so that what touches another obstacle there leaves no gap. */
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, double margin, dem_index without, dem_index without_too);
 
 /** Signed distance of x to one obstacle: to its nearest point. Where two segments meet, a point nearest to the
  *  vertex is in front if it is on the side of the vertex's mean normal; nearest to a free end, it is in front. */
-obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, dem_index obstacle);
+obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle);
 
-/** Segments of which x is within `tolerance` (m), measured to the line and along it; at most `capacity` of them. */
-int obstacles_touching(const obstacle_set *o, vec2 x, double tolerance, dem_index without_obstacle, dem_index *hits,
-                       int capacity);
+/** How near a point must be to touch. */
+typedef struct obstacle_touch {
+    double tolerance;  /* m, to the line and along it */
+    double margin;     /* m, as for obstacles_gap() */
+    dem_index without; /* obstacle left out, or -1 */
+} obstacle_touch;
+
+/** Segments that x touches, at most `capacity` of them, into hits; returns their number. */
+int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity);
+
+/** Whether two segments are neighbours, and the vertex that they share. */
+bool obstacles_share(const obstacle_set *o, dem_index s, dem_index other, vec2 *vertex);
 
 /** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond);

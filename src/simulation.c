@@ -110,6 +110,7 @@ static dem_status tell_impact(void *context, const dem_impact *impact)
 {
     dem_simulation *s = context;
     dem_status status = DEM_OK;
+    look_at(s, s->t, s->y);
     for (int k = 0; k < s->n_watchers; k++) {
         const dem_observer *o = &s->watchers[k].observer;
         if (o->impact != NULL) status = first_of(status, o->impact(o->context, s, impact));
@@ -176,7 +177,7 @@ static dem_status take_step(dem_simulation *s)
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
     status = first_of(status, integrator_restart(s->integrator, s->t, s->y));
-    return first_of(status, tell_step(s));
+    return status == DEM_ERROR_CONTACT ? status : first_of(status, tell_step(s));
 }
 
 static dem_status commit_step(dem_simulation *s)
@@ -189,7 +190,6 @@ static dem_status commit_step(dem_simulation *s)
     contact_follow(&s->contact, s->step, s->y);
     if (!s->at_event) return tell_step(s);
     s->events++;
-    look_at(s, s->t, s->y);
     return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
 }
 
@@ -341,6 +341,7 @@ dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observe
     CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
           s == NULL ? "simulation" : "observer");
     CHECK(!s->started, DEM_ERROR_ARGUMENT, "observers come before the first advance");
+    CHECK(isfinite(observer->interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", observer->interval);
     CHECK(s->n_watchers < max_observers, DEM_ERROR_ARGUMENT, "at most %d observers", (int)max_observers);
     s->watchers[s->n_watchers++] = (watcher){.observer = *observer};
     return DEM_OK;

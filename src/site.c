@@ -12,12 +12,13 @@ vec2 site_force(const contact_scene *scene, const contact_site *site, const doub
 
 obstacle_gap site_free_gap(const contact_scene *scene, const contact_site *site, vec2 x)
 {
-    return obstacles_gap(&scene->model->obstacles, x, site->behind, -1);
+    return obstacles_gap(&scene->model->obstacles, x, scene_margin(scene), site->behind, -1);
 }
 
 obstacle_gap site_other_gap(const contact_scene *scene, const contact_site *site, vec2 x)
 {
-    return obstacles_gap(&scene->model->obstacles, x, site->behind, scene_segment(scene, site->segments[0])->obstacle);
+    return obstacles_gap(&scene->model->obstacles, x, scene_margin(scene), site->behind,
+                         scene_segment(scene, site->segments[0])->obstacle);
 }
 
 void site_reactions(const contact_scene *scene, const contact_site *site, const double *x, double reaction[2])
@@ -29,14 +30,22 @@ void site_reactions(const contact_scene *scene, const contact_site *site, const 
     vec2_parts(vec2_scale(-1.0, f), n0, scene_segment(scene, site->segments[1])->normal, reaction);
 }
 
+/* Distance to the nearer end of the segment, and the skin: an end is passed when a node is beyond it by that. */
+static double end_guard(const contact_scene *scene, const segment *s, vec2 x)
+{
+    const double place = segment_place(s, x);
+    return fmin(place, s->length - place) + scene->rule.skin;
+}
+
 int site_end_passed(const contact_scene *scene, const contact_site *site, const double *x, const double *v)
 {
     const segment *s = scene_segment(scene, site->segments[0]);
-    const double place = segment_place(s, vec2_at(x, site->node)), speed = vec2_dot(vec2_at(v, site->node), s->tangent);
-    if (place > 0.0 && place < s->length) return 0;
+    const vec2 at = vec2_at(x, site->node);
+    if (end_guard(scene, s, at) > 0.0) return 0;
+    const int end = segment_place(s, at) > 0.0 ? 1 : -1;
+    const double speed = vec2_dot(vec2_at(v, site->node), s->tangent);
     const double heading = speed != 0.0 ? speed : vec2_dot(site_force(scene, site, x), s->tangent);
-    if (place <= 0.0 && heading < 0.0) return -1;
-    return place >= s->length && heading > 0.0 ? 1 : 0;
+    return end * heading > 0.0 ? end : 0;
 }
 
 /* The gap as a guard: finite where there is no obstacle. */
@@ -60,9 +69,7 @@ void site_guards(const contact_scene *scene, const contact_site *site, const dou
         g[1] = reaction[1];
         return;
     }
-    const segment *s = scene_segment(scene, site->segments[0]);
-    const double place = segment_place(s, at);
-    g[1] = fmin(place, s->length - place);
+    g[1] = end_guard(scene, scene_segment(scene, site->segments[0]), at);
     g[2] = gap_guard(scene, site_other_gap(scene, site, at));
 }
 

@@ -42,6 +42,12 @@ static inline const segment *scene_segment(const contact_scene *scene, dem_index
     return &scene->model->obstacles.segments[s];
 }
 
+/** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
+static inline double scene_margin(const contact_scene *scene)
+{
+    return 10.0 * scene->rule.skin;
+}
+
 /** Force on a site's node free of contact, elastic and weight, N. */
 vec2 site_force(const contact_scene *scene, const contact_site *site, const double *x);
 
@@ -54,11 +60,11 @@ obstacle_gap site_other_gap(const contact_scene *scene, const contact_site *site
 /** Reaction of each closed contact, N: what balances the force along its normal; < 0 pulls. */
 void site_reactions(const contact_scene *scene, const contact_site *site, const double *x, double reaction[2]);
 
-/** -1 or 1 if a sliding node is at or beyond the start or the end of its segment and heads out, else 0. */
+/** -1 or 1 if a sliding node is beyond the start or the end of its segment by the skin and heads out, else 0. */
 int site_end_passed(const contact_scene *scene, const contact_site *site, const double *x, const double *v);
 
 /** Values of the guards at positions x, [SITE_GUARDS]:
- *  free: gap + skin; sliding: reaction, distance to the segment's nearer end, gap to the other obstacles + skin;
+ *  free: gap + skin; sliding: reaction, distance to the segment's nearer end + skin, gap to the other obstacles + skin;
  *  held: both reactions. What is left over is 1. */
 void site_guards(const contact_scene *scene, const contact_site *site, const double *x, double *g);
 

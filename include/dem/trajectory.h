@@ -51,9 +51,11 @@ DEM_API void dem_trajectory_destroy(dem_trajectory *trajectory);
  *  \return DEM_ERROR_IO if the file or the string is not there, DEM_ERROR_ARGUMENT if `size` is too small */
 DEM_API dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size);
 
-/** Reads the group /lattice of any HDF5 file into a new lattice: every output file carries one. Types, ranks and
- *  extents are checked before anything is allocated; external and soft links and filters other than deflate and
- *  shuffle are refused.
+/** Reads the group /lattice of any HDF5 file into a new lattice: every output file carries one. docs/output.md lists
+ *  its datasets; any other name in it is refused. Numbers may have any width and byte order, integers do for reals, and
+ *  `fixed` may be boolean as h5py stores it; a number that does not fit is an error. Types, ranks and extents are
+ *  checked before anything is allocated; external and soft links, external and virtual storage, and filters other than
+ *  deflate, shuffle and fletcher32 are refused.
  *  \param[out] out  overwritten, not freed; caller owns it
  *  \return DEM_ERROR_IO with the file, dataset and reason; DEM_ERROR_MODEL for inconsistent extents */
 DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);

@@ -169,6 +169,14 @@ class Check(Case):
         self.assertTrue(abs(steps - t_end / step) <= 2)
         self.assertEqual(frames, 9)
 
+    def test_a_body_that_stands_on_the_floor_stays_there(self):
+        for floor in ("-1, 0, 1, 0", "-1, -1, 0, 0, 1, -1"):
+            with self.subTest(floor):
+                self.put("&run t_end = 1e-3 /\n&material youngs_modulus = 1e7, density = 1050 /\n"
+                         "&body shape = 'rectangle', "
+                         f"size = 0.08, 0.13, spacing = 1e-2, clearance = 0 /\n&obstacle points = {floor} /\n")
+                self.call(0, "--check", "deck.nml")
+
     def test_every_input_is_good(self):
         for path in sorted(INPUTS.glob("*.nml")):
             with self.subTest(path.name):
@@ -220,6 +228,33 @@ class Echo(Case):
         self.assertEqual(*(re.findall(r"problem (\w+)", log) for log in logs))
         self.same_data("a/porous.vtkhdf", "b/porous.vtkhdf")
         self.same_data("a/porous.obstacle.vtkhdf", "b/porous.obstacle.vtkhdf")
+
+    def test_the_echo_of_a_lattice_file_is_the_same_run_from_any_folder(self):
+        self.put(coarse())
+        self.call(0, "deck.nml")
+        (self.folder / "deep" / "er").mkdir(parents=True)
+        (self.folder / "rectangle.vtkhdf").rename(self.folder / "deep" / "part.h5")
+        text = re.sub(r"(?s)&material.*?\n/\n|&void.*?/ *(?=\n)", "", coarse())
+        text = re.sub(r"(?s)&body.*?\n/\n", "&body shape = 'file', file = 'part.h5', position = 0, 0.02 /\n", text)
+        self.put(text, "deep/deck.nml")
+        (self.folder / "out").mkdir()
+        log = self.call(0, "--outdir", "out", "deep/deck.nml")
+        echo = self.call(0, "--echo", "deep/deck.nml")
+        self.assertRegex(echo, r"\n    file = '/.*/deep/part\.h5'\n")
+        for key in ("size", "radius", "lattice", "spacing", "material"):
+            self.assertIn(f"\n    ! {key} = (not given)\n", echo)
+        for name in ("echo.nml", "deep/er/echo.nml"):
+            self.put(echo, name)
+            self.assertIn("done already", self.call(0, "--outdir", "out", name))
+            self.assertEqual(self.call(0, "--echo", name), unmarked(echo))
+        (self.folder / "deep" / "er" / "deck.nml").write_text(text, encoding="utf-8")
+        (self.folder / "deep" / "part.h5").rename(self.folder / "deep" / "er" / "part.h5")
+        self.assertIn("done already", self.call(0, "--outdir", "out", "deep/er/deck.nml"))
+        self.assertEqual(*(re.findall(r"problem (\w+)", out)
+                           for out in (log, self.call(0, "--check", "deep/er/deck.nml"))))
+        with open(self.folder / "deep" / "er" / "part.h5", "ab") as file:
+            file.write(b"\0")
+        self.call(7, "--outdir", "out", "deep/er/deck.nml", stderr=f"out/rectangle.vtkhdf: error: {OTHER_PROBLEM}\n")
 
     def same_data(self, *names):
         done = subprocess.run([sys.executable, HERE / "compare.py", *names], cwd=self.folder, capture_output=True,

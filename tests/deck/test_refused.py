@@ -59,6 +59,7 @@ DISC = edit(BASE, "'rectangle' -> 'disc'", "size = 0.04, 0.05 -> radius = 0.03")
 FILE = without(edit(BASE, "'rectangle' -> 'file'", "size = 0.04, 0.05 -> file = 'part.h5'"),
                "    spacing = 0.01\n", "    material = 'rubber'\n")
 OBSTACLE = "&obstacle\n    points = -0.1, 0, 0.1, 0\n    restitution = 0.5\n/\n"
+REVERSED = ", or reverse the obstacle's points: bodies live on the left of each segment"
 TALL = edit(BASE, "0.04, 0.05 -> 0.04, 0.2") + "".join(
     f"&void shape = 'rectangle', centre = 0, {y}, size = 0.06, 0.02 /\n" for y in (0.03, 0.1, 0.17))
 
@@ -233,6 +234,15 @@ DECKS = [
      ["3:5 'gravity' in &run expects 2 values, got 3"]),
     ("too few values", edit(BASE, "0.04, 0.05 -> 0.04"),
      ["13:5 'size' in &body expects 2 values, got 1"]),
+    ("decimal comma", edit(DISC, "radius = 0.03 -> radius = 0,03"),
+     ["13:5 'radius' in &body expects 1 value, got 2; a decimal point is written '.', not ','"]),
+    ("decimal comma in one of two", edit(BASE, "0, -9.81 -> 0, -9,81"),
+     ["3:5 'gravity' in &run expects 2 values, got 3; a decimal point is written '.', not ','"]),
+    ("count before range", edit(BASE, "= 0.5 -> = 2, 0.5"),
+     ["21:5 'restitution' in &obstacle expects 1 value, got 2"]),
+    ("two words without quotes", edit(BASE, "'block' -> my block"),
+     ["24:12 'name' in &output expects a string in quotes, got my",
+      "24:15 'name' in &output expects a string in quotes, got block"]),
     ("two values for one", edit(BASE, "1050 -> 1050, 1060"),
      ["8:5 'density' in &material expects 1 value, got 2"]),
     ("repeat count absurd", edit(BASE, "-0.1, 0, 0.1, 0 -> 99999999999999999999*0"),
@@ -358,6 +368,11 @@ DECKS = [
     ("pores larger than the body", BASE + "&pores number = 1, radius = 0.05, 0.06 /\n",
      ["27:1 pore 1 of 1, of radius 0.0541702 m, finds no place in body 1 with walls of 0.02 m, the default; take "
       "fewer or smaller ones, or a thinner 'wall'"]),
+    ("void outside its body", BASE + "&void centre = 0, -0.01, radius = 0.005 /\n",
+     ["27:7 void takes no node of body 1: its centre is in the body's own coordinates"]),
+    ("voids of which one is where the body is placed", edit(BASE, "0, 0.001 -> 1, 1") +
+     "&void centre = 0, 0.02, radius = 0.009 /\n&void shape = 'rectangle', centre = 1, 1.02, size = 0.02, 0.02 /\n",
+     ["28:28 void takes no node of body 1: its centre is in the body's own coordinates"]),
     ("rectangle of too many nodes", edit(BASE, "0.04, 0.05 -> 1e9, 1e9", "0.01\n -> 1e-9\n"),
      ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-09 m"]),
     ("disc of too many nodes", edit(DISC, "0.03 -> 1e9", "0.01\n -> 1e-9\n"),
@@ -383,27 +398,36 @@ DECKS = [
      ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too long"]),
     ("body deeper in the obstacle than the skin", edit(BASE, "0, 0.001 -> 0, -0.001"),
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front"]),
+      "'position' or 'clearance' can put it in front" + REVERSED]),
     ("body just deeper than the skin", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
      ["11:1 body 1 starts 1.1e-08 m inside obstacle 1, at (-0.02, -1.1e-08) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front"]),
+      "'position' or 'clearance' can put it in front" + REVERSED]),
     ("second body in the obstacle",
      BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n",
      ["27:1 body 2 starts 0.0173205 m inside obstacle 1, at (0.05, -0.0173205) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front"]),
+      "'position' or 'clearance' can put it in front" + REVERSED]),
     ("two bodies in two obstacles", edit(BASE, "0, 0.001 -> 0, -0.001") + "&obstacle points = 0.2, 0, 0.1, 0 /\n"
      "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.15, 0.01 /\n",
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front",
+      "'position' or 'clearance' can put it in front" + REVERSED,
       "28:1 body 2 starts 0.0273205 m inside obstacle 2, at (0.14, 0.0273205) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front"]),
+      "'position' or 'clearance' can put it in front" + REVERSED]),
     ("body deeper than the skin given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact skin = 1e-4 /\n",
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 0.0001 m; "
-      "'position' or 'clearance' can put it in front"]),
+      "'position' or 'clearance' can put it in front" + REVERSED]),
+    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> clearance = 1e-4") +
+     "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n",
+     ["11:1 body 1 starts with point 2 of obstacle 2, at (0.002, 0.004) m, 0.0039 m inside it between its nodes, "
+      "deeper than the skin of 1e-08 m; 'position' or a larger 'clearance' can put it in front"]),
+    ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
+     ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the skin of 1e-08 m; "
+      "'position' or 'clearance' can put it in front" + REVERSED]),
     ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),
-     ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1"]),
+     ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1; move it"
+      + REVERSED]),
     ("clearance against gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 9.81"),
-     ["16:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1"]),
+     ["16:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1; move it"
+      + REVERSED]),
     ("lattice file missing", FILE,
      ["13:5 body 1: part.h5: cannot be opened (No such file or directory)"]),
     ("lattice file that is not HDF5", edit(FILE, "part.h5 -> deck.nml"),

@@ -214,9 +214,19 @@ static void random_bodies_neither_sink_in_nor_gain_energy(void **unused)
     assert_true(sum.closings >= n_cases);
 }
 
+/* Seeds that once failed: a corner of two obstacles, a shallow valley, and two dips between samples of a step. */
+static void what_once_failed_stays_mended(void **unused)
+{
+    static const long seeds[4] = {1022, 1476, 2794, 4265};
+    dem_counts sum = {0};
+    (void)unused;
+    for (int k = 0; k < 4; k++) run_case(seeds[k], &sum);
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy),
+                                       cmocka_unit_test(what_once_failed_stays_mended)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
     return cmocka_run_group_tests(tests, NULL, NULL);

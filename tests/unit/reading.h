@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A namelist read by a test, and its faults as text. */
+/* A namelist read by a test, as it stands or resolved against the table, and its faults as text. */
 #ifndef DEM_TEST_READING_H
 #define DEM_TEST_READING_H
 
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "namelist.h"
+#include "schema.h"
 
 /* What is read from a text. Tests free it with drop(). */
 typedef struct reading {
@@ -33,6 +33,36 @@ static inline void drop(reading *r)
 {
     namelist_free(&r->list);
     namelist_errors_free(&r->errors);
+}
+
+/* What is resolved from a text. Tests free it with drop_resolved(). */
+typedef struct resolved {
+    namelist list;
+    namelist_errors errors;
+    schema_deck deck;
+} resolved;
+
+static inline resolved resolve(const char *text)
+{
+    resolved r = {0};
+    assert_true(namelist_parse(&r.list, text, strlen(text), &r.errors));
+    assert_true(schema_resolve(&r.deck, &r.list, &r.errors));
+    namelist_errors_sort(&r.errors);
+    return r;
+}
+
+static inline void drop_resolved(resolved *r)
+{
+    schema_free(&r->deck);
+    namelist_free(&r->list);
+    namelist_errors_free(&r->errors);
+}
+
+static inline resolved resolve_clean(const char *text)
+{
+    resolved r = resolve(text);
+    if (r.errors.n > 0) fail_msg("'%s' gives '%s'", text, r.errors.list[0].text);
+    return r;
 }
 
 /* All faults as "line:column text", a line for each. */

@@ -111,6 +111,86 @@ static void a_vertex_exactly_below_a_node_is_not_missed(void **state)
     free_scene(&s);
 }
 
+static void a_body_that_touches_already_stays(void **state)
+{
+    (void)state;
+    const double floor[] = {-9.0, 0.5, 9.0, 0.5}, slope[] = {-9.0, -9.0, 9.0, 9.0},
+                 peak[] = {-9.0, -9.0, 0.1, 0.3, 9.0, -9.0};
+    const struct {
+        const double *points;
+        dem_index n;
+        double x, y; /* of the lower left corner */
+    } cases[] = {{floor, 2, 0.0, 0.5},  {floor, 2, -9.0, 0.5}, {floor, 2, 9.0, 0.5}, {slope, 2, -0.3, 0.7},
+                 {slope, 2, -1.0, 0.0}, {peak, 3, 0.1, 0.3},   {peak, 3, -0.9, 0.3}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        double shift[2];
+        scene s = make_scene(cases[k].x, cases[k].y, cases[k].points, cases[k].n);
+        assert_true(fabs(gap_after(&s, (double[2]){0.0, 0.0})) < 1e-15);
+        assert_true(clearance_shift(shift, s.model, down, 0.0));
+        assert_close(shift[1], 0.0, 1e-12);
+        free_scene(&s);
+    }
+}
+
+static clearance_spike find_spike(const dem_lattice *lattice, const double *points, dem_index n)
+{
+    const double floor[] = {-9.0, -1.0, 9.0, -1.0};
+    const dem_obstacle list[] = {{.n_points = 2, .points = floor}, {.n_points = n, .points = points}};
+    clearance_spike spike;
+    assert_true(clearance_find_spike(&spike, lattice, list, 2));
+    return spike;
+}
+
+static void the_point_deepest_between_nodes_is_found(void **state)
+{
+    (void)state;
+    const double spikes[] = {-0.1, -1.0, 0.0, 0.02, 0.1, -1.0, 0.2, 0.01, 0.3, -1.0};
+    const double inner[] = {-0.5, -1.0, -0.5, 0.25, 0.4, -1.0}; /* on the side that two triangles share */
+    const dem_material material = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 1.0};
+    dem_lattice lattice;
+    assert_int_equal(dem_lattice_rectangle(&lattice, 3.0, 1.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&lattice, &material), DEM_OK);
+    clearance_spike found = find_spike(&lattice, spikes, 5);
+    assert_int_equal(found.obstacle, 1);
+    assert_int_equal(found.point, 1);
+    assert_close(found.depth, 0.02, 1e-15);
+    assert_close(found.x[1], 0.02, 0.0);
+    found = find_spike(&lattice, inner, 3);
+    assert_int_equal(found.point, 1);
+    assert_close(found.depth, 0.25, 1e-15);
+    dem_lattice_move(&lattice, 0.0, (double[2]){0.0, 0.015});
+    found = find_spike(&lattice, spikes, 5);
+    assert_close(found.depth, 0.005, 1e-12);
+    dem_lattice_move(&lattice, 0.0, (double[2]){0.0, 0.006});
+    assert_close(find_spike(&lattice, spikes, 5).depth, 0.0, 0.0);
+    dem_lattice_free(&lattice);
+}
+
+static void points_on_rims_and_in_fixed_triangles_are_no_spikes(void **state)
+{
+    (void)state;
+    double x[] = {0, 0, 1, 0, 0, 1}, mass[] = {1, 1, 1};
+    dem_index corners[] = {0, 1, 2};
+    unsigned char fixed[] = {DEM_NODE_FIXED, DEM_NODE_FIXED, DEM_NODE_FIXED};
+    const double rim[] = {0.5, -0.5, 0.5, 0.0, 0.7, -0.5}, inside[] = {0.2, -0.5, 0.2, 0.3, 0.3, -0.5};
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 3, lattice.x = x, lattice.mass = mass, lattice.n_triangles = 1, lattice.triangles = corners;
+    assert_close(find_spike(&lattice, rim, 3).depth, 0.0, 0.0);
+    assert_close(find_spike(&lattice, inside, 3).depth, 0.2, 1e-15);
+    corners[0] = 1, corners[1] = 0; /* clockwise */
+    assert_close(find_spike(&lattice, inside, 3).depth, 0.2, 1e-15);
+    lattice.position = (double[6]){0, 5, 1, 5, 0, 6};
+    assert_close(find_spike(&lattice, inside, 3).depth, 0.0, 0.0);
+    lattice.position = NULL;
+    lattice.flags = fixed;
+    assert_close(find_spike(&lattice, inside, 3).depth, 0.0, 0.0);
+    fixed[2] = 0;
+    assert_close(find_spike(&lattice, inside, 3).depth, 0.2, 1e-15);
+    lattice.n_triangles = 0;
+    assert_close(find_spike(&lattice, inside, 3).depth, 0.0, 0.0);
+}
+
 static void without_an_obstacle_below_there_is_no_place(void **state)
 {
     (void)state;
@@ -134,6 +214,9 @@ int main(void)
         cmocka_unit_test(slopes_and_vertices_are_met_at_the_clearance_exactly),
         cmocka_unit_test(a_body_inside_a_closed_obstacle_stays_inside),
         cmocka_unit_test(a_vertex_exactly_below_a_node_is_not_missed),
+        cmocka_unit_test(a_body_that_touches_already_stays),
+        cmocka_unit_test(the_point_deepest_between_nodes_is_found),
+        cmocka_unit_test(points_on_rims_and_in_fixed_triangles_are_no_spikes),
         cmocka_unit_test(without_an_obstacle_below_there_is_no_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

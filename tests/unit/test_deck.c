@@ -373,6 +373,8 @@ static void faults_of_syntax_keys_and_meaning_come_together_sorted(void **state)
 
 /* ---- faults of geometry ---- */
 
+#define REVERSED ", or reverse the obstacle's points: bodies live on the left of each segment"
+
 static void faults_of_geometry_are_reported_for_all_bodies(void **state)
 {
     (void)state;
@@ -387,7 +389,8 @@ static void faults_of_geometry_are_reported_for_all_bodies(void **state)
         "&void body = 5, centre = 0, 0, radius = 2 /\n" FLOOR,
         "3:41: body 1 would have more nodes than 2^40 with the spacing 1e-09 m\n"
         "4:35: body 2 would have more nodes than 2^40 with the spacing 1e-09 m\n"
-        "5:89: 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 3\n"
+        "5:89: 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 3; move "
+        "it" REVERSED "\n"
         "7:1: body 5: its voids and pores take all of its 367 nodes\n"
         "8:1: pore 2 of 2, of radius 0.3 m, finds no place in body 4 with walls of 0.1 m; take fewer or smaller ones, "
         "or a "
@@ -403,16 +406,16 @@ static void bodies_that_start_in_an_obstacle_are_named(void **state)
         DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR "&contact skin = 0.25 /\n";
     expect_errors(bodies,
                   "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the skin "
-                  "of 0.25 m; 'position' or 'clearance' can put it in front\n"
+                  "of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n"
                   "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the skin of "
-                  "0.25 m; 'position' or 'clearance' can put it in front\n");
+                  "0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
     const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
     deck d = good_deck(cleared);
     deck_free(&d);
     expect_errors(
         RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
         "3:1: body 1 starts 2.54038e-05 m inside obstacle 1, at (-0.5, -2.54038e-05) m, deeper than the skin of "
-        "1e-06 m; 'position' or 'clearance' can put it in front\n");
+        "1e-06 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
     d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
     deck_free(&d);
 }
@@ -549,6 +552,30 @@ static void the_hash_is_of_the_lattice_file_too(void **state)
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
+static void the_echo_names_a_lattice_file_by_its_whole_path(void **state)
+{
+    (void)state;
+    namelist_errors errors = {0};
+    write_lattice("a.h5", 1.0, NULL);
+    deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n"), again;
+    assert_non_null(strstr(d.echo, path_of("a.h5")));
+    assert_non_null(strstr(d.echo, "    ! material = (not given)\n"));
+    assert_non_null(strstr(d.physics, "    file = 'fnv1a:"));
+    assert_null(strstr(d.physics, "lattice"));
+    assert_null(strstr(d.physics, folder));
+    char echo[] = "/tmp/test_deck_echo_XXXXXX"; /* in another folder */
+    const int file = mkstemp(echo);
+    const size_t size = strlen(d.echo);
+    assert_true(file >= 0 && write(file, d.echo, size) == (ssize_t)size && close(file) == 0);
+    assert_int_equal(deck_read(&again, echo, &errors), DECK_OK);
+    assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
+    assert_int_equal(unlink(echo), 0);
+    assert_int_equal(unlink(path_of("a.h5")), 0);
+    deck_free(&again);
+    deck_free(&d);
+    namelist_errors_free(&errors);
+}
+
 static void what_is_wrong_with_a_lattice_file_is_told_at_its_key(void **state)
 {
     (void)state;
@@ -632,6 +659,7 @@ int main(void)
         cmocka_unit_test(names_and_numbers_of_the_output_are_checked),
         cmocka_unit_test(a_lattice_file_is_turned_placed_cleared_and_launched),
         cmocka_unit_test(the_hash_is_of_the_lattice_file_too),
+        cmocka_unit_test(the_echo_names_a_lattice_file_by_its_whole_path),
         cmocka_unit_test(what_is_wrong_with_a_lattice_file_is_told_at_its_key),
         cmocka_unit_test(what_is_no_readable_file_is_refused),
     };

@@ -55,6 +55,16 @@ static void put_whole(const char *name, hsize_t n, hsize_t width, const int64_t 
     put_as(name, H5P_DEFAULT, H5T_STD_I64LE, H5T_NATIVE_INT64, n, width, data);
 }
 
+/* Five flags, the second of them set, as h5py stores booleans if the names are FALSE and TRUE. */
+static void put_flags(const char *name, const char *no, const char *yes)
+{
+    const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);
+    assert_true(H5Tenum_insert(type, no, &(signed char){0}) >= 0);
+    assert_true(H5Tenum_insert(type, yes, &(signed char){1}) >= 0);
+    put_as(name, H5P_DEFAULT, type, type, 5, 0, (const signed char[5]){0, 1, 0, 0, 0});
+    (void)H5Tclose(type);
+}
+
 static void drop(const char *name)
 {
     const hid_t group = open_group();
@@ -142,6 +152,17 @@ static void any_width_of_number_is_read(void **state)
     dem_lattice_free(&lattice);
 }
 
+static void integers_do_for_reals(void **state)
+{
+    (void)state;
+    put_whole("mass", 5, 0, (int64_t[5]){1, 2, 3, 4, 5});
+    put_as("velocity", H5P_DEFAULT, H5T_STD_I16BE, H5T_NATIVE_INT64, 5, 2, ends);
+    dem_lattice lattice = read_lattice();
+    for (int k = 0; k < 5; k++) assert_close(lattice.mass[k], k + 1.0, 0.0);
+    for (int k = 0; k < 10; k++) assert_close(lattice.velocity[k], (double)ends[k], 0.0);
+    dem_lattice_free(&lattice);
+}
+
 static void assert_flags(const unsigned char expected[5])
 {
     dem_lattice lattice = read_lattice();
@@ -160,6 +181,8 @@ static void fixed_nodes_leave_the_rule_of_contact_as_it_is(void **state)
     assert_flags((unsigned char[5]){C, F | C, C, C, F});
     put_whole("contact_nodes", 2, 0, (int64_t[2]){1, 3});
     assert_flags((unsigned char[5]){0, F | C, 0, C, F});
+    put_flags("fixed", "FALSE", "TRUE");
+    assert_flags((unsigned char[5]){0, F | C, 0, C, 0});
     drop("fixed");
     assert_flags((unsigned char[5]){0, C, 0, C, 0});
     put_whole("contact_nodes", 0, 0, NULL);
@@ -174,10 +197,13 @@ static void a_body_of_one_node_needs_no_springs(void **state)
     put_whole("ends", 0, 2, NULL);
     put_real("rest_length", 0, 0, NULL);
     put_real("stiffness", 0, 0, NULL);
-    dem_lattice lattice = read_lattice();
-    assert_int_equal(lattice.n_nodes, 1);
-    assert_int_equal(lattice.n_springs, 0);
-    dem_lattice_free(&lattice);
+    for (int k = 0; k < 2; k++) {
+        dem_lattice lattice = read_lattice();
+        assert_int_equal(lattice.n_nodes, 1);
+        assert_int_equal(lattice.n_springs, 0);
+        dem_lattice_free(&lattice);
+        if (k == 0) drop("ends"), drop("rest_length"), drop("stiffness");
+    }
 }
 
 /* ---- refused ---- */
@@ -214,14 +240,37 @@ static void missing_datasets_are_refused(void **state)
     assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: /lattice: is missing");
 }
 
+static void unknown_names_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {
+        {"velocities", "velocities"}, {"Fixed", "Fixed"}, {"a\nb \xff", "a?b??"}, {"m", "m"}};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        char message[256];
+        (void)snprintf(message, sizeof message,
+                       "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
+                       "triangles, guard, body, position, velocity, fixed, contact_nodes",
+                       path, names[k][1]);
+        put_real(names[k][0], 5, 2, x);
+        assert_refused(path, DEM_ERROR_IO, message);
+        drop(names[k][0]);
+    }
+}
+
 static void wrong_types_and_shapes_are_refused(void **state)
 {
     (void)state;
     put_real("ends", 6, 2, (double[12]){0});
     REFUSED("ends: is not integer");
     put_whole("ends", 6, 2, ends);
-    put_whole("mass", 5, 0, ends);
-    REFUSED("mass: is not floating-point");
+    put_flags("mass", "FALSE", "TRUE");
+    REFUSED("mass: is neither floating-point nor integer");
+    put_real("mass", 5, 0, ones);
+    put_flags("fixed", "NO", "YES");
+    REFUSED("fixed: is neither integer nor boolean");
+    put_real("fixed", 5, 0, ones);
+    REFUSED("fixed: is neither integer nor boolean");
+    drop("fixed");
     put_real("mass", 5, 1, ones);
     REFUSED("mass: is not of shape [n]");
     put_real("mass", 5, 0, ones);
@@ -277,8 +326,8 @@ static void links_are_refused(void **state)
 {
     (void)state;
     hid_t group = open_group();
-    assert_true(H5Lmove(group, "x", group, "elsewhere", H5P_DEFAULT, H5P_DEFAULT) >= 0);
-    assert_true(H5Lcreate_soft("elsewhere", group, "x", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lmove(group, "x", group, "/elsewhere", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_soft("/elsewhere", group, "x", H5P_DEFAULT, H5P_DEFAULT) >= 0);
     (void)H5Gclose(group);
     REFUSED("x: is a soft or external link");
     group = open_group();
@@ -363,10 +412,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FILE(what_is_not_there_is_null),
         WITH_FILE(any_width_of_number_is_read),
+        WITH_FILE(integers_do_for_reals),
         WITH_FILE(fixed_nodes_leave_the_rule_of_contact_as_it_is),
         WITH_FILE(a_body_of_one_node_needs_no_springs),
         WITH_FILE(files_that_are_none_are_refused),
         WITH_FILE(missing_datasets_are_refused),
+        WITH_FILE(unknown_names_are_refused),
         WITH_FILE(wrong_types_and_shapes_are_refused),
         WITH_FILE(a_number_that_does_not_fit_is_refused),
         WITH_FILE(inconsistent_extents_and_indices_are_refused),

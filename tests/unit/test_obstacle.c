@@ -32,7 +32,7 @@ static obstacle_set compile_both(void)
 
 static obstacle_gap gap_at(const obstacle_set *o, double x, double y)
 {
-    return obstacles_gap(o, (vec2){x, y}, -1, -1);
+    return obstacles_gap(o, (vec2){x, y}, 0.0, -1, -1);
 }
 
 /* ---- compiling ---- */
@@ -114,16 +114,6 @@ static void the_set_keeps_copies_of_the_points(void **state)
     points[1] = points[3] = 100.0;
     assert_close(o.list[0].points[1], 0.0, 0.0);
     assert_close(gap_at(&o, 0.5, 1.0).distance, 1.0, 0.0);
-    obstacles_free(&o);
-}
-
-static void a_line_there_and_back_is_no_ring(void **state)
-{
-    const double points[6] = {0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
-    (void)state;
-    obstacle_set o = compile(points, 3, 0.0);
-    assert_int_equal(o.segments[0].before, -1);
-    assert_int_equal(o.segments[1].after, -1);
     obstacles_free(&o);
 }
 
@@ -225,13 +215,13 @@ static void obstacles_can_be_left_out_or_asked_alone(void **state)
     const vec2 x = {4.5, -0.25}; /* 0.56 m from the block's corner, 1.68 m from the valley's end */
     (void)state;
     obstacle_set o = compile_both();
-    assert_int_equal(obstacles_gap(&o, x, -1, -1).segment, 3);
-    assert_int_equal(obstacles_gap(&o, x, 1, -1).segment, 2);
-    assert_int_equal(obstacles_gap(&o, x, -1, 1).segment, 2);
-    assert_int_equal(obstacles_gap(&o, x, 1, 0).segment, -1);
-    assert_close(obstacles_gap(&o, x, 1, -1).distance, hypot(1.5, 0.75), 1e-15);
-    assert_close(obstacles_gap_of(&o, x, 0).distance, hypot(1.5, 0.75), 1e-15);
-    assert_close(obstacles_gap_of(&o, x, 1).distance, hypot(0.5, 0.25), 1e-15);
+    assert_int_equal(obstacles_gap(&o, x, 0.0, -1, -1).segment, 3);
+    assert_int_equal(obstacles_gap(&o, x, 0.0, 1, -1).segment, 2);
+    assert_int_equal(obstacles_gap(&o, x, 0.0, -1, 1).segment, 2);
+    assert_int_equal(obstacles_gap(&o, x, 0.0, 1, 0).segment, -1);
+    assert_close(obstacles_gap(&o, x, 0.0, 1, -1).distance, hypot(1.5, 0.75), 1e-15);
+    assert_close(obstacles_gap_of(&o, x, 0.0, 0).distance, hypot(1.5, 0.75), 1e-15);
+    assert_close(obstacles_gap_of(&o, x, 0.0, 1).distance, hypot(0.5, 0.25), 1e-15);
     obstacles_free(&o);
 }
 
@@ -334,19 +324,21 @@ static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_
 {
     const vec2 past = {3.0005, -1.0}, vertex = {0.0, 0.0}, on_one = {-1.0, 0.0005}, above = {-1.0, 0.002},
                beyond = {-2.0005, 0.0}, further = {-2.002, 0.0};
+    const obstacle_touch all = {1e-3, 0.0, -1}, other = {1e-3, 0.0, 0}, longer = {1e-3, 2e-3, -1};
     dem_index hits[4] = {-1, -1, -1, -1};
     (void)state;
     obstacle_set o = compile_both();
-    assert_int_equal(obstacles_touching(&o, vertex, 1e-3, -1, hits, 4), 2);
+    assert_int_equal(obstacles_touching(&o, vertex, &all, hits, 4), 2);
     assert_int_equal(hits[0], 0);
     assert_int_equal(hits[1], 1);
-    assert_int_equal(obstacles_touching(&o, vertex, 1e-3, -1, hits, 1), 1);
-    assert_int_equal(obstacles_touching(&o, vertex, 1e-3, 0, hits, 4), 0);
-    assert_int_equal(obstacles_touching(&o, on_one, 1e-3, -1, hits, 4), 1);
-    assert_int_equal(obstacles_touching(&o, above, 1e-3, -1, hits, 4), 0);
-    assert_int_equal(obstacles_touching(&o, beyond, 1e-3, -1, hits, 4), 1);
-    assert_int_equal(obstacles_touching(&o, further, 1e-3, -1, hits, 4), 0);
-    assert_int_equal(obstacles_touching(&o, past, 1e-3, -1, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, vertex, &all, hits, 1), 1);
+    assert_int_equal(obstacles_touching(&o, vertex, &other, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, on_one, &all, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, above, &all, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, beyond, &all, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, further, &all, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, further, &longer, hits, 4), 1); /* past a free end */
+    assert_int_equal(obstacles_touching(&o, past, &all, hits, 4), 1);
     assert_int_equal(hits[0], 2);
     obstacles_free(&o);
 }
@@ -376,20 +368,15 @@ static void bends_are_told_from_both_sides_alike(void **state)
 }
 
 /* Straight is a sine of the bend below 1e-9; a line that turns back is none, though its sine is 0. */
-static void a_bend_below_1e_9_is_straight_unless_the_line_turns_back(void **state)
+static void a_bend_below_1e_9_is_straight(void **state)
 {
     const double points[10] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.5e-9, 3.0, 3.0e-9, 4.0, 3.0e-9};
-    const double back[6] = {0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
     (void)state;
     obstacle_set o = compile(points, 5, 0.0);
     check_bend(&o, 0, false, OBSTACLE_STRAIGHT, 1);
     check_bend(&o, 1, true, OBSTACLE_STRAIGHT, 0);
     check_bend(&o, 1, false, OBSTACLE_CONCAVE, 2);
     check_bend(&o, 2, false, OBSTACLE_CONVEX, 3);
-    obstacles_free(&o);
-    o = compile(back, 3, 0.0);
-    dem_index beyond;
-    assert_true(obstacles_bend(&o, 0, false, &beyond) != OBSTACLE_STRAIGHT);
     obstacles_free(&o);
 }
 
@@ -403,6 +390,23 @@ static void height_and_place_are_measured_from_the_start(void **state)
     obstacles_free(&o);
 }
 
+static void a_polyline_that_meets_itself_is_refused(void **state)
+{
+    static const double crossing[8] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 1.0, -1.0},
+                        back[6] = {0.0, 0.0, 2.0, 0.0, 1.0, 0.0};
+    static const double six[10] = {-1.0, 0.0, 3.0, 0.0, 3.0, 2.0, 1.0, 2.0, 1.0, 0.0};
+    const dem_obstacle list[3] = {{4, crossing, 0.0}, {3, back, 0.0}, {5, six, 0.0}};
+    static const char *const messages[3] = {"obstacle 0: segments 0 and 2 meet",
+                                            "obstacle 0: segment 1 goes back over segment 0",
+                                            "obstacle 0: segments 0 and 3 meet"};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        obstacle_set o;
+        assert_int_equal(obstacles_compile(&o, &list[k], 1), DEM_ERROR_MODEL);
+        assert_string_equal(dem_status_message(), messages[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -412,7 +416,6 @@ int main(void)
         cmocka_unit_test(a_segment_without_length_is_named),
         cmocka_unit_test(segments_are_numbered_obstacle_by_obstacle),
         cmocka_unit_test(the_set_keeps_copies_of_the_points),
-        cmocka_unit_test(a_line_there_and_back_is_no_ring),
         cmocka_unit_test(the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it),
         cmocka_unit_test(at_a_vertex_the_distance_is_to_the_vertex),
         cmocka_unit_test(round_a_free_end_every_point_is_in_front),
@@ -425,8 +428,9 @@ int main(void)
         cmocka_unit_test(the_normal_is_the_gradient_of_the_gap),
         cmocka_unit_test(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends),
         cmocka_unit_test(bends_are_told_from_both_sides_alike),
-        cmocka_unit_test(a_bend_below_1e_9_is_straight_unless_the_line_turns_back),
+        cmocka_unit_test(a_bend_below_1e_9_is_straight),
         cmocka_unit_test(height_and_place_are_measured_from_the_start),
+        cmocka_unit_test(a_polyline_that_meets_itself_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

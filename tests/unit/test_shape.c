@@ -74,6 +74,23 @@ static void the_lattice_leaves_voids_out(void **state)
     shape_free(&s);
 }
 
+static void a_void_takes_nodes_only_where_they_are(void **state)
+{
+    (void)state;
+    const shape_void between = {.outline = {.disc = true, .radius = 0.04}, .centre = {0.05, 0.03}};
+    const shape_void outside = {.outline = {.disc = true, .radius = 0.5}, .centre = {0.0, -1.0}};
+    shape s = make_rectangle();
+    dem_lattice lattice;
+    assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
+    assert_true(shape_takes(&s, &round_void, &lattice));
+    assert_true(shape_takes(&s, &square_void, &lattice));
+    assert_false(shape_takes(&s, &between, &lattice));
+    assert_false(shape_takes(&s, &outside, &lattice));
+    assert_true(shape_outline_depth(&s, between.centre) > 0.0);
+    assert_close(shape_outline_depth(&s, outside.centre), -1.0, 1e-15);
+    dem_lattice_free(&lattice);
+}
+
 static void a_void_of_everything_leaves_no_lattice(void **state)
 {
     (void)state;
@@ -132,6 +149,7 @@ int main(void)
         cmocka_unit_test(depth_in_a_disc_is_counted_from_its_rim),
         cmocka_unit_test(voids_are_not_material),
         cmocka_unit_test(the_lattice_leaves_voids_out),
+        cmocka_unit_test(a_void_takes_nodes_only_where_they_are),
         cmocka_unit_test(a_void_of_everything_leaves_no_lattice),
         cmocka_unit_test(pores_keep_away_from_edges_and_voids),
         cmocka_unit_test(a_pore_without_a_place_is_told),

@@ -99,7 +99,7 @@ static void a_site_behind_an_obstacle_does_not_see_it(void **state)
     check_guards(&scene, &site, 3.5, 2.5, 0.5 + skin, 1.0, 1.0);
     site = sliding_site(1);
     site.behind = 0;
-    check_guards(&scene, &site, 3.5, 3.0, -mass * g, 0.5, 1.0 + skin);
+    check_guards(&scene, &site, 3.5, 3.0, -mass * g, 0.5 + skin, 1.0 + skin);
     close_scene(&scene);
 }
 
@@ -109,11 +109,11 @@ static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state
     (void)state;
     contact_scene scene = open_scene(room, 2);
     const contact_site on_floor = sliding_site(0), on_ceiling = sliding_site(1);
-    check_guards(&scene, &on_floor, 1.5, 0.0, mass * g, 1.5, 1.0 + skin);
-    check_guards(&scene, &on_floor, 3.75, 0.0, mass * g, 0.25, 1.0 + skin);
-    check_guards(&scene, &on_floor, 4.5, 0.0, mass * g, -0.5, 1.0 + skin);
-    check_guards(&scene, &on_floor, 3.5, 2.75, mass * g, 0.5, 0.25 + skin);
-    check_guards(&scene, &on_ceiling, 4.0, 3.0, -mass * g, 1.0, 1.0 + skin);
+    check_guards(&scene, &on_floor, 1.5, 0.0, mass * g, 1.5 + skin, 1.0 + skin);
+    check_guards(&scene, &on_floor, 3.75, 0.0, mass * g, 0.25 + skin, 1.0 + skin);
+    check_guards(&scene, &on_floor, 4.5, 0.0, mass * g, -0.5 + skin, 1.0 + skin);
+    check_guards(&scene, &on_floor, 3.5, 2.75, mass * g, 0.5 + skin, 0.25 + skin);
+    check_guards(&scene, &on_ceiling, 4.0, 3.0, -mass * g, 1.0 + skin, 1.0 + skin);
     close_scene(&scene);
 }
 
@@ -168,15 +168,16 @@ static int end_passed(const contact_scene *scene, double x, double vx)
     return site_end_passed(scene, &site, at, v);
 }
 
-static void an_end_is_passed_at_or_beyond_it_heading_out(void **state)
+static void an_end_is_passed_by_the_skin_heading_out(void **state)
 {
     (void)state;
     contact_scene scene = open_scene(room, 2);
     assert_int_equal(end_passed(&scene, 2.0, 5.0), 0);
-    assert_int_equal(end_passed(&scene, 4.0, 1.0), 1);
+    assert_int_equal(end_passed(&scene, 4.0 + 0.99 * skin, 1.0), 0);
+    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 1.0), 1);
     assert_int_equal(end_passed(&scene, 4.1, 1.0), 1);
     assert_int_equal(end_passed(&scene, 4.1, -1.0), 0);
-    assert_int_equal(end_passed(&scene, 0.0, -1.0), -1);
+    assert_int_equal(end_passed(&scene, -1.01 * skin, -1.0), -1);
     assert_int_equal(end_passed(&scene, -0.1, -1.0), -1);
     assert_int_equal(end_passed(&scene, -0.1, 1.0), 0);
     close_scene(&scene);
@@ -186,13 +187,13 @@ static void at_rest_the_force_tells_where_it_heads(void **state)
 {
     (void)state;
     contact_scene scene = open_scene(room, 2);
-    assert_int_equal(end_passed(&scene, 4.0, 0.0), 0);
+    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 0);
     scene.rule.gravity[0] = 1.0;
-    assert_int_equal(end_passed(&scene, 4.0, 0.0), 1);
-    assert_int_equal(end_passed(&scene, 0.0, 0.0), 0);
+    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 1);
+    assert_int_equal(end_passed(&scene, -1.01 * skin, 0.0), 0);
     scene.rule.gravity[0] = -1.0;
-    assert_int_equal(end_passed(&scene, 4.0, 0.0), 0);
-    assert_int_equal(end_passed(&scene, 0.0, 0.0), -1);
+    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 0);
+    assert_int_equal(end_passed(&scene, -1.01 * skin, 0.0), -1);
     close_scene(&scene);
 }
 
@@ -208,8 +209,8 @@ static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(v
     contact_scene scene = open_scene(room, 2);
     const contact_site site = sliding_site(0);
     assert_false(due(&scene, &site, 2.0, 0.0, 1.0));
-    assert_true(due(&scene, &site, 4.0, 0.0, 1.0));
-    assert_false(due(&scene, &site, 4.0, 0.0, -1.0));
+    assert_true(due(&scene, &site, 4.0 + 1.01 * skin, 0.0, 1.0));
+    assert_false(due(&scene, &site, 4.0 + 1.01 * skin, 0.0, -1.0));
     assert_true(due(&scene, &site, 3.5, 3.0 + 1.01 * skin, 1.0));
     assert_false(due(&scene, &site, 3.5, 3.0 + 0.99 * skin, 1.0));
     scene.rule.gravity[1] = 0.0;
@@ -336,7 +337,7 @@ static void a_site_out_of_reach_never_crosses(void **state)
     close_scene(&scene);
 }
 
-/* Slides from x = 3 with 2 m/s: at the end after half a second. */
+/* Slides from x = 3 with 2 m/s: beyond the end by the skin after half a second and the time for that. */
 static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
 {
     const double x[2] = {3.0, 0.0}, v[2] = {2.0, 0.0};
@@ -348,7 +349,7 @@ static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
     fly(&f, x, v, 0.0, 1.0, 1.7);
     assert_true(site_due(&scene, &site, f.y1));
     const double found = site_first_due(&scene, &site, &f.path, scratch);
-    assert_close(found, 1.5, 200.0 * DBL_EPSILON * 2.4);
+    assert_close(found, 1.5 + 0.5 * skin, 200.0 * DBL_EPSILON * 2.4);
     path_state(&f.path, found, scratch);
     assert_true(site_due(&scene, &site, scratch));
     close_scene(&scene);
@@ -363,7 +364,7 @@ int main(void)
         cmocka_unit_test(a_sliding_site_watches_reaction_end_and_other_obstacles),
         cmocka_unit_test(a_held_site_watches_both_reactions),
         cmocka_unit_test(the_force_on_a_site_is_elastic_and_weight),
-        cmocka_unit_test(an_end_is_passed_at_or_beyond_it_heading_out),
+        cmocka_unit_test(an_end_is_passed_by_the_skin_heading_out),
         cmocka_unit_test(at_rest_the_force_tells_where_it_heads),
         cmocka_unit_test(a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle),
         cmocka_unit_test(a_held_site_is_due_when_either_reaction_ceases),

@@ -680,27 +680,6 @@ static void a_full_disk_leaves_the_frames_before_it(void **state)
     end(&r);
 }
 
-static herr_t report(hid_t stack, void *context)
-{
-    (void)stack, (void)context;
-    return 0;
-}
-
-static void hdf5_prints_again_afterwards(void **state)
-{
-    (void)state;
-    H5E_auto2_t kept, now;
-    void *kept_data, *now_data;
-    char text[4];
-    int mark;
-    assert_true(H5Eget_auto2(H5E_DEFAULT, &kept, &kept_data) >= 0);
-    assert_true(H5Eset_auto2(H5E_DEFAULT, report, &mark) >= 0);
-    assert_int_equal(dem_trajectory_read_note("none.vtkhdf", "deck", text, sizeof text), DEM_ERROR_IO);
-    assert_true(H5Eget_auto2(H5E_DEFAULT, &now, &now_data) >= 0);
-    assert_true(now == report && now_data == &mark);
-    assert_true(H5Eset_auto2(H5E_DEFAULT, kept, kept_data) >= 0);
-}
-
 static void the_version_is_that_of_the_library(void **state)
 {
     (void)state;
@@ -733,7 +712,6 @@ int main(void)
         cmocka_unit_test(a_lost_part_ends_the_run_with_its_name),
         cmocka_unit_test(a_damaged_part_is_not_published),
         cmocka_unit_test(a_full_disk_leaves_the_frames_before_it),
-        cmocka_unit_test(hdf5_prints_again_afterwards),
         cmocka_unit_test(the_version_is_that_of_the_library),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -221,6 +221,59 @@ static void a_node_coming_from_behind_passes_and_then_lands_on_the_front(void **
     support_close(&run);
 }
 
+/* Rest at the bottom of valleys from nearly straight to narrow, and in a right corner turned by any angle: held for ever. */
+static void a_node_at_rest_in_a_corner_stays(void **unused)
+{
+    static const double slopes[4] = {1e-6, 4e-3, 1.0, 100.0};
+    const double v[2] = {0.0, 0.0};
+    support_run run;
+    (void)unused;
+    for (int k = 0; k < 4; k++) {
+        const double x[2] = {0.0, 0.0}, valley[6] = {-1.0 / slopes[k], 1.0, 0.0, 0.0, 1.0 / slopes[k], 1.0};
+        support_point(&run, 1.0, x, v, valley, 3, 0.0);
+        const dem_state state = support_at(&run, 1.0);
+        check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
+        assert_int_equal(state.n_contacts, 2);
+        support_close(&run);
+    }
+    for (int k = 0; k < 50; k++) {
+        const double c = cos(0.015 + 0.03 * k), s = sin(0.015 + 0.03 * k), x[2] = {0.3, 0.1};
+        const double corner[6] = {x[0] - c, x[1] + s, x[0], x[1], x[0] + s, x[1] + c};
+        support_point(&run, 1.0, x, v, corner, 3, 0.0);
+        const dem_state state = support_at(&run, 0.5);
+        check_state(state, x[0], x[1], 0.0, 0.0, 1e-12);
+        support_close(&run);
+    }
+}
+
+/* Floor and wall are two obstacles, the wall stands on the floor or leans over it: at any tilt nothing slips through the joint. */
+static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 24; k++) {
+        const double angle = 0.1 * (k / 2), c = cos(angle), s = sin(angle), lean = k % 2 == 0 ? 0.0 : -0.1;
+        const double ground[4] = {-2.0 * c, -2.0 * s, 2.0 * c, 2.0 * s};
+        const double wall[4] = {0.5 * c, 0.5 * s, (0.5 + lean) * c - s, (0.5 + lean) * s + c};
+        const dem_obstacle obstacles[2] = {{2, ground, 0.0}, {2, wall, 0.0}};
+        const double x[2] = {0.0, 0.0}, v[2] = {c, s}, mass = 1.0;
+        dem_options options = dem_options_default();
+        dem_lattice lattice;
+        support_run run;
+        options.gravity[0] = 9.81 * s;
+        options.gravity[1] = -9.81 * c;
+        options.spacing = options.v_scale = 1.0;
+        options.max_step = 1e-3;
+        options.skin = 1e-8;
+        support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+        support_start(&lattice, NULL, v);
+        support_open(&run, &lattice, obstacles, 2, &options);
+        dem_lattice_free(&lattice);
+        const dem_state state = support_at(&run, 1.0);
+        assert_close(state.x[0] * c + state.x[1] * s, 0.5, 1e-6); /* 100 skins: the lean makes ten of the skin */
+        support_close(&run);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +289,8 @@ int main(void)
         cmocka_unit_test(a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom),
         cmocka_unit_test(a_wall_of_another_obstacle_stops_a_sliding_node),
         cmocka_unit_test(a_node_coming_from_behind_passes_and_then_lands_on_the_front),
+        cmocka_unit_test(a_node_at_rest_in_a_corner_stays),
+        cmocka_unit_test(a_wall_that_stands_on_another_obstacle_leaves_no_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* report.c: runs with closed forms, and the numbers their logs give. A number of n digits after the point of its
+ * mantissa is off by half of the last at most; the runs themselves are better by orders (rtol 1e-12). */
+#include "../verification/support.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <dem/trajectory.h>
+
+#include "report.h"
+
+static const double g = 9.81, mass = 2.0, drop = 0.5, eta = 0.5, six_digits = 6e-7, four_digits = 6e-5;
+static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
+
+/* A run with its log. */
+typedef struct logged {
+    support_run run;
+    report report;
+    FILE *file;
+    char text[1 << 16];
+} logged;
+
+static void follow(logged *l, bool terminal, double t_end)
+{
+    l->file = tmpfile();
+    assert_non_null(l->file);
+    report_start(&l->report, l->file, terminal, t_end);
+    const dem_observer observer = report_observer(&l->report);
+    assert_ok(dem_simulation_observe(l->run.simulation, &observer));
+}
+
+static void read_log(logged *l)
+{
+    rewind(l->file);
+    const size_t n = fread(l->text, 1, sizeof l->text - 1, l->file);
+    assert_true(n < sizeof l->text - 1);
+    l->text[n] = '\0';
+}
+
+static void finish(logged *l, double t_end)
+{
+    assert_ok(dem_simulation_advance(l->run.simulation, t_end));
+    report_summary(&l->report, l->run.simulation);
+    read_log(l);
+}
+
+static void drop_logged(logged *l)
+{
+    assert_int_equal(fclose(l->file), 0);
+    support_close(&l->run);
+    free(l);
+}
+
+/* One node dropped from rest onto a floor. */
+static logged *drop_node(bool terminal, double t_end)
+{
+    const double x[2] = {0.0, drop}, v[2] = {0.25, 0.0};
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    support_point(&l->run, mass, x, v, floor_points, 2, eta);
+    follow(l, terminal, t_end);
+    return l;
+}
+
+/* The line of a topic that has `word`; its first number behind the word. */
+static double number_in(const char *text, const char *topic, const char *word)
+{
+    const size_t n = strlen(topic);
+    for (const char *line = text; line != NULL && *line != '\0';) {
+        const char *end = strchr(line, '\n'), *at = strstr(line, word);
+        if (strncmp(line, topic, n) == 0 && line[n] == ' ' && at != NULL && end != NULL && at < end) {
+            at += strlen(word);
+            at += strcspn(at, "+-0123456789");
+            assert_true(at < end);
+            return strtod(at, NULL);
+        }
+        line = end != NULL ? end + 1 : NULL;
+    }
+    fail_msg("there is no '%s' with '%s' in\n%s", topic, word, text);
+    return NAN;
+}
+
+/* The number that stands before a word: "3 impacts". */
+static double number_before(const char *text, const char *word)
+{
+    const char *at = strstr(text, word);
+    if (at == NULL) fail_msg("there is no '%s' in\n%s", word, text);
+    while (at > text && strchr("+-0123456789.e", at[-1]) != NULL) at--;
+    return strtod(at, NULL);
+}
+
+static int has_line(const char *text, const char *topic)
+{
+    char start[32];
+    (void)snprintf(start, sizeof start, "\n%s ", topic);
+    return strncmp(text, start + 1, strlen(start + 1)) == 0 || strstr(text, start) != NULL;
+}
+
+/* ---- contact ---- */
+
+static double first_touch(void)
+{
+    return sqrt(2.0 * drop / g);
+}
+
+static void one_bounce_is_first_and_last_contact(void **state)
+{
+    (void)state;
+    const double t1 = first_touch(), v1 = g * t1, t_end = t1 + 0.5 * eta * v1 / g;
+    logged *l = drop_node(false, t_end);
+    finish(l, t_end);
+    assert_close(number_in(l->text, "contact", "first"), t1, six_digits * t1);
+    assert_close(number_in(l->text, "contact", "last"), t1, six_digits * t1);
+    assert_close(number_in(l->text, "rebound", "velocity"), eta * v1, four_digits * eta * v1);
+    const char *end = strstr(strstr(l->text, "rebound"), "contact");
+    assert_close(strtod(end + strcspn(end, "+-0123456789"), NULL), eta * v1 - g * (t_end - t1), four_digits);
+    assert_close(number_before(l->text, " impacts,"), 1.0, 0.0);
+    assert_null(strstr(l->text, "still"));
+    drop_logged(l);
+}
+
+static void two_bounces_are_first_and_last_contact(void **state)
+{
+    (void)state;
+    const double t1 = first_touch(), v1 = g * t1, t2 = t1 + 2.0 * eta * v1 / g, v2 = eta * eta * v1;
+    logged *l = drop_node(false, t2 + v2 / g);
+    finish(l, t2 + v2 / g);
+    assert_close(number_in(l->text, "contact", "first"), t1, six_digits * t1);
+    assert_close(number_in(l->text, "contact", "last"), t2, six_digits * t2);
+    assert_close(number_in(l->text, "rebound", "velocity"), v2, four_digits * v2);
+    assert_close(number_before(l->text, " impacts,"), 2.0, 0.0);
+    drop_logged(l);
+}
+
+static void without_a_touch_there_is_no_contact(void **state)
+{
+    (void)state;
+    logged *l = drop_node(false, 0.9 * first_touch());
+    finish(l, 0.9 * first_touch());
+    assert_true(has_line(l->text, "contact"));
+    assert_non_null(strstr(l->text, "none"));
+    assert_false(has_line(l->text, "rebound"));
+    assert_close(number_before(l->text, " impacts,"), 0.0, 0.0);
+    drop_logged(l);
+}
+
+static void what_rests_at_the_end_is_still_touching(void **state)
+{
+    (void)state;
+    const double x[2] = {0.0, 0.0};
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    support_point(&l->run, mass, x, NULL, floor_points, 2, 0.0);
+    follow(l, false, 1.0);
+    finish(l, 1.0);
+    assert_close(number_in(l->text, "contact", "first"), 0.0, 0.0);
+    assert_close(number_in(l->text, "contact", "last"), 1.0, 0.011); /* a step of at most 10 ms, and rounding */
+    assert_non_null(strstr(l->text, "still touching"));
+    drop_logged(l);
+}
+
+/* Gravity to the left, a wall at x = 0: upwards is to the right. */
+static void the_rebound_is_measured_against_gravity(void **state)
+{
+    (void)state;
+    const double wall[4] = {0.0, 9.0, 0.0, -9.0}, x[4] = {drop, 0.0, 50.0, 1.0}, m[2] = {1.0, 3.0};
+    const dem_obstacle obstacle = {2, wall, eta};
+    const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.skin = 1e-13, options.v_scale = 1.0;
+    options.gravity[0] = -4.0, options.gravity[1] = 0.0;
+    support_lattice(&lattice, 2, x, m, 0, NULL, 0.0, 0.0, NULL);
+    lattice.body = calloc(2, sizeof *lattice.body);
+    assert_non_null(lattice.body);
+    lattice.body[1] = 1;
+    support_open(&l->run, &lattice, &obstacle, 1, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, 1.01 * t1);
+    finish(l, 1.01 * t1);
+    assert_close(number_in(l->text, "rebound", "velocity"), centre, four_digits * fabs(centre));
+    drop_logged(l);
+}
+
+/* ---- energy ---- */
+
+static void the_ledger_closes(void **state)
+{
+    (void)state;
+    const double t1 = first_touch(), v1 = g * t1, t_end = t1 + 0.25 * v1 / g, v = eta * v1 - g * (t_end - t1);
+    const double start = mass * g * drop + 0.5 * mass * 0.25 * 0.25, taken = 0.5 * mass * (1.0 - eta * eta) * v1 * v1;
+    logged *l = drop_node(false, t_end);
+    finish(l, t_end);
+    const double kinetic = 0.5 * mass * (v * v + 0.25 * 0.25);
+    assert_close(number_in(l->text, "energy", "kinetic"), kinetic, 1e-5 * kinetic); /* six digits in all */
+    assert_close(number_in(l->text, "ledger", "start"), start, 1e-8 * start);       /* nine digits */
+    assert_close(number_in(l->text, "ledger", "impacts"), taken, 1e-3 * taken);     /* four digits */
+    assert_close(number_in(l->text, "ledger", "now"), start - taken, 1e-8 * start);
+    assert_close(number_in(l->text, "ledger", "closure"), 0.0, 1e-10); /* a hundred steps of rtol 1e-12 */
+    drop_logged(l);
+}
+
+/* ---- strains ---- */
+
+/* Two nodes of mass m pulled apart by a tenth: strain 0.1 cos(omega t), omega^2 = 2 E/(m d0). */
+static void strains_have_the_extremes_of_a_vibration(void **state)
+{
+    (void)state;
+    const double x[4] = {0.0, 0.0, 1.0, 0.0}, pulled[4] = {-0.05, 0.0, 1.05, 0.0}, m[2] = {2.0, 2.0};
+    const double omega = 10.0, period = 2.0 * M_PI / omega;
+    const dem_index ends[2] = {0, 1};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.rtol = 1e-9, options.max_step = period / 400.0, options.v_scale = 1.0;
+    support_lattice(&lattice, 2, x, m, 1, ends, 1.0, 0.5 * omega * omega * m[0], NULL);
+    support_start(&lattice, pulled, NULL);
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, 0.75 * period);
+    finish(l, 0.75 * period);
+    /* between steps 0.1 (pi/400)^2/2 = 3e-6 may be missed, the time is off by half a step; four digits are printed */
+    assert_close(number_in(l->text, "strain", "smallest"), -0.1, 6e-5);
+    assert_close(number_in(l->text, "strain", "largest"), 0.1, 6e-5);
+    const char *at = strstr(strstr(l->text, "smallest"), "at ");
+    assert_close(strtod(at + 3, NULL), 0.5 * period, period / 400.0);
+    assert_false(has_line(l->text, "triangles"));
+    drop_logged(l);
+}
+
+static void without_springs_there_is_no_strain(void **state)
+{
+    (void)state;
+    logged *l = drop_node(false, 0.1);
+    finish(l, 0.1);
+    assert_false(has_line(l->text, "strain"));
+    assert_false(has_line(l->text, "triangles"));
+    drop_logged(l);
+}
+
+/* Pressed together to nine tenths, it only expands at first. */
+static void the_smallest_triangle_is_told(void **state)
+{
+    (void)state;
+    const dem_material rubber = {1e7, 1000.0, 1.0, 0.02};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.max_step = 1e-5, options.v_scale = 1.0;
+    assert_ok(dem_lattice_rectangle(&lattice, 2.0, 2.0, 1.0));
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    support_start(&lattice, lattice.x, NULL);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.position[2 * i + 1] *= 0.9;
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, 1e-5);
+    finish(l, 1e-5);
+    assert_close(number_in(l->text, "triangles", "area"), 0.9, 6e-5);
+    drop_logged(l);
+}
+
+/* ---- progress ---- */
+
+static void in_a_file_progress_is_a_line_every_twentieth(void **state)
+{
+    (void)state;
+    logged *l = drop_node(false, 1.0);
+    assert_ok(dem_simulation_advance(l->run.simulation, 1.0));
+    read_log(l);
+    int n_lines = 0;
+    double before = 0.0;
+    assert_null(strchr(l->text, '\r'));
+    for (const char *line = l->text; *line != '\0'; line += strcspn(line, "\n") + 1, n_lines++) {
+        const char *percent = strchr(line, '%');
+        const double done = strtod(line, NULL);
+        assert_non_null(percent);
+        assert_true(percent < strchr(line, '\n'));
+        assert_true(done - before >= 5.0 - 0.051); /* one digit after the point */
+        assert_true(done <= 100.0);
+        before = done;
+    }
+    assert_in_range(n_lines, 16, 20); /* steps of 1 % pass a twentieth by one at most */
+    drop_logged(l);
+}
+
+static void on_a_terminal_progress_is_rewritten_in_place(void **state)
+{
+    (void)state;
+    logged *l = drop_node(true, 1.0);
+    l->report.wall_shown -= 10.0; /* as if it had been shown long ago */
+    assert_ok(dem_simulation_advance(l->run.simulation, 0.5));
+    read_log(l);
+    assert_non_null(strchr(l->text, '\r'));
+    assert_null(strchr(l->text, '\n'));
+    report_summary(&l->report, l->run.simulation);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\ncontact ")); /* in a line of its own */
+    drop_logged(l);
+}
+
+/* ---- header ---- */
+
+static void the_header_tells_what_is_about_to_run(void **state)
+{
+    (void)state;
+    char name[] = "drops/drop.nml", title[] = "A title";
+    const deck d = {.path = name, .title = title, .hash = 0xabc, .t_end = 0.25, .frame_interval = 0.01};
+    logged *l = drop_node(false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, "there/drop.vtkhdf");
+    read_log(l);
+    assert_non_null(strstr(l->text, "drops/drop.nml"));
+    assert_non_null(strstr(l->text, "A title"));
+    assert_non_null(strstr(l->text, "0000000000000abc"));
+    assert_non_null(strstr(l->text, "there/drop.vtkhdf"));
+    assert_close(number_before(l->text, " nodes, "), 1.0, 0.0);
+    assert_close(number_before(l->text, " springs"), 0.0, 0.0);
+    assert_close(number_before(l->text, " segments"), 1.0, 0.0);
+    assert_close(number_in(l->text, "lattice", "mass"), mass, 0.0);
+    assert_close(number_in(l->text, "time", "t_end"), 0.25, 0.0);
+    assert_close(number_before(l->text, " frames"), 26.0, 0.0);       /* the one at 0 too */
+    assert_close(number_in(l->text, "estimate", "least"), 25.0, 0.0); /* steps of 0.01 s */
+    drop_logged(l);
+}
+
+static void without_an_output_none_is_told(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    logged *l = drop_node(false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_false(has_line(l->text, "output"));
+    assert_true(has_line(l->text, "deck"));
+    drop_logged(l);
+}
+
+static void versions_are_those_in_use(void **state)
+{
+    (void)state;
+    char text[512], cut[16];
+    report_versions(text, sizeof text);
+    assert_null(strchr(text, '\n'));
+    assert_non_null(strstr(text, dem_version()));
+    assert_non_null(strstr(text, dem_version_sundials()));
+    assert_non_null(strstr(text, dem_version_hdf5()));
+    report_versions(cut, sizeof cut);
+    assert_int_equal(strlen(cut), sizeof cut - 1);
+}
+
+/* ---- counts ---- */
+
+static void counts_are_those_of_the_simulation(void **state)
+{
+    (void)state;
+    logged *l = drop_node(false, 1.0);
+    finish(l, 1.0);
+    const dem_counts n = dem_simulation_counts(l->run.simulation);
+    const char *last = strstr(l->text, "\nrun ");
+    assert_non_null(last);
+    assert_true(n.impacts > 2 && n.steps > 50);
+    assert_close(number_before(last, " steps"), (double)n.steps, 0.0);
+    assert_close(number_before(last, " rejected"), (double)n.rejected, 0.0);
+    assert_close(number_before(last, " evaluations"), (double)n.evaluations, 0.0);
+    assert_close(number_before(l->text, " impacts,"), (double)n.impacts, 0.0);
+    drop_logged(l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_bounce_is_first_and_last_contact),
+        cmocka_unit_test(two_bounces_are_first_and_last_contact),
+        cmocka_unit_test(without_a_touch_there_is_no_contact),
+        cmocka_unit_test(what_rests_at_the_end_is_still_touching),
+        cmocka_unit_test(the_rebound_is_measured_against_gravity),
+        cmocka_unit_test(the_ledger_closes),
+        cmocka_unit_test(strains_have_the_extremes_of_a_vibration),
+        cmocka_unit_test(without_springs_there_is_no_strain),
+        cmocka_unit_test(the_smallest_triangle_is_told),
+        cmocka_unit_test(in_a_file_progress_is_a_line_every_twentieth),
+        cmocka_unit_test(on_a_terminal_progress_is_rewritten_in_place),
+        cmocka_unit_test(the_header_tells_what_is_about_to_run),
+        cmocka_unit_test(without_an_output_none_is_told),
+        cmocka_unit_test(versions_are_those_in_use),
+        cmocka_unit_test(counts_are_those_of_the_simulation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
