@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The batch driver: read the deck, build, run, report. Exit codes: docs/deck.md. */
+/* The batch driver: read the deck, build, run, report. Exit codes: README.md. */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -59,7 +59,7 @@ static int complain(int code, const char *where)
     return code;
 }
 
-/* Exit code for a failure of the library before the run (`invalid`: what a bad model means) or during it. */
+/* Exit code for a failure of the library. */
 static int code_of(dem_status status)
 {
     switch (status) {

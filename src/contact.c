@@ -448,11 +448,14 @@ dem_status contact_resolve(contact *c, double t, double *y, const contact_listen
 {
     moment now = {t, y, y + 2 * c->scene.model->lattice.n_nodes, listener, DEM_OK};
     bool changed = true;
-    straighten(c, &now);
-    while (changed) {
+    for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
         changed = false;
         for (dem_index k = 0; k < c->scene.model->n_sites; k++) TRY(settle(c, &c->sites[k], &now, &changed));
     }
+    CHECK(c->idle <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
+          "more than %lld contact events in a row changed nothing, at t = %.9g s", (long long)c->scene.rule.max_impacts,
+          t);
+    straighten(c, &now);
     refresh_forces(c, now.x);
     return now.told;
 }

@@ -14,6 +14,7 @@ typedef struct contact {
     double projection_energy; /* J, put in so far */
     double *impulse;          /* [n_obstacles][2] N s, given to the bodies so far */
     dem_counts counts;        /* impacts, closings, releases, passings, late, behind */
+    dem_index idle;           /* events in a row that changed nothing */
 } contact;
 
 /** Who is told of impacts. */

@@ -145,15 +145,29 @@ obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, double margin, dem_ind
     return smallest;
 }
 
-/* A wall that stands on another obstacle goes on inside it, so that nothing slips through the joint: how far, m, up to its
- * own length. */
+/* Whether the end meets the free end of another obstacle's segment, behind which it would go on: the length of that. */
+static double behind_free_end(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
+{
+    double length = 0.0;
+    for (dem_index k = 0; k < o->n_segments; k++) {
+        const segment *b = &o->segments[k];
+        if (b->obstacle == s->obstacle || vec2_dot(out, b->normal) >= 0.0) continue;
+        const double start = b->before < 0 ? vec2_norm(vec2_sub(b->start, end)) : INFINITY;
+        const double stop = b->after < 0 ? vec2_norm(vec2_sub(b->end, end)) : INFINITY;
+        if (fmin(start, stop) <= 1e-6 * s->length) length = fmax(length, b->length);
+    }
+    return length;
+}
+
+/* A wall that stands on another obstacle, or meets its free end in a corner, goes on behind it, so that nothing slips
+ * through the joint: how far, m, up to its own length. */
 static double buried_length(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
 {
     const double touching = 1e-6 * s->length;
     if (obstacles_gap(o, end, 0.0, s->obstacle, -1).distance > touching) return 0.0;
     for (double length = s->length; length > touching; length *= 0.5)
         if (obstacles_gap(o, vec2_along(end, length, out), 0.0, s->obstacle, -1).distance < 0.0) return length;
-    return 0.0;
+    return fmin(s->length, behind_free_end(o, s, end, out));
 }
 
 static void bury_ends(obstacle_set *o)

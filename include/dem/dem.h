@@ -290,7 +290,8 @@ typedef struct dem_body_motion {
 /** What an obstacle feels. */
 typedef struct dem_obstacle_load {
     double reaction[2]; /**< N, instantaneous sum over its lasting contacts, as it acts on the bodies */
-    double impulse[2];  /**< N s, given to the bodies so far: impacts plus time integral of the reaction */
+    double impulse[2];  /**< N s, given to the bodies up to the last accepted step: impacts plus time integral of the
+                             reaction (trapezoidal rule)                                              */
     dem_index contacts; /**< closed now */
 } dem_obstacle_load;
 

@@ -106,7 +106,7 @@ class Written(unittest.TestCase):
         self.check(deck, text_of(deck, split_strings=True, column_width=30))
 
     def test_long_arrays_go_on_in_the_next_lines(self):
-        points = [math.sin(k) * 10.0 ** (k % 7 - 3) for k in range(2000)]
+        points = [z for k in range(1000) for z in (0.01 * k, math.sin(k) * 10.0 ** (k % 7 - 3))]
         self.check(namelist(obstacle={"points": points}))
 
     def test_repeat_counts(self):

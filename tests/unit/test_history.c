@@ -252,6 +252,22 @@ static void flushing_goes_on_where_it_ended(void **state)
     drop(f);
 }
 
+/* The last chunk is written again at every flush: deflated it would move and leave a hole. */
+static void a_chunk_is_a_buffer_and_stored_plain(void **state)
+{
+    (void)state;
+    hsize_t chunk[3] = {0};
+    flight *f = new_flight(1);
+    const hid_t dataset = H5Dopen2(f->file.id, "/history/body_centre", H5P_DEFAULT);
+    const hid_t layout = H5Dget_create_plist(dataset);
+    assert_int_equal(H5Pget_nfilters(layout), 0);
+    assert_int_equal(H5Pget_chunk(layout, 3, chunk), 3);
+    assert_int_equal(chunk[0], HISTORY_ROWS);
+    (void)H5Pclose(layout);
+    (void)H5Dclose(dataset);
+    drop(f);
+}
+
 static hsize_t stored_bytes(const flight *f)
 {
     H5G_info_t group;
@@ -354,6 +370,7 @@ int main(void)
         cmocka_unit_test(without_obstacles_there_are_no_columns_of_them),
         cmocka_unit_test(an_instant_has_one_row),
         cmocka_unit_test(flushing_goes_on_where_it_ended),
+        cmocka_unit_test(a_chunk_is_a_buffer_and_stored_plain),
         cmocka_unit_test(a_full_buffer_is_written_and_takes_no_more_room_than_said),
         cmocka_unit_test(a_lost_row_or_column_is_noticed),
         cmocka_unit_test(rows_that_could_not_be_written_stay_in_the_buffer),
