@@ -45,8 +45,8 @@ static void follow_energy(report *r, const dem_state *state)
 {
     const dem_energy e = state->energy;
     if (state->t == 0.0) r->energy_start = total(e);
-    r->kinetic_max = fmax(r->kinetic_max, e.kinetic);
-    const double share = r->kinetic_max > 0.0 ? (e.elastic + e.guard) / r->kinetic_max : 0.0;
+    r->energy_max = fmax(r->energy_max, e.kinetic + e.elastic + e.guard);
+    const double share = r->energy_max > 0.0 ? (e.elastic + e.guard) / r->energy_max : 0.0;
     if (share <= r->elastic_share_max) return;
     r->elastic_share_max = share;
     r->elastic_share_t = state->t;
@@ -89,7 +89,7 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
     const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
     if (!due || !(done > 0.0)) return;
     const dem_counts counts = dem_simulation_counts(simulation);
-    const double error = (total(state->energy) - r->energy_start) / fmax(r->kinetic_max, 1e-300);
+    const double error = (total(state->energy) - r->energy_start) / fmax(r->energy_max, 1e-300);
     r->wall_shown = now;
     r->t_shown = state->t;
     (void)fprintf(
@@ -218,8 +218,8 @@ static void print_energy(const report *r, dem_energy e)
     (void)fprintf(r->out,
                   "ledger     start %.9g J = now %.9g + taken by impacts %.4g - projection %.3g; closure %+.2e\n",
                   r->energy_start, e.kinetic + e.elastic + e.guard + e.gravity, e.impact, e.projection,
-                  (total(e) - r->energy_start) / fmax(r->kinetic_max, 1e-300));
-    (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic energy so far, at %.4e s\n",
+                  (total(e) - r->energy_start) / fmax(r->energy_max, 1e-300));
+    (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
                   r->elastic_share_max, r->elastic_share_t);
 }
 

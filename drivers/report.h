@@ -15,8 +15,8 @@ typedef struct report {
     double wall_start, wall_shown;             /* s */
     double t_shown;                            /* s */
     double energy_start;                       /* J, total at t = 0 */
-    double kinetic_max;                        /* J, largest so far: what energies are compared with */
-    double elastic_share_max, elastic_share_t; /* of kinetic_max as it was then */
+    double energy_max;                         /* J, largest kinetic + elastic + guard so far: what is compared */
+    double elastic_share_max, elastic_share_t; /* of energy_max as it was then */
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max;
