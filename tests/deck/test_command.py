@@ -315,7 +315,7 @@ class Run(Case):
         self.assertAlmostEqual(sum(energies), now, delta=1e-3 * now)
         self.assertAlmostEqual(now + taken - projection, start, delta=2e-3 * start)
         self.assertLess(abs(closure), 2e-3)
-        share, when = numbers("elastic    largest share # of the largest kinetic energy so far, at # s", log)
+        share, when = numbers("elastic    largest share # of the largest kinetic and elastic energy so far, at # s", log)
         self.assertTrue(0.5 < share < 1 and first < when < last)
         counts = numbers("events     # stops: # impacts, # closings, # releases, # ends passed, # late, # behind", log)
         self.assertTrue(counts[0] > 0 and counts[1] > 0 and all(count >= 0 for count in counts))
