@@ -335,7 +335,10 @@ class Run(Case):
 
     def test_the_same_run_on_a_terminal_rewrites_its_progress(self):
         self.put(coarse(spacing="2.5e-3", t_end="2e-3"))
-        parent, child = pty.openpty()
+        try:
+            parent, child = pty.openpty()
+        except OSError:  # a bare root without /dev/pts
+            self.skipTest("there is no terminal to be had here")
         output = b""
         with subprocess.Popen([DEM_BATCH, "deck.nml"], cwd=self.folder, stdout=child, stderr=child) as process:
             os.close(child)
