@@ -36,7 +36,7 @@ static double rising_speed(const dem_simulation *simulation)
 
 static double total(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact - e.projection;
+    return dem_energy_ledger(e);
 }
 
 /* ---- following a run ---- */

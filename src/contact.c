@@ -72,9 +72,9 @@ static vec2 way_back(const contact *c, meeting with, vec2 x)
 static void move(contact *c, const contact_site *site, vec2 shift, moment *now)
 {
     const dem_index i = site->node;
-    const double before = model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x);
+    const double before = model_node_energy(c->scene.model, c->scene.rule.load.gravity, i, now->x);
     vec2_put(now->x, i, vec2_add(vec2_at(now->x, i), shift));
-    c->projection_energy += model_node_energy(c->scene.model, c->scene.rule.gravity, i, now->x) - before;
+    c->projection_energy += model_node_energy(c->scene.model, c->scene.rule.load.gravity, i, now->x) - before;
 }
 
 /* Speed at or below which a node that an acceleration `back` returns is at rest: the hop would be lower than the
@@ -92,7 +92,8 @@ static double resting_speed(const contact *c, vec2 x, double back)
  * surface it moves along. */
 static meeting lasting(const contact *c, const contact_site *site, meeting with, vec2 v, const double *x)
 {
-    const vec2 a = model_acceleration(c->scene.model, c->scene.rule.gravity, site->node, x),
+    const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, site->node, x,
+                                      x + 2 * c->scene.model->lattice.n_nodes),
                at = vec2_at(x, site->node);
     const double speed = vec2_norm(v);
     impact_surface surface[2];
@@ -140,22 +141,24 @@ static void book_impulse(contact *c, meeting with, vec2 impulse)
 
 static void tell(const contact *c, const contact_site *site, dem_index s, vec2 before, moment *now)
 {
-    if (now->listener->impact == NULL) return;
+    if (now->listener->event == NULL) return;
     const dem_index i = site->node;
     const vec2 after = vec2_at(now->v, i), x = vec2_at(now->x, i);
     const vec2 impulse = vec2_scale(c->scene.model->lattice.mass[i], vec2_sub(after, before));
     const segment *seg = scene_segment(&c->scene, s);
-    const dem_impact impact = {.t = now->t,
-                               .node = i,
-                               .obstacle = seg->obstacle,
-                               .segment = seg->index,
-                               .x = {x.x, x.y},
-                               .normal = {seg->normal.x, seg->normal.y},
-                               .impulse = {impulse.x, impulse.y},
-                               .before = {before.x, before.y},
-                               .after = {after.x, after.y},
-                               .closed = site->n_closed > 0};
-    const dem_status status = now->listener->impact(now->listener->context, &impact);
+    const dem_event event = {.t = now->t,
+                             .kind = DEM_EVENT_IMPACT,
+                             .other = -1,
+                             .node = i,
+                             .obstacle = seg->obstacle,
+                             .segment = seg->index,
+                             .x = {x.x, x.y},
+                             .normal = {seg->normal.x, seg->normal.y},
+                             .impulse = {impulse.x, impulse.y},
+                             .before = {before.x, before.y},
+                             .after = {after.x, after.y},
+                             .state = site->n_closed > 0 ? DEM_CONTACT_SLIP : DEM_CONTACT_FREE};
+    const dem_status status = now->listener->event(now->listener->context, &event);
     if (now->told == DEM_OK) now->told = status;
 }
 

@@ -17,9 +17,9 @@ typedef struct contact {
     dem_index idle;           /* events in a row that changed nothing */
 } contact;
 
-/** Who is told of impacts. */
+/** Who is told of events. */
 typedef struct contact_listener {
-    dem_status (*impact)(void *context, const dem_impact *impact);
+    dem_status (*event)(void *context, const dem_event *event);
     void *context;
 } contact_listener;
 

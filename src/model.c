@@ -193,7 +193,7 @@ void dem_model_destroy(dem_model *model)
 dem_csr dem_model_csr(const dem_model *model)
 {
     const springs *s = &model->springs;
-    return (dem_csr){s->n_nodes, s->row, s->neighbour, s->spring, s->stiffness, s->rest_length};
+    return (dem_csr){s->n_nodes, s->row, s->neighbour, s->spring, s->stiffness, s->rest_length, s->viscosity};
 }
 
 const dem_lattice *dem_model_lattice(const dem_model *model)

@@ -21,20 +21,30 @@ struct dem_model {
     double mass;      /* kg */
 };
 
-/** Elastic force on node i at positions x [n][2], N: (1) over its springs, and the guard. */
-static inline vec2 model_force(const dem_model *model, dem_index i, const double *x)
+/** What acts on every node besides springs and triangles. */
+typedef struct model_load {
+    double gravity[2];   /* m/s^2 */
+    double mass_damping; /* 1/s */
+} model_load;
+
+/** Force of springs and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
+static inline vec2 model_force(const dem_model *model, dem_index i, const double *x, const double *v)
 {
-    const vec2 bonds = springs_force(&model->springs, i, x);
+    vec2 bonds = springs_force(&model->springs, i, x);
+    if (model->springs.viscosity != NULL) bonds = vec2_add(bonds, springs_damping(&model->springs, i, x, v));
     if (model->triangles.row[i] == model->triangles.row[i + 1]) return bonds;
     return vec2_add(bonds, triangles_force(&model->triangles, i, x));
 }
 
 /** Acceleration of node i, m/s^2, free of contact: (4). A fixed node has none. */
-static inline vec2 model_acceleration(const dem_model *model, const double gravity[2], dem_index i, const double *x)
+static inline vec2 model_acceleration(const dem_model *model, const model_load *load, dem_index i, const double *x,
+                                      const double *v)
 {
     const double inverse_mass = model->inverse_mass[i];
     if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
-    return vec2_along((vec2){gravity[0], gravity[1]}, inverse_mass, model_force(model, i, x));
+    const vec2 drag = vec2_scale(-load->mass_damping, vec2_at(v, i));
+    const vec2 a = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, model_force(model, i, x, v));
+    return vec2_add(a, drag);
 }
 
 /** Energy that hangs on the position of node i, J: its springs, its triangles and its weight. */

@@ -71,10 +71,11 @@ static int derivative(double t, const double *y, double *f, void *context)
 {
     const dem_simulation *s = context;
     const dem_index n = unknowns(s->model);
+    const model_load *load = &s->contact.scene.rule.load;
     double *a = f + n, sum = 0.0;
     for (dem_index k = 0; k < n; k++) sum += f[k] = y[n + k];
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {
-        const vec2 ai = model_acceleration(s->model, s->options.gravity, i, y);
+        const vec2 ai = model_acceleration(s->model, load, i, y, y + n);
         sum += ai.x + ai.y;
         vec2_put(a, i, ai);
     }
@@ -106,14 +107,14 @@ static dem_status first_of(dem_status status, dem_status next)
     return status != DEM_OK ? status : next;
 }
 
-static dem_status tell_impact(void *context, const dem_impact *impact)
+static dem_status tell_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
     dem_status status = DEM_OK;
     look_at(s, s->t, s->y);
     for (int k = 0; k < s->n_watchers; k++) {
         const dem_observer *o = &s->watchers[k].observer;
-        if (o->impact != NULL) status = first_of(status, o->impact(o->context, s, impact));
+        if (o->event != NULL) status = first_of(status, o->event(o->context, s, event));
     }
     return status;
 }
@@ -182,7 +183,7 @@ static dem_status go_on(dem_simulation *s, dem_status status)
 
 static dem_status commit_step(dem_simulation *s)
 {
-    const contact_listener listener = {tell_impact, s};
+    const contact_listener listener = {tell_event, s};
     path_state(&s->path, s->path.end, s->y);
     s->step = s->path.end - s->t;
     s->t = s->path.end;
@@ -196,7 +197,7 @@ static dem_status commit_step(dem_simulation *s)
 /* Contacts of the initial state come before the first step, when the observers are there to be told. */
 static dem_status start(dem_simulation *s)
 {
-    const contact_listener listener = {tell_impact, s};
+    const contact_listener listener = {tell_event, s};
     s->started = true;
     return go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
 }
@@ -289,7 +290,7 @@ static dem_status set_up(dem_simulation *s)
                                .max_step = o->max_step,
                                .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                                .max_impacts = o->max_impacts,
-                               .gravity = {o->gravity[0], o->gravity[1]}};
+                               .load = {{o->gravity[0], o->gravity[1]}, o->mass_damping}};
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
     const integrator_problem problem = {.n_nodes = model->lattice.n_nodes,

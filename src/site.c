@@ -7,7 +7,8 @@
 vec2 site_force(const contact_scene *scene, const contact_site *site, const double *x)
 {
     const double m = scene->model->lattice.mass[site->node];
-    return vec2_scale(m, model_acceleration(scene->model, scene->rule.gravity, site->node, x));
+    const double *v = x + 2 * scene->model->lattice.n_nodes;
+    return vec2_scale(m, model_acceleration(scene->model, &scene->rule.load, site->node, x, v));
 }
 
 obstacle_gap site_free_gap(const contact_scene *scene, const contact_site *site, vec2 x)

@@ -28,7 +28,7 @@ typedef struct contact_rule {
     double max_step;       /* s, longest step: with t it sets how exactly an event is located */
     double storm_time;     /* s */
     dem_index max_impacts; /* within storm_time at one node */
-    double gravity[2];     /* m/s^2 */
+    model_load load;
 } contact_rule;
 
 /** What does not change during a run. */

@@ -12,6 +12,7 @@ typedef struct springs {
     dem_index *spring;    /* [2 n_springs] index in the lattice */
     double *stiffness;    /* [2 n_springs] E_ij, N */
     double *rest_length;  /* [2 n_springs] d0_ij, m */
+    double *viscosity;    /* [2 n_springs] N s; NULL: undamped */
 } springs;
 
 /** Compiles triplets whose indices are known to be valid; names a pair of nodes joined twice. Free with
@@ -29,6 +30,18 @@ static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
         const double length = vec2_norm(d), rest = s->rest_length[p];
         force = vec2_along(force, s->stiffness[p] * (length - rest) / (rest * length),
                            d); /* E_ij (d - d0)/d0, along d/|d| */
+    }
+    return force;
+}
+
+/** Kelvin-Voigt damping of node i, N: in every spring of its row the viscosity times the strain rate. */
+static inline vec2 springs_damping(const springs *s, dem_index i, const double *x, const double *v)
+{
+    const vec2 xi = vec2_at(x, i), vi = vec2_at(v, i);
+    vec2 force = {0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi), dv = vec2_sub(vec2_at(v, s->neighbour[p]), vi);
+        force = vec2_along(force, s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
     }
     return force;
 }

@@ -4,7 +4,7 @@
  *      dem_lattice      plain arrays you may edit: nodes, springs, triangles
  *      dem_model        compiled from a lattice and obstacles; validated, immutable, shareable
  *      dem_simulation   owns the moving state; dem_simulation_advance() is the time loop
- *      dem_observer     is shown the simulation at frames, accepted steps and impacts
+ *      dem_observer     is shown the simulation at frames, accepted steps and contact events
  *
  *  Units are SI throughout. Node arrays are [n][2], row-major: x0 y0 x1 y1 ...
  *  Numbers in parentheses, (1) to (10), are the equations of docs/method.md.
@@ -61,6 +61,8 @@ typedef struct dem_material {
     double density;        /**< rho, kg/m^3, > 0 */
     double thickness;      /**< h, m, > 0 */
     double guard;          /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
+    double damping_time;   /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
+                                damping_time e'; 0: none */
 } dem_material;
 
 enum {
@@ -82,6 +84,7 @@ typedef struct dem_lattice {
     double *rest_length;   /**< [n_springs]      d0_ij > 0, m                                   (1) */
     double *stiffness;     /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
     dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none */
+    double *viscosity;     /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
     double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
     unsigned char *flags;  /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
@@ -136,12 +139,19 @@ DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *o
 
 /* ---- model: validated and compiled ---------------------------------------------------------------------------- */
 
+typedef enum dem_friction_law {
+    DEM_FRICTION_COULOMB = 0, /**< dry friction: at an impact |p_t| <= mu p_n, in a lasting contact |T| <= mu N */
+    DEM_FRICTION_PAPER /**< at an impact v_t' = mu v_t, a lasting contact slides freely: docs/method.md    (10) */
+} dem_friction_law;
+
 /** A fixed polyline; bodies live on the left of each segment, the solid is on its right. Closed if the last point is
  *  the first. The ends of an open one are free: what has passed round an end may come back from behind, unhindered. */
 typedef struct dem_obstacle {
     dem_index n_points;   /**< >= 2 */
     const double *points; /**< [n_points][2], m; consecutive points distinct */
     double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
+    double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
+    dem_friction_law friction_law;
 } dem_obstacle;
 
 /** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
@@ -152,6 +162,7 @@ typedef struct dem_csr {
     const dem_index *spring;    /**< [row[n_nodes]]  index of the spring in the lattice */
     const double *stiffness;    /**< [row[n_nodes]]  E_ij, N                                         (1) */
     const double *rest_length;  /**< [row[n_nodes]]  d0_ij, m                                        (1) */
+    const double *viscosity;    /**< [row[n_nodes]]  N s; NULL: undamped */
 } dem_csr;
 
 typedef struct dem_model dem_model;
@@ -175,7 +186,9 @@ DEM_API const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_inde
 typedef struct dem_model_size {
     dem_index n_nodes, n_springs, n_triangles, n_bodies;
     dem_index n_contact_nodes; /**< nodes that may touch */
+    dem_index n_contact_edges; /**< boundary edges of the triangulation between two such nodes */
     dem_index n_obstacles, n_segments;
+    dem_index n_vertices; /**< convex vertices of obstacles, which may touch such an edge */
 } dem_model_size;
 
 DEM_API dem_model_size dem_model_sizes(const dem_model *model);
@@ -218,6 +231,11 @@ typedef struct dem_options {
     double rest_speed;     /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
                                becomes a lasting contact */
     dem_index max_impacts; /**< default 10000: impacts of one node within 1/omega_max that count as a storm */
+    double window;         /**< s, default < 0: see docs/method.md. At an impact, what would arrive within this time
+                               is reflected at once, and hops of less than twice this become lasting contacts;
+                               0: every impact by itself */
+    double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
+    int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -227,46 +245,71 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
     options.gravity[1] = -9.81;
     options.rtol = 1e-6;
     options.max_impacts = 10000;
+    options.window = -1.0;
+    options.vertices = 1;
     return options;
 }
 
-/** Energies in J. What a run starts with equals, up to the integrator's error,
- *  kinetic + elastic + guard + gravity + impact - projection at any later time. */
+/** Energies in J. */
 typedef struct dem_energy {
     double kinetic;
     double elastic;    /**< of the springs                                                               (1) */
     double guard;      /**< of the folding guard */
     double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
-    double impact;     /**< taken by impacts so far, >= 0                                                (9) */
+    double impact;     /**< taken by impacts so far, >= 0                                          (9), (10) */
+    double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
+    double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
     double projection; /**< put in by returning nodes from the skin to the surface so far */
 } dem_energy;
 
-/** A lasting contact: a weighted combination of nodes held on a segment. Node against segment is one node of weight
- *  1. */
+/** What stays constant in a run, up to the integrator's error. */
+static inline double dem_energy_ledger(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection;
+}
+
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
 
+/** A lasting contact: a weighted combination of nodes held by an obstacle. A node on a segment is one node of weight 1;
+ *  an obstacle's vertex on a body's edge is two nodes of weights 1 - s and s. */
 typedef struct dem_contact {
     int32_t n_nodes; /**< 1 to 4 */
     dem_contact_state state;
     dem_index nodes[4];
     double weights[4];  /**< sum 1 */
     dem_index obstacle; /**< index of the obstacle */
-    dem_index segment;  /**< index of the segment within it */
+    dem_index segment;  /**< index of the segment within it; of a vertex, the segment that ends there */
+    double x[2];        /**< m, where it acts */
     double normal[2];   /**< unit, out of the obstacle */
     double force;       /**< N, reaction along the normal at the last accepted step, >= 0 */
+    double friction;    /**< N, reaction along the tangent (normal[1], -normal[0]) */
 } dem_contact;
 
-/** What an impact did. */
-typedef struct dem_impact {
+/** What can happen to a contact. */
+typedef enum dem_event_kind {
+    DEM_EVENT_IMPACT,  /**< a velocity jumped; the contact lasts if `state` is not FREE */
+    DEM_EVENT_CLOSE,   /**< a contact begins to last without an impact */
+    DEM_EVENT_RELEASE, /**< a lasting contact opens */
+    DEM_EVENT_SLIP,    /**< a sticking contact begins to slide */
+    DEM_EVENT_STICK,   /**< a sliding contact comes to rest, or turns back if `state` is SLIP */
+    DEM_EVENT_PASS     /**< a lasting contact reaches the end of a segment or of a body's edge */
+} dem_event_kind;
+
+typedef struct dem_event {
     double t; /**< s */
-    dem_index node;
-    dem_index obstacle, segment;
-    double x[2];                /**< m, place on the surface */
+    dem_event_kind kind;
+    dem_contact_state state;    /**< of the contact afterwards */
+    dem_index node;             /**< that touches; of an edge its first */
+    dem_index other;            /**< the second node of the edge, or -1 */
+    double weight;              /**< of `other`, s; 0 without it */
+    dem_index obstacle;         /**< index of the obstacle */
+    dem_index segment;          /**< index of the segment within it; of a vertex, the segment that ends there */
+    double x[2];                /**< m, place on the obstacle */
     double normal[2];           /**< unit, out of the obstacle; in a corner that of the faster approached segment */
-    double impulse[2];          /**< N s, given to the node */
-    double before[2], after[2]; /**< m/s */
-    int32_t closed;             /**< 1 if the contact lasts */
-} dem_impact;
+    double impulse[2];          /**< N s, given to the body; 0 but for impacts */
+    double before[2], after[2]; /**< m/s, of the body at the contact */
+    double energy;              /**< J, taken by the impact, >= 0 */
+} dem_event;
 
 /** All a simulation remembers of the motion; arrays are views, valid until its next non-const call. */
 typedef struct dem_state {
@@ -287,12 +330,14 @@ typedef struct dem_body_motion {
     double angular_momentum; /**< about the centre of mass, kg m^2/s */
 } dem_body_motion;
 
-/** What an obstacle feels. */
+/** What an obstacle gives to the bodies. */
 typedef struct dem_obstacle_load {
-    double reaction[2]; /**< N, instantaneous sum over its lasting contacts, as it acts on the bodies */
-    double impulse[2];  /**< N s, given to the bodies up to the last accepted step: impacts plus time integral of the
-                             reaction (trapezoidal rule)                                              */
-    dem_index contacts; /**< closed now */
+    double reaction[2];         /**< N, instantaneous sum over its lasting contacts */
+    double point[2];            /**< m, where that resultant acts: on its line of action, nearest to the mean place of
+                                     the contacts weighted by their forces; 0 without contacts */
+    double impulse[2];          /**< N s, so far: impacts, and the reactions integrated over time */
+    double friction_impulse[2]; /**< N s, the tangential part of it */
+    dem_index contacts;         /**< closed now */
 } dem_obstacle_load;
 
 typedef struct dem_counts {
@@ -300,9 +345,12 @@ typedef struct dem_counts {
     dem_index rejected;           /**< by its error test */
     dem_index evaluations;        /**< of the right-hand side (4) */
     dem_index events;             /**< stops at contact events */
-    dem_index impacts;            /**< of single nodes */
+    dem_index impacts;            /**< of nodes on segments and of edges on vertices */
+    dem_index vertex_impacts;     /**< of edges on vertices */
+    dem_index early;              /**< of all impacts, those taken together with another one within the window */
     dem_index closings, releases; /**< contacts that began and ceased to last */
-    dem_index passings;           /**< of a segment's end by a lasting contact */
+    dem_index slips, sticks;      /**< lasting contacts that began to slide, that stopped or turned back */
+    dem_index passings;           /**< of a segment's or an edge's end by a lasting contact */
     dem_index late;    /**< contact events that the root finder had not seen, found by the check after each step */
     dem_index retries; /**< attempts repeated with a smaller step after a non-finite force */
     dem_index behind;  /**< nodes that have passed round the end of an open obstacle, now */
@@ -325,7 +373,7 @@ DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *
 /** Accepts NULL. */
 DEM_API void dem_simulation_destroy(dem_simulation *simulation);
 
-/** Integrates (4) to t_end, with (9) at every impact. The state there is interpolated, never stepped to, so a run to
+/** Integrates (4) to t_end, with (9) and friction at every impact. The state there is interpolated, never stepped to, so a run to
  *  t1 continued to t2 is a run to t2.
  *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state */
 DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
@@ -358,7 +406,7 @@ typedef struct dem_observer {
     double interval; /**< s between frames, the first at t = 0; <= 0: no frames */
     dem_status (*frame)(void *context, const dem_simulation *simulation); /**< state interpolated to the frame */
     dem_status (*step)(void *context, const dem_simulation *simulation);  /**< after every accepted step and at t = 0 */
-    dem_status (*impact)(void *context, const dem_simulation *simulation, const dem_impact *impact);
+    dem_status (*event)(void *context, const dem_simulation *simulation, const dem_event *event);
     void *context;
 } dem_observer;
 

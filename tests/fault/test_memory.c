@@ -48,7 +48,7 @@ static int left_half(void *context, const double x[2])
 
 static dem_status build(dem_lattice *lattice)
 {
-    const dem_material rubber = {1e7, 1050.0, 1.0, 0.02};
+    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const double down[2] = {0.0, -5.0}, lift[2] = {0.0, 1e-4};
     dem_lattice other;
     dem_index parts;
@@ -87,7 +87,7 @@ static dem_status write_and_run(dem_simulation *simulation)
 static dem_status run(void)
 {
     const double points[6] = {-0.3, 0.0, 0.0, -0.005, 0.3, 0.0};
-    const dem_obstacle obstacle = {3, points, 0.5};
+    const dem_obstacle obstacle = {.n_points = 3, .points = points, .restitution = 0.5};
     const dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model = NULL;

@@ -78,7 +78,7 @@ static void random_block(gsl_rng *rng, solid *s, double x, double y)
 
 static void random_body(gsl_rng *rng, scene *sc)
 {
-    const dem_material rubber = {1e7, 1050.0, 1.0, 0.02};
+    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const double speed = uniform(rng, 0.0, 8.0), heading = uniform(rng, -3.0, 0.0);
     const double velocity[2] = {speed * cos(heading), speed * sin(heading)},
                  lift[2] = {uniform(rng, -0.15, 0.15), 0.75};
@@ -114,8 +114,9 @@ static void random_scene(gsl_rng *rng, scene *sc)
     if (gsl_rng_uniform(rng) < 0.5)
         random_block(rng, &sc->solids[sc->n++], uniform(rng, -0.1, 0.1), uniform(rng, 0.2, 0.4));
     for (int k = 0; k < sc->n; k++)
-        sc->obstacles[k] =
-            (dem_obstacle){sc->solids[k].n_exposed, sc->solids[k].points, restitutions[gsl_rng_uniform_int(rng, 5)]};
+        sc->obstacles[k] = (dem_obstacle){.n_points = sc->solids[k].n_exposed,
+                                          .points = sc->solids[k].points,
+                                          .restitution = restitutions[gsl_rng_uniform_int(rng, 5)]};
     sc->options.gravity[1] = gsl_rng_uniform(rng) < 0.5 ? -9.81 : -2000.0;
     sc->options.rtol = 1e-6;
     random_body(rng, sc);
@@ -153,7 +154,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-static dem_status weigh(void *context, const dem_simulation *simulation, const dem_impact *impact)
+static dem_status weigh(void *context, const dem_simulation *simulation, const dem_event *impact)
 {
     verdict *v = context;
     const double m = dem_model_lattice(dem_simulation_model(simulation))->mass[impact->node];
@@ -166,7 +167,7 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
 static void total_energy(support_run *run, double *total, double *scale)
 {
     const dem_energy e = dem_simulation_energy(run->simulation);
-    *total = e.kinetic + e.elastic + e.guard + e.gravity + e.impact - e.projection;
+    *total = dem_energy_ledger(e);
     *scale = e.kinetic + e.elastic + e.guard + e.impact;
 }
 

@@ -26,7 +26,8 @@ typedef struct flight {
 
 static void begin(flight *f, dem_index n_obstacles)
 {
-    const dem_obstacle obstacles[2] = {{2, floor_points, 0.0}, {2, table_points, 0.0}};
+    const dem_obstacle obstacles[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.0},
+                                       {.n_points = 2, .points = table_points, .restitution = 0.0}};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0, options.gravity[1] = -g;

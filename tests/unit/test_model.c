@@ -68,7 +68,7 @@ static const double not_a_number = (double)NAN, infinite = (double)INFINITY;
 static void null_arguments_are_named(void **state)
 {
     const double points[4] = {0.0, 0.0, 1.0, 0.0};
-    const dem_obstacle obstacle = {2, points, 0.0};
+    const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.0};
     dem_model *model;
     square s;
     (void)state;
@@ -244,7 +244,7 @@ static void body_numbers_have_no_holes(void **state)
 static void obstacles_are_validated_too(void **state)
 {
     const double points[4] = {0.0, 0.0, 0.0, 0.0};
-    const dem_obstacle obstacle = {2, points, 0.0};
+    const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.0};
     dem_model *model;
     square s;
     (void)state;
@@ -297,7 +297,7 @@ static void by_default_the_boundary_may_touch(void **state)
 
 static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
 {
-    const double down[2] = {0.0, -9.81};
+    const model_load down = {.gravity = {0.0, -9.81}};
     square s;
     (void)state;
     make_square(&s);
@@ -309,7 +309,7 @@ static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
     assert_int_equal(model->n_sites, 1);
     assert_int_equal(model->sites[0], 0);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 a = model_acceleration(model, down, i, s.position);
+        const vec2 a = model_acceleration(model, &down, i, s.position, s.velocity);
         assert_close(model->inverse_mass[i], i % 2 == 1 ? 0.0 : 1.0 / s.mass[i], 0.0);
         assert_int_equal(a.x == 0.0 && a.y == 0.0, i % 2 == 1);
     }
@@ -320,7 +320,7 @@ static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
 static void the_model_is_independent_of_what_it_was_made_from(void **state)
 {
     double points[4] = {-5.0, 0.0, 5.0, 0.0};
-    const dem_obstacle obstacle = {2, points, 0.25};
+    const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.25};
     const double at[2] = {0.5, 2.0};
     dem_model *model;
     dem_index n;
@@ -350,7 +350,8 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
 static void sizes_and_csr_tell_what_is_there(void **state)
 {
     const double points[6] = {-5.0, 0.0, 0.0, 0.0, 5.0, 0.0};
-    const dem_obstacle obstacles[2] = {{3, points, 0.0}, {2, points, 0.0}};
+    const dem_obstacle obstacles[2] = {{.n_points = 3, .points = points, .restitution = 0.0},
+                                       {.n_points = 2, .points = points, .restitution = 0.0}};
     static const dem_index row[n_nodes + 1] = {0, 3, 5, 8, 10},
                                          neighbour[2 * n_springs] = {1, 2, 3, 0, 2, 0, 1, 3, 0, 2};
     static const dem_index spring[2 * n_springs] = {0, 4, 3, 0, 1, 4, 1, 2, 3, 2};
@@ -423,7 +424,9 @@ static void without_springs_spacing_and_frequency_are_zero(void **state)
  * moved so that triangle 0 1 2 is squeezed to 0.1: springs, guard and weight all act. */
 static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
 {
-    const double step = 1e-6, gravity[2] = {0.5, -9.81};
+    const double step = 1e-6, v[2 * n_nodes] = {0};
+    const model_load load = {.gravity = {0.5, -9.81}};
+    const double *gravity = load.gravity;
     double x[2 * n_nodes];
     square s;
     (void)state;
@@ -434,7 +437,7 @@ static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void
     x[5] = 0.1;
     assert_true(triangles_node_energy(&model->triangles, 2, x) > 1.0);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 a = model_acceleration(model, gravity, i, x), force = model_force(model, i, x);
+        const vec2 a = model_acceleration(model, &load, i, x, v), force = model_force(model, i, x, v);
         for (int k = 0; k < 2; k++) {
             const double here = x[2 * i + k], f = k == 0 ? force.x : force.y;
             x[2 * i + k] = here + step;

@@ -24,7 +24,8 @@ static obstacle_set compile(const double *points, dem_index n_points, double res
 
 static obstacle_set compile_both(void)
 {
-    const dem_obstacle list[2] = {{4, valley, 0.25}, {5, block, 0.5}};
+    const dem_obstacle list[2] = {{.n_points = 4, .points = valley, .restitution = 0.25},
+                                  {.n_points = 5, .points = block, .restitution = 0.5}};
     obstacle_set o;
     assert_ok(obstacles_compile(&o, list, 2));
     return o;
@@ -47,7 +48,9 @@ static void refuse(const dem_obstacle *list, dem_index n, const char *message)
 
 static void an_obstacle_of_one_point_or_none_is_refused(void **state)
 {
-    const dem_obstacle list[2] = {{4, valley, 0.0}, {1, valley, 0.0}}, none = {2, NULL, 0.0};
+    const dem_obstacle list[2] = {{.n_points = 4, .points = valley, .restitution = 0.0},
+                                  {.n_points = 1, .points = valley, .restitution = 0.0}},
+                       none = {.n_points = 2, .points = NULL, .restitution = 0.0};
     (void)state;
     refuse(list, 2, "obstacle 1 has 1 points, at least 2 are needed");
     refuse(&none, 1, "obstacle 0 has 2 points, at least 2 are needed");
@@ -55,7 +58,9 @@ static void an_obstacle_of_one_point_or_none_is_refused(void **state)
 
 static void restitution_must_lie_between_0_and_1(void **state)
 {
-    const dem_obstacle above = {4, valley, 1.5}, below = {4, valley, -0.25}, nan = {4, valley, fabs((double)NAN)};
+    const dem_obstacle above = {.n_points = 4, .points = valley, .restitution = 1.5},
+                       below = {.n_points = 4, .points = valley, .restitution = -0.25},
+                       nan = {.n_points = 4, .points = valley, .restitution = fabs((double)NAN)};
     (void)state;
     refuse(&above, 1, "obstacle 0: restitution must be in [0, 1], got 1.5");
     refuse(&below, 1, "obstacle 0: restitution must be in [0, 1], got -0.25");
@@ -65,7 +70,8 @@ static void restitution_must_lie_between_0_and_1(void **state)
 static void a_point_that_is_not_finite_is_named(void **state)
 {
     const double infinite[6] = {0.0, 0.0, 1.0, 0.0, 2.0, (double)INFINITY}, nan[4] = {0.0, 0.0, (double)NAN, 0.0};
-    const dem_obstacle first = {3, infinite, 0.0}, second = {2, nan, 0.0};
+    const dem_obstacle first = {.n_points = 3, .points = infinite, .restitution = 0.0},
+                       second = {.n_points = 2, .points = nan, .restitution = 0.0};
     (void)state;
     refuse(&first, 1, "obstacle 0: point 2 is not finite");
     refuse(&second, 1, "obstacle 0: point 1 is not finite");
@@ -74,7 +80,9 @@ static void a_point_that_is_not_finite_is_named(void **state)
 static void a_segment_without_length_is_named(void **state)
 {
     const double twice[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0}, far[4] = {-1e308, 0.0, 1e308, 0.0};
-    const dem_obstacle list[2] = {{4, valley, 0.0}, {3, twice, 0.0}}, wide = {2, far, 0.0};
+    const dem_obstacle list[2] = {{.n_points = 4, .points = valley, .restitution = 0.0},
+                                  {.n_points = 3, .points = twice, .restitution = 0.0}},
+                       wide = {.n_points = 2, .points = far, .restitution = 0.0};
     (void)state;
     refuse(list, 2, "obstacle 1: segment 1 has length 0 m");
     refuse(&wide, 1, "obstacle 0: segment 0 has length inf m");
@@ -229,7 +237,8 @@ static void obstacles_can_be_left_out_or_asked_alone(void **state)
 static void inside_one_of_several_obstacles_is_inside(void **state)
 {
     const double ground[4] = {-4.0, 0.0, 4.0, 0.0}, wall[4] = {2.0, -1.0, 2.0, 3.0};
-    const dem_obstacle list[2] = {{2, ground, 0.0}, {2, wall, 0.0}};
+    const dem_obstacle list[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
+                                  {.n_points = 2, .points = wall, .restitution = 0.0}};
     obstacle_set o;
     (void)state;
     assert_ok(obstacles_compile(&o, list, 2));
@@ -395,7 +404,9 @@ static void a_polyline_that_meets_itself_is_refused(void **state)
     static const double crossing[8] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 1.0, -1.0},
                         back[6] = {0.0, 0.0, 2.0, 0.0, 1.0, 0.0};
     static const double six[10] = {-1.0, 0.0, 3.0, 0.0, 3.0, 2.0, 1.0, 2.0, 1.0, 0.0};
-    const dem_obstacle list[3] = {{4, crossing, 0.0}, {3, back, 0.0}, {5, six, 0.0}};
+    const dem_obstacle list[3] = {{.n_points = 4, .points = crossing, .restitution = 0.0},
+                                  {.n_points = 3, .points = back, .restitution = 0.0},
+                                  {.n_points = 5, .points = six, .restitution = 0.0}};
     static const char *const messages[3] = {"obstacle 0: segments 0 and 2 meet",
                                             "obstacle 0: segment 1 goes back over segment 0",
                                             "obstacle 0: segments 0 and 3 meet"};

@@ -167,7 +167,7 @@ static void the_rebound_is_measured_against_gravity(void **state)
 {
     (void)state;
     const double wall[4] = {0.0, 9.0, 0.0, -9.0}, x[4] = {drop, 0.0, 50.0, 1.0}, m[2] = {1.0, 3.0};
-    const dem_obstacle obstacle = {2, wall, eta};
+    const dem_obstacle obstacle = {.n_points = 2, .points = wall, .restitution = eta};
     const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
     dem_options options = dem_options_default();
     dem_lattice lattice;
@@ -248,7 +248,7 @@ static void without_springs_there_is_no_strain(void **state)
 static void the_smallest_triangle_is_told(void **state)
 {
     (void)state;
-    const dem_material rubber = {1e7, 1000.0, 1.0, 0.02};
+    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);

@@ -13,16 +13,17 @@ static const double skin = 1e-3, g = 10.0, mass = 2.0;
 
 /* A floor of 4 m and, 3 m above its end, a ceiling; bodies live between them. */
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {6.0, 3.0, 3.0, 3.0};
-static const dem_obstacle room[2] = {{2, floor_points, 0.5}, {2, ceiling_points, 0.5}};
+static const dem_obstacle room[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.5},
+                                     {.n_points = 2, .points = ceiling_points, .restitution = 0.5}};
 
 /* A groove of 90 degrees with its bottom in the origin. */
 static const double groove_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-static const dem_obstacle groove = {3, groove_points, 0.0};
+static const dem_obstacle groove = {.n_points = 3, .points = groove_points, .restitution = 0.0};
 
 static contact_scene open_scene(const dem_obstacle *obstacles, dem_index n_obstacles)
 {
-    const double x[2] = {1.0, 1.0};
-    contact_scene scene = {.rule = {.skin = skin, .max_step = 0.1, .gravity = {0.0, -g}}};
+    const double x[4] = {1.0, 1.0};
+    contact_scene scene = {.rule = {.skin = skin, .max_step = 0.1, .load.gravity = {0.0, -g}}};
     dem_lattice lattice;
     dem_model *model;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
@@ -55,7 +56,7 @@ static contact_site held_site(void)
 static void check_guards(const contact_scene *scene, const contact_site *site, double x, double y, double g0, double g1,
                          double g2)
 {
-    const double at[2] = {x, y};
+    const double at[4] = {x, y};
     double guards[SITE_GUARDS] = {77.0, 77.0, 77.0};
     site_guards(scene, site, at, guards);
     assert_close(guards[0], g0, 1e-13);
@@ -124,11 +125,11 @@ static void a_held_site_watches_both_reactions(void **state)
     contact_scene scene = open_scene(&groove, 1);
     const contact_site site = held_site();
     double reaction[2];
-    const double at[2] = {0.0, 0.0};
+    const double at[4] = {0.0, 0.0};
     check_guards(&scene, &site, 0.0, 0.0, mass * g * sqrt(0.5), mass * g * sqrt(0.5), 1.0);
-    scene.rule.gravity[0] = -g; /* into the left flank, whose normal is (1, 1)/sqrt 2 */
+    scene.rule.load.gravity[0] = -g; /* into the left flank, whose normal is (1, 1)/sqrt 2 */
     check_guards(&scene, &site, 0.0, 0.0, mass * g * sqrt(2.0), 0.0, 1.0);
-    scene.rule.gravity[1] = 0.0;
+    scene.rule.load.gravity[1] = 0.0;
     check_guards(&scene, &site, 0.0, 0.0, mass * g * sqrt(0.5), -mass * g * sqrt(0.5), 1.0);
     site_reactions(&scene, &site, at, reaction);
     assert_close(reaction[0], mass * g * sqrt(0.5), 1e-13);
@@ -149,7 +150,7 @@ static void the_force_on_a_site_is_elastic_and_weight(void **state)
     support_lattice(&lattice, 2, x, masses, 1, ends, 1.0, 100.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, room, 2));
     dem_lattice_free(&lattice);
-    const contact_scene scene = {model, {.skin = skin, .gravity = {0.5, -g}}};
+    const contact_scene scene = {model, {.skin = skin, .load.gravity = {0.5, -g}}};
     const vec2 force = site_force(&scene, &site, now);
     assert_close(force.x, 1.0, 1e-14);
     assert_close(force.y, 30.0, 1e-14);
@@ -164,7 +165,7 @@ static void the_force_on_a_site_is_elastic_and_weight(void **state)
 static int end_passed(const contact_scene *scene, double x, double vx)
 {
     const contact_site site = sliding_site(0);
-    const double at[2] = {x, 0.0}, v[2] = {vx, 0.0};
+    const double at[4] = {x, 0.0}, v[2] = {vx, 0.0};
     return site_end_passed(scene, &site, at, v);
 }
 
@@ -188,10 +189,10 @@ static void at_rest_the_force_tells_where_it_heads(void **state)
     (void)state;
     contact_scene scene = open_scene(room, 2);
     assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 0);
-    scene.rule.gravity[0] = 1.0;
+    scene.rule.load.gravity[0] = 1.0;
     assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 1);
     assert_int_equal(end_passed(&scene, -1.01 * skin, 0.0), 0);
-    scene.rule.gravity[0] = -1.0;
+    scene.rule.load.gravity[0] = -1.0;
     assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 0);
     assert_int_equal(end_passed(&scene, -1.01 * skin, 0.0), -1);
     close_scene(&scene);
@@ -213,7 +214,7 @@ static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(v
     assert_false(due(&scene, &site, 4.0 + 1.01 * skin, 0.0, -1.0));
     assert_true(due(&scene, &site, 3.5, 3.0 + 1.01 * skin, 1.0));
     assert_false(due(&scene, &site, 3.5, 3.0 + 0.99 * skin, 1.0));
-    scene.rule.gravity[1] = 0.0;
+    scene.rule.load.gravity[1] = 0.0;
     assert_true(due(&scene, &site, 2.0, 0.0, 1.0));
     close_scene(&scene);
 }
@@ -224,9 +225,9 @@ static void a_held_site_is_due_when_either_reaction_ceases(void **state)
     contact_scene scene = open_scene(&groove, 1);
     const contact_site site = held_site();
     assert_false(due(&scene, &site, 0.0, 0.0, 0.0));
-    scene.rule.gravity[0] = 1.01 * g;
+    scene.rule.load.gravity[0] = 1.01 * g;
     assert_true(due(&scene, &site, 0.0, 0.0, 0.0));
-    scene.rule.gravity[0] = -1.01 * g;
+    scene.rule.load.gravity[0] = -1.01 * g;
     assert_true(due(&scene, &site, 0.0, 0.0, 0.0));
     close_scene(&scene);
 }
@@ -257,7 +258,7 @@ static void fly(flight *f, const double x[2], const double v[2], double a, doubl
  * t + h, and its end is on the deep side. */
 static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
 {
-    const double x[2] = {1.0, 0.2}, v[2] = {0.3, 0.0}, start = 7.0, t = sqrt(2.0 * (0.2 + skin) / g);
+    const double x[4] = {1.0, 0.2}, v[2] = {0.3, 0.0}, start = 7.0, t = sqrt(2.0 * (0.2 + skin) / g);
     flight f;
     (void)state;
     contact_scene scene = open_scene(room, 2);
@@ -273,7 +274,7 @@ static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
 
 static void a_crossing_at_the_end_of_a_rooted_step_is_the_root_itself(void **state)
 {
-    const double x[2] = {1.0, 0.2}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * (0.2 + skin) / g);
+    const double x[4] = {1.0, 0.2}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * (0.2 + skin) / g);
     flight f;
     (void)state;
     contact_scene scene = open_scene(room, 2);
@@ -291,7 +292,7 @@ static void a_crossing_at_the_end_of_a_rooted_step_is_the_root_itself(void **sta
 static void a_dip_within_the_step_is_found(void **state)
 {
     const double depth = 0.05, a = 10.0, bottom = 0.2; /* y = -depth + a (t - bottom)^2/2 */
-    const double x[2] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
+    const double x[4] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
     flight f;
     (void)state;
     contact_scene scene = open_scene(room, 2);
@@ -313,7 +314,7 @@ static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
     const contact_site site = free_site();
     for (int k = 0; k < 2; k++) {
         const double depth = skin + (k == 0 ? 1e-6 : -1e-6);
-        const double x[2] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
+        const double x[4] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
         flight f;
         fly(&f, x, v, a, 0.0, end);
         const double found = site_first_crossing(&scene, &site, &f.path, k == 1);
@@ -327,7 +328,7 @@ static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
 
 static void a_site_out_of_reach_never_crosses(void **state)
 {
-    const double x[2] = {1.0, 0.9}, v[2] = {4.0, 0.0};
+    const double x[4] = {1.0, 0.9}, v[2] = {4.0, 0.0};
     flight f;
     (void)state;
     contact_scene scene = open_scene(room, 2);
@@ -340,7 +341,7 @@ static void a_site_out_of_reach_never_crosses(void **state)
 /* Slides from x = 3 with 2 m/s: beyond the end by the skin after half a second and the time for that. */
 static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
 {
-    const double x[2] = {3.0, 0.0}, v[2] = {2.0, 0.0};
+    const double x[4] = {3.0, 0.0}, v[2] = {2.0, 0.0};
     double scratch[4];
     flight f;
     (void)state;

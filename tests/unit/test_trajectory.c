@@ -34,8 +34,9 @@ static void make_model(run *r, int n_obstacles)
 {
     const double floor[8] = {-1.0, 0.0, -0.5, 0.0, 0.5, 0.0, 1.0, 0.0}, far[4] = {4.0, -1.0, 5.0, -1.0};
     const double offset[2] = {0.0, 3e-4}, velocity[2] = {1.0, -5.0};
-    const dem_obstacle obstacles[2] = {{4, floor, 0.5}, {2, far, 0.25}};
-    const dem_material rubber = {1e7, 1050.0, 1.0, 0.02};
+    const dem_obstacle obstacles[2] = {{.n_points = 4, .points = floor, .restitution = 0.5},
+                                       {.n_points = 2, .points = far, .restitution = 0.25}};
+    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     dem_lattice lattice;
     assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 5e-3), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);

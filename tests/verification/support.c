@@ -43,11 +43,12 @@ void support_start(dem_lattice *lattice, const double *position, const double *v
     if (velocity != NULL) lattice->velocity = copy(velocity, size);
 }
 
-static dem_status record(void *context, const dem_simulation *simulation, const dem_impact *impact)
+static dem_status record(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     support_run *run = context;
     (void)simulation;
-    if (run->n_impacts < SUPPORT_IMPACTS) run->impacts[run->n_impacts] = *impact;
+    if (event->kind != DEM_EVENT_IMPACT) return DEM_OK;
+    if (run->n_impacts < SUPPORT_IMPACTS) run->impacts[run->n_impacts] = *event;
     run->n_impacts++;
     return DEM_OK;
 }
@@ -56,7 +57,7 @@ void support_open(support_run *run, const dem_lattice *lattice, const dem_obstac
                   const dem_options *options)
 {
     *run = (support_run){0};
-    const dem_observer observer = {.impact = record, .context = run};
+    const dem_observer observer = {.event = record, .context = run};
     assert_ok(dem_model_create(&run->model, lattice, obstacles, n_obstacles));
     assert_ok(dem_simulation_create(&run->simulation, run->model, options));
     assert_ok(dem_simulation_observe(run->simulation, &observer));

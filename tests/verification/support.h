@@ -29,7 +29,7 @@ typedef struct support_run {
     dem_model *model;
     dem_simulation *simulation;
     dem_index n_impacts; /* all of them; the first SUPPORT_IMPACTS are kept */
-    dem_impact impacts[SUPPORT_IMPACTS];
+    dem_event impacts[SUPPORT_IMPACTS];
 } support_run;
 
 /** Model and simulation of a lattice, impacts recorded. */

@@ -21,10 +21,10 @@ static void check_bounces(double eta, const double *times, int n, double t_star)
     for (int k = 0; k < n; k++) {
         assert_close(run.impacts[k].t, times[k], 1e-9);
         assert_close(run.impacts[k].after[1], eta * sqrt(2.0 * g * height) * pow(eta, k), 1e-9);
-        assert_int_equal(run.impacts[k].closed, 0);
+        assert_int_equal(run.impacts[k].state, DEM_CONTACT_FREE);
     }
-    const dem_impact last = run.impacts[run.n_impacts - 1];
-    assert_int_equal(last.closed, 1);
+    const dem_event last = run.impacts[run.n_impacts - 1];
+    assert_int_not_equal(last.state, DEM_CONTACT_FREE);
     assert_close(last.t, t_star, 1e-5); /* what is left of the series after the last hop taken */
     const dem_index n_impacts = run.n_impacts;
     for (double t = t_star + 0.1; t < 10.0; t += 0.7) {

@@ -180,7 +180,8 @@ static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
 {
     const double x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0}, mass = 2.0;
     const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.5, -1.0, 0.5, 1.0};
-    const dem_obstacle obstacles[2] = {{2, ground, 0.0}, {2, wall, 0.5}};
+    const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
+                                       {.n_points = 2, .points = wall, .restitution = 0.5}};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     support_run run;
@@ -254,7 +255,8 @@ static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
         const double angle = 0.1 * (k / 2), c = cos(angle), s = sin(angle), lean = k % 2 == 0 ? 0.0 : -0.1;
         const double ground[4] = {-2.0 * c, -2.0 * s, 2.0 * c, 2.0 * s};
         const double wall[4] = {0.5 * c, 0.5 * s, (0.5 + lean) * c - s, (0.5 + lean) * s + c};
-        const dem_obstacle obstacles[2] = {{2, ground, 0.0}, {2, wall, 0.0}};
+        const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
+                                           {.n_points = 2, .points = wall, .restitution = 0.0}};
         const double x[2] = {0.0, 0.0}, v[2] = {c, s}, mass = 1.0;
         dem_options options = dem_options_default();
         dem_lattice lattice;
