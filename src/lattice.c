@@ -84,6 +84,7 @@ static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned
     lattice->n_springs = pack_corners(lattice->ends, 2, n, number, whole);
     pack(lattice->rest_length, sizeof *lattice->rest_length, n, whole);
     pack(lattice->stiffness, sizeof *lattice->stiffness, n, whole);
+    pack(lattice->viscosity, sizeof *lattice->viscosity, n, whole);
 }
 
 static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
@@ -186,6 +187,9 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     CHECK_MEMORY(out->rest_length);
     CHECK_MEMORY(out->stiffness);
     for (dem_index k = 2 * n; k < 2 * (n + m); k++) out->ends[k] += a->n_nodes;
+    if (a->viscosity == NULL && b->viscosity == NULL) return DEM_OK;
+    out->viscosity = join(a->viscosity, n, b->viscosity, m, sizeof *out->viscosity);
+    CHECK_MEMORY(out->viscosity);
     return DEM_OK;
 }
 
@@ -245,6 +249,7 @@ void dem_lattice_free(dem_lattice *lattice)
     free(lattice->ends);
     free(lattice->rest_length);
     free(lattice->stiffness);
+    free(lattice->viscosity);
     free(lattice->triangles);
     free(lattice->guard);
     free(lattice->flags);

@@ -116,6 +116,8 @@ static dem_status check_material(const dem_material *material)
     CHECK(is_positive(material->thickness), DEM_ERROR_ARGUMENT, "thickness must be > 0: %g m", material->thickness);
     CHECK(isfinite(material->guard) && material->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g",
           material->guard);
+    CHECK(isfinite(material->damping_time) && material->damping_time >= 0.0, DEM_ERROR_ARGUMENT,
+          "damping_time must be >= 0: %g s", material->damping_time);
     return DEM_OK;
 }
 
@@ -159,6 +161,16 @@ static void fill_springs(dem_lattice *solid, const sides *edges, const dem_latti
         }
 }
 
+/* Kelvin-Voigt: a strain rate e' acts like the strain damping_time e'. */
+static dem_status fill_viscosity(dem_lattice *solid, double damping_time)
+{
+    if (damping_time == 0.0) return DEM_OK;
+    solid->viscosity = lattice_zeros(solid->n_springs, sizeof *solid->viscosity);
+    CHECK_MEMORY(solid->viscosity);
+    for (dem_index k = 0; k < solid->n_springs; k++) solid->viscosity[k] = damping_time * solid->stiffness[k];
+    return DEM_OK;
+}
+
 /* Hands the arrays of a solid over; `solid` gets the old ones. */
 static void give(dem_lattice *lattice, dem_lattice *solid)
 {
@@ -168,15 +180,17 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     lattice->ends = solid->ends;
     lattice->rest_length = solid->rest_length;
     lattice->stiffness = solid->stiffness;
+    lattice->viscosity = solid->viscosity;
     lattice->guard = solid->guard;
     solid->mass = old.mass;
     solid->ends = old.ends;
     solid->rest_length = old.rest_length;
     solid->stiffness = old.stiffness;
+    solid->viscosity = old.viscosity;
     solid->guard = old.guard;
 }
 
-/* Into `solid`, which the caller frees after a failure: masses, springs, guard. */
+/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, guard. */
 static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const dem_material *material)
 {
     const double modulus = material->youngs_modulus * material->thickness; /* E h */
@@ -198,7 +212,7 @@ static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const
     if (complete) fill_springs(solid, &edges, lattice, modulus);
     sides_free(&edges);
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)solid->n_springs);
-    return DEM_OK;
+    return fill_viscosity(solid, material->damping_time);
 }
 
 dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing)

@@ -11,6 +11,14 @@
         assert_string_equal(dem_status_message(), message);                                                            \
     } while (0)
 
+/* 0.5, 1.5, ... N s */
+static void give_viscosity(dem_lattice *lattice)
+{
+    lattice->viscosity = calloc((size_t)lattice->n_springs, sizeof *lattice->viscosity);
+    assert_non_null(lattice->viscosity);
+    for (dem_index k = 0; k < lattice->n_springs; k++) lattice->viscosity[k] = 0.5 + (double)k;
+}
+
 /* ---- parts, select ---- */
 
 static void parts_are_numbered_by_their_lowest_nodes(void **state)
@@ -43,6 +51,7 @@ static void select_keeps_every_array_in_step(void **state)
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
     lattice.velocity[8] = 7.0;
     lattice.guard[1] = 5.0;
+    give_viscosity(&lattice);
     lattice.body = calloc(5, sizeof *lattice.body);
     lattice.flags = calloc(5, sizeof *lattice.flags);
     lattice.position = calloc(10, sizeof *lattice.position);
@@ -55,6 +64,7 @@ static void select_keeps_every_array_in_step(void **state)
     assert_int_equal(lattice.ends[4], 1);
     assert_int_equal(lattice.ends[5], 2);
     assert_close(lattice.stiffness[2], stiffness, 0.0);
+    assert_close(lattice.viscosity[2], 5.5, 0.0);
     assert_close(lattice.mass[2], top_mass, 0.0);
     assert_close(lattice.velocity[4], 7.0, 0.0);
     assert_close(lattice.position[5], 8.0, 0.0);
@@ -166,6 +176,25 @@ static void append_keeps_who_may_touch_and_where_the_motion_starts(void **state)
     dem_lattice_free(&point);
 }
 
+static void append_gives_undamped_springs_no_viscosity_beside_damped_ones(void **state)
+{
+    (void)state;
+    dem_lattice all, damped = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.0, 1.0);
+    dem_lattice_init(&all);
+    give_viscosity(&damped);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_null(all.viscosity);
+    assert_int_equal(dem_lattice_append(&all, &damped), DEM_OK);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_int_equal(plain.n_springs, 3);
+    assert_int_equal(all.n_springs, 3 + 6 + 3);
+    for (dem_index k = 0; k < 12; k++) assert_close(all.viscosity[k], k >= 3 && k < 9 ? (double)k - 2.5 : 0.0, 0.0);
+    dem_lattice_free(&all);
+    assert_null(all.viscosity);
+    dem_lattice_free(&damped);
+    dem_lattice_free(&plain);
+}
+
 static void append_refuses_mixed_and_broken_lattices(void **state)
 {
     (void)state;
@@ -196,6 +225,7 @@ int main(void)
         cmocka_unit_test(launch_refuses_what_is_no_velocity),
         cmocka_unit_test(append_numbers_nodes_and_bodies_behind_the_others),
         cmocka_unit_test(append_keeps_who_may_touch_and_where_the_motion_starts),
+        cmocka_unit_test(append_gives_undamped_springs_no_viscosity_beside_damped_ones),
         cmocka_unit_test(append_refuses_mixed_and_broken_lattices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

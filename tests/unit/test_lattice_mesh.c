@@ -291,6 +291,21 @@ static void a_material_without_guard_leaves_guard_NULL(void **state)
     dem_lattice_free(&lattice);
 }
 
+static void viscosity_is_damping_time_times_stiffness(void **state)
+{
+    (void)state;
+    dem_material damped = rubber;
+    damped.damping_time = 3e-5;
+    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
+    assert_null(plain.viscosity);
+    assert_int_equal(dem_lattice_assemble(&lattice, &damped), DEM_OK);
+    assert_memory_equal(lattice.stiffness, plain.stiffness, (size_t)plain.n_springs * sizeof(double));
+    for (dem_index k = 0; k < lattice.n_springs; k++)
+        assert_close(lattice.viscosity[k], 3e-5 * plain.stiffness[k], 0.0);
+    dem_lattice_free(&lattice);
+    dem_lattice_free(&plain);
+}
+
 /* Energy (1) under x -> (1 + s strain) x; strain = xx, yy, xy. */
 static double spring_energy(const dem_lattice *lattice, const double strain[3], double s)
 {
@@ -361,6 +376,10 @@ static void assembling_refuses_impossible_materials(void **state)
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "thickness must be > 0: inf m");
     m = rubber, m.guard = -0.1;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "guard must be >= 0: -0.1");
+    m = rubber, m.damping_time = -1e-6;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: -1e-06 s");
+    m.damping_time = (double)INFINITY;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: inf s");
     assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
     assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
     dem_lattice_free(&lattice);
@@ -385,6 +404,7 @@ int main(void)
         cmocka_unit_test(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary),
         cmocka_unit_test(masses_and_guard_are_those_of_the_triangles),
         cmocka_unit_test(a_material_without_guard_leaves_guard_NULL),
+        cmocka_unit_test(viscosity_is_damping_time_times_stiffness),
         cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_plane_stress_at_nu_one_third),
         cmocka_unit_test(assembling_refuses_what_is_not_a_triangulation),
         cmocka_unit_test(assembling_refuses_impossible_materials),
