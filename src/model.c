@@ -47,6 +47,8 @@ static dem_status check_springs(const dem_lattice *l)
               "spring %lld: rest length must be > 0, got %g m", (long long)k, l->rest_length[k]);
         CHECK(isfinite(l->stiffness[k]) && l->stiffness[k] > 0.0, DEM_ERROR_MODEL,
               "spring %lld: stiffness must be > 0, got %g N", (long long)k, l->stiffness[k]);
+        CHECK(l->viscosity == NULL || (isfinite(l->viscosity[k]) && l->viscosity[k] >= 0.0), DEM_ERROR_MODEL,
+              "spring %lld: viscosity must be >= 0, got %g N s", (long long)k, l->viscosity[k]);
         CHECK(l->body == NULL || l->body[i] == l->body[j], DEM_ERROR_MODEL, "spring %lld joins bodies %d and %d",
               (long long)k, l->body[i], l->body[j]);
     }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* CSR adjacency compiled from triplets; energies and strains of springs. The force itself is inline in springs.h. */
+/* CSR adjacency compiled from triplets; energies, strains and bounds of springs. The forces are inline in springs.h. */
 #include "springs.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "status.h"
@@ -22,6 +23,7 @@ static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *b
         s->spring[p] = k;
         s->stiffness[p] = lattice->stiffness[k];
         s->rest_length[p] = lattice->rest_length[k];
+        if (s->viscosity != NULL) s->viscosity[p] = lattice->viscosity[k];
     }
 }
 
@@ -43,7 +45,7 @@ static dem_status refuse_duplicates(const springs *s)
     return DEM_OK;
 }
 
-static dem_status allocate(springs *s)
+static dem_status allocate(springs *s, bool damped)
 {
     const size_t n = (size_t)s->n_nodes, slots = 2 * (size_t)s->n_springs + 1;
     s->row = calloc(n + 1, sizeof *s->row);
@@ -51,8 +53,9 @@ static dem_status allocate(springs *s)
     s->spring = malloc(slots * sizeof *s->spring);
     s->stiffness = malloc(slots * sizeof *s->stiffness);
     s->rest_length = malloc(slots * sizeof *s->rest_length);
-    CHECK(s->row && s->neighbour && s->spring && s->stiffness && s->rest_length, DEM_ERROR_MEMORY,
-          "out of memory for %lld springs", (long long)s->n_springs);
+    if (damped) s->viscosity = malloc(slots * sizeof *s->viscosity);
+    CHECK(s->row && s->neighbour && s->spring && s->stiffness && s->rest_length && (s->viscosity || !damped),
+          DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)s->n_springs);
     return DEM_OK;
 }
 
@@ -61,7 +64,7 @@ dem_status springs_compile(springs *out, const dem_lattice *lattice)
     springs s = {.n_nodes = lattice->n_nodes, .n_springs = lattice->n_springs};
     dem_index *next = malloc((size_t)s.n_nodes * sizeof *next);
     dem_index *by_node = malloc((2 * (size_t)s.n_springs + 1) * sizeof *by_node);
-    dem_status status = allocate(&s);
+    dem_status status = allocate(&s, lattice->viscosity != NULL);
     if (status == DEM_OK && !(next && by_node)) status = status_fail(DEM_ERROR_MEMORY, "out of memory");
     if (status != DEM_OK) goto out;
     count_rows(&s, lattice);
@@ -85,6 +88,7 @@ void springs_free(springs *s)
     free(s->spring);
     free(s->stiffness);
     free(s->rest_length);
+    free(s->viscosity);
     *s = (springs){0};
 }
 
@@ -123,14 +127,37 @@ void springs_strains(const springs *s, const double *x, double *strain)
             if (s->neighbour[p] > i) strain[s->spring[p]] = springs_strain(s, i, p, x);
 }
 
-double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass)
+/* Of the spring in slot p of row i, 1/s. */
+static double strain_rate(const springs *s, dem_index i, dem_index p, const double *x, const double *v)
+{
+    const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
+    const vec2 dv = vec2_sub(vec2_at(v, s->neighbour[p]), vec2_at(v, i));
+    return vec2_dot(d, dv) / (s->rest_length[p] * vec2_norm(d));
+}
+
+double springs_damping_power(const springs *s, const double *x, const double *v)
+{
+    double power = 0.0;
+    if (s->viscosity == NULL) return power;
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            if (s->neighbour[p] < i) continue;
+            const double rate = strain_rate(s, i, p, x, v);
+            power += s->viscosity[p] * rate * rate * s->rest_length[p];
+        }
+    return power;
+}
+
+/* Springs of strength c (N or N s) make the matrix A with u.A u = sum of c/d0 (n.(u_j - u_i))^2, which is at most
+ * 2 sum of u_i.S_i u_i, S_i = sum over j of c/d0 n n^T. So no eigenvalue of M^-1 A is above the largest 2 |S_i|/m_i. */
+static double eigenvalue_bound(const springs *s, const double *strength, const double *x, const double *inverse_mass)
 {
     double bound = 0.0;
     for (dem_index i = 0; i < s->n_nodes; i++) {
-        double xx = 0.0, xy = 0.0, yy = 0.0; /* S_i = sum of k n n^T */
+        double xx = 0.0, xy = 0.0, yy = 0.0; /* S_i */
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
-            const double k = s->stiffness[p] / s->rest_length[p] / vec2_dot(d, d);
+            const double k = strength[p] / s->rest_length[p] / vec2_dot(d, d);
             xx += k * d.x * d.x;
             xy += k * d.x * d.y;
             yy += k * d.y * d.y;
@@ -139,4 +166,14 @@ double springs_frequency_bound(const springs *s, const double *x, const double *
         bound = fmax(bound, 2.0 * largest * inverse_mass[i]);
     }
     return bound;
+}
+
+double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass)
+{
+    return eigenvalue_bound(s, s->stiffness, x, inverse_mass);
+}
+
+double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass)
+{
+    return s->viscosity != NULL ? eigenvalue_bound(s, s->viscosity, x, inverse_mass) : 0.0;
 }

@@ -58,7 +58,15 @@ double springs_strain(const springs *s, dem_index i, dem_index p, const double *
 /** Strain of every spring, in the order of the lattice.  \param[out] strain  [n_springs] */
 void springs_strains(const springs *s, const double *x, double *strain);
 
+/** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
+double springs_damping_power(const springs *s, const double *x, const double *v);
+
 /** Upper bound of 2 |S_i|/m_i over the nodes that have mass and may move, 1/s^2; see dem_model_omega_max(). */
 double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass);
+
+/** Upper bound, 1/s, of the eigenvalues of M^-1 C about the shape x, C the damping matrix of the springs: the same with
+ *  viscosities in place of stiffnesses; 0 undamped. An eigenvalue of the damped motion, of mass damping alpha too, is
+ *  of modulus at most max(omega_max, this + alpha). */
+double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass);
 
 #endif

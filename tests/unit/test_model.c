@@ -11,6 +11,7 @@ enum { n_nodes = 4, n_springs = 5, n_triangles = 2 };
 /* A square of 1 m with one diagonal, every array given: the lattice points into the arrays beside it. */
 typedef struct square {
     double x[2 * n_nodes], mass[n_nodes], rest_length[n_springs], stiffness[n_springs], guard[n_triangles];
+    double viscosity[n_springs];
     double position[2 * n_nodes], velocity[2 * n_nodes];
     dem_index ends[2 * n_springs], triangles[3 * n_triangles];
     unsigned char flags[n_nodes];
@@ -23,6 +24,7 @@ static const square plain = {.x = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0},
                              .rest_length = {1.0, 1.0, 0.5, 1.0, 1.5},
                              .stiffness = {10.0, 20.0, 30.0, 40.0, 50.0},
                              .guard = {0.1, 0.2},
+                             .viscosity = {1.0, 2.0, 0.0, 4.0, 5.0},
                              .position = {0.0, 5.0, 1.0, 5.0, 1.0, 6.0, 0.0, 6.0},
                              .velocity = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0},
                              .ends = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2},
@@ -176,6 +178,20 @@ static void springs_join_two_nodes_of_one_body_with_length_and_stiffness(void **
     refuse(&s, DEM_ERROR_MODEL, "springs 1 and 4 both join nodes 1 and 2");
 }
 
+static void viscosities_are_finite_and_not_negative(void **state)
+{
+    square s;
+    (void)state;
+    make_square(&s);
+    s.lattice.viscosity = s.viscosity;
+    s.viscosity[4] = -0.5;
+    refuse(&s, DEM_ERROR_MODEL, "spring 4: viscosity must be >= 0, got -0.5 N s");
+    s.viscosity[4] = infinite;
+    refuse(&s, DEM_ERROR_MODEL, "spring 4: viscosity must be >= 0, got inf N s");
+    s.viscosity[3] = not_a_number;
+    refuse(&s, DEM_ERROR_MODEL, "spring 3: viscosity must be >= 0, got nan N s");
+}
+
 static void spring_and_triangle_arrays_must_be_there(void **state)
 {
     square s;
@@ -263,6 +279,8 @@ static void absent_arrays_get_their_defaults(void **state)
     dem_model *model = compile(&s);
     const dem_lattice *l = dem_model_lattice(model);
     assert_memory_equal(l->position, s.x, sizeof s.x);
+    assert_null(l->viscosity);
+    assert_null(dem_model_csr(model).viscosity);
     for (int k = 0; k < 2 * n_nodes; k++) assert_close(l->velocity[k], 0.0, 0.0);
     for (int i = 0; i < n_nodes; i++) {
         assert_int_equal(l->body[i], 0);
@@ -328,6 +346,7 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
     (void)state;
     make_square(&s);
     s.lattice.position = s.position;
+    s.lattice.viscosity = s.viscosity;
     assert_ok(dem_model_create(&model, &s.lattice, &obstacle, 1));
     points[1] = points[3] = 100.0;
     memset(s.x, 0xff, offsetof(square, lattice));
@@ -337,6 +356,7 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
     assert_memory_equal(l->ends, plain.ends, sizeof plain.ends);
     assert_memory_equal(l->rest_length, plain.rest_length, sizeof plain.rest_length);
     assert_memory_equal(l->stiffness, plain.stiffness, sizeof plain.stiffness);
+    assert_memory_equal(l->viscosity, plain.viscosity, sizeof plain.viscosity);
     assert_memory_equal(l->triangles, plain.triangles, sizeof plain.triangles);
     assert_memory_equal(l->guard, plain.guard, sizeof plain.guard);
     assert_memory_equal(l->position, plain.position, sizeof plain.position);
@@ -359,6 +379,7 @@ static void sizes_and_csr_tell_what_is_there(void **state)
     square s;
     (void)state;
     make_square(&s);
+    s.lattice.viscosity = s.viscosity;
     assert_ok(dem_model_create(&model, &s.lattice, obstacles, 2));
     const dem_model_size size = dem_model_sizes(model);
     const dem_index expected[7] = {n_nodes, n_springs, n_triangles, 1, n_nodes, 2, 3};
@@ -373,6 +394,7 @@ static void sizes_and_csr_tell_what_is_there(void **state)
     for (int p = 0; p < 2 * n_springs; p++) {
         assert_close(csr.stiffness[p], plain.stiffness[spring[p]], 0.0);
         assert_close(csr.rest_length[p], plain.rest_length[spring[p]], 0.0);
+        assert_close(csr.viscosity[p], plain.viscosity[spring[p]], 0.0);
     }
     dem_model_destroy(model);
 }
@@ -452,6 +474,25 @@ static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void
     dem_model_destroy(model);
 }
 
+/* Node 1 of 2 kg moves with (3, 4) m/s away from node 0 (c = 1 N s) and along the spring to node 2 (c = 2 N s), both
+ * of 1 m: damping (-1 * 3, -2 * 4) N, and -0.5/s of the velocity. Exact. */
+static void damping_of_springs_and_mass_slow_a_node(void **state)
+{
+    const double v[2 * n_nodes] = {0.0, 0.0, 3.0, 4.0};
+    const model_load load = {.gravity = {0.0, -10.0}, .mass_damping = 0.5};
+    square s;
+    (void)state;
+    make_square(&s);
+    s.lattice.viscosity = s.viscosity;
+    dem_model *model = compile(&s);
+    const vec2 force = model_force(model, 1, s.x, v), a = model_acceleration(model, &load, 1, s.x, v);
+    assert_close(force.x, -3.0, 0.0);
+    assert_close(force.y, -8.0, 0.0);
+    assert_close(a.x, -3.0 / 2.0 - 0.5 * 3.0, 0.0);
+    assert_close(a.y, -8.0 / 2.0 - 0.5 * 4.0 - 10.0, 0.0);
+    dem_model_destroy(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -461,6 +502,7 @@ int main(void)
         cmocka_unit_test(masses_must_be_positive),
         cmocka_unit_test(bodies_are_numbered_below_the_number_of_nodes),
         cmocka_unit_test(springs_join_two_nodes_of_one_body_with_length_and_stiffness),
+        cmocka_unit_test(viscosities_are_finite_and_not_negative),
         cmocka_unit_test(spring_and_triangle_arrays_must_be_there),
         cmocka_unit_test(triangles_are_counter_clockwise_and_guards_not_negative),
         cmocka_unit_test(a_node_without_springs_must_be_a_body_of_its_own),
@@ -474,6 +516,7 @@ int main(void)
         cmocka_unit_test(spacing_mass_and_the_frequency_bound_are_those_of_the_springs),
         cmocka_unit_test(without_springs_spacing_and_frequency_are_zero),
         cmocka_unit_test(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node),
+        cmocka_unit_test(damping_of_springs_and_mass_slow_a_node),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
