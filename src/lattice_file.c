@@ -20,6 +20,7 @@ enum array {
     ENDS,
     REST_LENGTH,
     STIFFNESS,
+    VISCOSITY,
     CORNERS,
     GUARD,
     BODY,
@@ -43,6 +44,7 @@ static const struct dataset {
     [ENDS] = {"/lattice/ends", HDF5_I64, SPRINGS, 2, 1},
     [REST_LENGTH] = {"/lattice/rest_length", HDF5_F64, SPRINGS, 1, 1},
     [STIFFNESS] = {"/lattice/stiffness", HDF5_F64, SPRINGS, 1, 1},
+    [VISCOSITY] = {"/lattice/viscosity", HDF5_F64, SPRINGS, 1, 0},
     [CORNERS] = {"/lattice/triangles", HDF5_I64, TRIANGLES, 3, 0},
     [GUARD] = {"/lattice/guard", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
@@ -299,6 +301,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->ends = r->data[ENDS];
     lattice->rest_length = r->data[REST_LENGTH];
     lattice->stiffness = r->data[STIFFNESS];
+    lattice->viscosity = r->data[VISCOSITY];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
     lattice->body = r->data[BODY];
@@ -375,6 +378,7 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, ENDS, deflate, m, lattice->ends));
     TRY(write_array(file, REST_LENGTH, deflate, m, lattice->rest_length));
     TRY(write_array(file, STIFFNESS, deflate, m, lattice->stiffness));
+    TRY(write_array(file, VISCOSITY, deflate, m, lattice->viscosity));
     TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
     TRY(write_array(file, GUARD, deflate, t, lattice->guard));
     TRY(write_array(file, BODY, deflate, n, lattice->body));

@@ -4,7 +4,8 @@
 
 #include <dem/trajectory.h>
 
-#include <hdf5.h>
+#include "lattice_file.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -124,6 +125,7 @@ static void what_is_not_there_is_null(void **state)
     assert_int_equal(lattice.n_triangles, 0);
     assert_memory_equal(lattice.x, x, sizeof x);
     assert_memory_equal(lattice.ends, ends, sizeof ends);
+    assert_null(lattice.viscosity);
     assert_null(lattice.triangles);
     assert_null(lattice.guard);
     assert_null(lattice.flags);
@@ -161,6 +163,24 @@ static void integers_do_for_reals(void **state)
     for (int k = 0; k < 5; k++) assert_close(lattice.mass[k], k + 1.0, 0.0);
     for (int k = 0; k < 10; k++) assert_close(lattice.velocity[k], (double)ends[k], 0.0);
     dem_lattice_free(&lattice);
+}
+
+static void viscosity_is_read_and_comes_back_as_it_was_written(void **state)
+{
+    (void)state;
+    const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0};
+    put_real("viscosity", 6, 0, viscosity);
+    for (int deflate = 0; deflate < 2; deflate++) {
+        hdf5_file file;
+        dem_lattice lattice = read_lattice();
+        assert_memory_equal(lattice.viscosity, viscosity, sizeof viscosity);
+        assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
+        assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
+        dem_lattice_free(&lattice);
+    }
+    dem_lattice back = read_lattice();
+    assert_memory_equal(back.viscosity, viscosity, sizeof viscosity);
+    dem_lattice_free(&back);
 }
 
 static void assert_flags(const unsigned char expected[5])
@@ -249,7 +269,7 @@ static void unknown_names_are_refused(void **state)
         char message[256];
         (void)snprintf(message, sizeof message,
                        "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
-                       "triangles, guard, body, position, velocity, fixed, contact_nodes",
+                       "viscosity, triangles, guard, body, position, velocity, fixed, contact_nodes",
                        path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);
@@ -306,6 +326,9 @@ static void inconsistent_extents_and_indices_are_refused(void **state)
     put_real("stiffness", 5, 0, ones);
     INCONSISTENT("/stiffness: has 5 rows where the datasets before it have 6");
     put_real("stiffness", 6, 0, ones);
+    put_real("viscosity", 5, 0, ones);
+    INCONSISTENT("/viscosity: has 5 rows where the datasets before it have 6");
+    drop("viscosity");
     put_whole("contact_nodes", 2, 0, (int64_t[2]){4, 5});
     INCONSISTENT("/contact_nodes: entry 1 is 5, which is no node: there are 5");
     drop("contact_nodes");
@@ -413,6 +436,7 @@ int main(void)
         WITH_FILE(what_is_not_there_is_null),
         WITH_FILE(any_width_of_number_is_read),
         WITH_FILE(integers_do_for_reals),
+        WITH_FILE(viscosity_is_read_and_comes_back_as_it_was_written),
         WITH_FILE(fixed_nodes_leave_the_rule_of_contact_as_it_is),
         WITH_FILE(a_body_of_one_node_needs_no_springs),
         WITH_FILE(files_that_are_none_are_refused),
