@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is measured on a state: energies, mean motions, strains. Sums run in the order of the model. */
+/* What is measured on a state: energies, powers, mean motions, strains. Sums run in the order of the model. */
 #ifndef DEM_DIAGNOSTICS_H
 #define DEM_DIAGNOSTICS_H
 
@@ -7,6 +7,9 @@
 
 /** Kinetic, elastic, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
 dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v);
+
+/** Power that damping takes, of springs and masses, W, >= 0. */
+double diagnostics_damping_power(const dem_model *model, const model_load *load, const double *x, const double *v);
 
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v);
 

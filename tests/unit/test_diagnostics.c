@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* diagnostics.c: energies and mean motion of bodies that move rigidly, extremes of strain by hand. */
+/* diagnostics.c: energies and mean motion of bodies that move rigidly, extremes of strain by hand, and the power of
+ * damping. */
 #include "../verification/support.h"
 
 #include <stdlib.h>
@@ -243,6 +244,101 @@ static void without_springs_and_triangles_there_is_no_strain(void **state)
     dem_model_destroy(model);
 }
 
+/* ---- damping ---- */
+
+static double pseudo(dem_index k)
+{
+    return sin(12.9898 * (double)(k + 1)); /* in [-1, 1], without an order */
+}
+
+/* A damped block with its lowest row fixed, strained by some 10 % and moving at about 1 m/s. */
+static moving make_damped(double damping_time)
+{
+    const dem_material soft = {
+        .youngs_modulus = 1e5, .density = 1000.0, .thickness = 0.5, .damping_time = damping_time};
+    moving m = {.model = NULL};
+    dem_lattice lattice;
+    assert_ok(dem_lattice_rectangle(&lattice, 0.4, 0.3, 0.1));
+    assert_ok(dem_lattice_assemble(&lattice, &soft));
+    lattice.flags = calloc((size_t)lattice.n_nodes, 1);
+    assert_non_null(lattice.flags);
+    for (int i = 0; i < 5; i++) lattice.flags[i] = DEM_NODE_FIXED;
+    assert_ok(dem_model_create(&m.model, &lattice, NULL, 0));
+    const dem_index n = lattice.n_nodes;
+    dem_lattice_free(&lattice);
+    m.x = malloc(2 * (size_t)n * sizeof *m.x);
+    m.v = malloc(2 * (size_t)n * sizeof *m.v);
+    assert_true(m.x != NULL && m.v != NULL);
+    for (dem_index k = 0; k < 2 * n; k++) {
+        m.x[k] = m.model->lattice.x[k] + (k < 10 ? 0.0 : 0.01 * pseudo(k));
+        m.v[k] = k < 10 ? 0.0 : pseudo(7 * k);
+    }
+    return m;
+}
+
+/* W, forces times velocities, node by node for every spring of the lattice: < 0. */
+static double power_of_damping_forces(const moving *m, double mass_damping)
+{
+    const dem_lattice *l = &m->model->lattice;
+    double given = 0.0;
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index i = l->ends[2 * k], j = l->ends[2 * k + 1];
+        const double dx = m->x[2 * j] - m->x[2 * i], dy = m->x[2 * j + 1] - m->x[2 * i + 1], d = hypot(dx, dy);
+        const double rate = (dx * (m->v[2 * j] - m->v[2 * i]) + dy * (m->v[2 * j + 1] - m->v[2 * i + 1])) / d;
+        const double pull = l->viscosity[k] * rate / l->rest_length[k];
+        given += pull * (dx * m->v[2 * i] + dy * m->v[2 * i + 1]) / d;
+        given -= pull * (dx * m->v[2 * j] + dy * m->v[2 * j + 1]) / d;
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        for (int c = 0; c < 2; c++) given -= mass_damping * l->mass[i] * m->v[2 * i + c] * m->v[2 * i + c];
+    return given;
+}
+
+/* Relative rounding of sums of some hundred terms. */
+static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
+{
+    const model_load loads[2] = {{{0.5, -10.0}, 0.0}, {{0.5, -10.0}, 40.0}};
+    (void)state;
+    moving m = make_damped(1e-3);
+    for (int k = 0; k < 2; k++) {
+        const double power = diagnostics_damping_power(m.model, &loads[k], m.x, m.v);
+        assert_true(power > 100.0);
+        assert_close(power, -power_of_damping_forces(&m, loads[k].mass_damping), 1e-12 * power);
+    }
+    free_moving(&m);
+}
+
+/* It is also what the accelerations of damped and undamped motion differ by; fixed nodes have none, whatever v is. */
+static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
+{
+    const model_load load = {{0.5, -10.0}, 40.0}, free_of_it = {{0.5, -10.0}, 0.0};
+    double lacking = 0.0;
+    (void)state;
+    moving m = make_damped(1e-3), plain = make_damped(0.0);
+    for (dem_index i = 0; i < m.model->lattice.n_nodes; i++) {
+        const vec2 damped = model_acceleration(m.model, &load, i, m.x, m.v);
+        const vec2 undamped = model_acceleration(plain.model, &free_of_it, i, m.x, m.v);
+        lacking += m.model->lattice.mass[i] * vec2_dot(vec2_sub(undamped, damped), vec2_at(m.v, i));
+    }
+    const double power = diagnostics_damping_power(m.model, &load, m.x, m.v);
+    assert_close(power, lacking, 1e-11 * power); /* differences of accelerations ten times as large */
+    assert_close(diagnostics_damping_power(plain.model, &free_of_it, m.x, m.v), 0.0, 0.0);
+    free_moving(&m);
+    free_moving(&plain);
+}
+
+static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves(void **state)
+{
+    const model_load load = {{0.0, 0.0}, 3.0};
+    (void)state;
+    moving m = make_damped(0.0);
+    m.v[0] = 100.0; /* of a fixed node */
+    const double kinetic = diagnostics_energy(m.model, gravity, m.x, m.v).kinetic;
+    const double fixed = 0.5 * m.model->lattice.mass[0] * 100.0 * 100.0;
+    assert_close(diagnostics_damping_power(m.model, &load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
+    free_moving(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +349,9 @@ int main(void)
         cmocka_unit_test(inverted_triangles_have_negative_areas_and_count_where_guarded),
         cmocka_unit_test(elastic_energy_is_that_of_the_springs),
         cmocka_unit_test(without_springs_and_triangles_there_is_no_strain),
+        cmocka_unit_test(the_power_of_damping_is_minus_that_of_its_forces),
+        cmocka_unit_test(the_power_of_damping_is_what_the_accelerations_lack),
+        cmocka_unit_test(mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
