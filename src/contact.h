@@ -1,28 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contact automaton of all sites: what changes when a node touches an obstacle, leaves it, slides off a
- * segment's end or is stopped in a corner. Guards (site.c) and resets depend on (t, x, v) and the forces that follow
- * from x, and on nothing of the integrator. What an impact does to a velocity is impact.c's. */
+/* The contact automaton FREE - SLIP - STICK of all sites: what changes when one touches an obstacle, leaves it, stops
+ * or begins to slide, passes an end or is stopped in a corner. Guards (site.c) and resets depend on (t, x, v) and the
+ * forces that follow from them, and on nothing of the integrator. What an impact does to a velocity is impact.c's. */
 #ifndef DEM_CONTACT_H
 #define DEM_CONTACT_H
 
-#include "site.h"
+#include "search.h"
+#include "sites.h"
 
 typedef struct contact {
-    contact_scene scene;
-    contact_site *sites;      /* [n_sites of the model] */
-    double impact_energy;     /* J, taken so far */
-    double projection_energy; /* J, put in so far */
-    double *impulse;          /* [n_obstacles][2] N s, given to the bodies so far */
-    dem_counts counts;        /* impacts, closings, releases, passings, late, behind */
-    dem_index idle;           /* events in a row that changed nothing */
+    contact_sites sites;
+    dem_index idle; /* events in a row that changed nothing */
 } contact;
 
-/** Who is told of events. */
-typedef struct contact_listener {
-    dem_status (*event)(void *context, const dem_event *event);
-    void *context;
-} contact_listener;
-
+/** `out` must stay where it is. */
 dem_status contact_create(contact *out, const dem_model *model, const contact_rule *rule);
 void contact_destroy(contact *c);
 
@@ -33,19 +24,20 @@ dem_status contact_admissible(const contact *c, const double *x);
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener);
 
 /** Values of all guards at a state, [n_sites][SITE_GUARDS]: see site_guards(). */
-void contact_guards(const contact *c, const double *y, double *g);
+void contact_guards(contact *c, const double *y, double *g);
 
-/** Takes from the accelerations a [n][2] what the closed contacts hold. */
-void contact_constrain(const contact *c, double *a);
+/** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
+void contact_constrain(contact *c, const double *y, double *a);
 
 /** Looks in an accepted step for what the root finder has not seen: a site inside an obstacle, a closed contact that
  *  should have ended, an entry and exit within the step. If there is one, cuts path->end short to the first and
  *  returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
-/** Follows an accepted step of length h that ends at y: adds the reactions' impulse over it, refreshes the forces,
- *  and notes which nodes have come from behind an obstacle to its front. */
-void contact_follow(contact *c, double h, const double *y);
+/** Follows an accepted step that ends at y: adds the reactions' impulses and the work of friction over it (Simpson's
+ *  rule), refreshes the forces, and notes which nodes have come round the end of an obstacle.
+ *  \param[out] state  [4 n] scratch */
+void contact_follow(contact *c, const path *p, const double *y, double *state);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.
@@ -53,7 +45,7 @@ void contact_follow(contact *c, double h, const double *y);
  *  status other than DEM_OK that the listener returned */
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener);
 
-/** Closed contacts, in the order of nodes, into list [2 n_sites]; returns their number. */
-dem_index contact_list(const contact *c, dem_contact *list);
+/** Closed contacts at positions x, in the order of sites, into list [2 n_sites]; returns their number. */
+dem_index contact_list(const contact *c, const double *x, dem_contact *list);
 
 #endif

@@ -77,3 +77,34 @@ dem_strain diagnostics_strain(const dem_model *model, const double *x)
     measure_triangles(model, x, &strain);
     return strain;
 }
+
+/* Force of a contact on the body. */
+static vec2 contact_force(const dem_contact *c)
+{
+    const vec2 n = vec2_at(c->normal, 0), t = {n.y, -n.x};
+    return vec2_along(vec2_scale(c->force, n), c->friction, t);
+}
+
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle)
+{
+    dem_obstacle_load load = {0};
+    vec2 sum = {0.0, 0.0}, mean = {0.0, 0.0};
+    double weight = 0.0, moment = 0.0; /* about the mean place */
+    for (dem_index k = 0; k < n; k++) {
+        if (list[k].obstacle != obstacle) continue;
+        const double size = vec2_norm(contact_force(&list[k]));
+        load.contacts++;
+        sum = vec2_add(sum, contact_force(&list[k]));
+        mean = vec2_along(mean, size, vec2_at(list[k].x, 0));
+        weight += size;
+    }
+    if (weight > 0.0) mean = vec2_scale(1.0 / weight, mean);
+    for (dem_index k = 0; k < n; k++)
+        if (list[k].obstacle == obstacle)
+            moment += vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k]));
+    const double square = vec2_dot(sum, sum);
+    const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
+    vec2_put(load.reaction, 0, sum);
+    vec2_put(load.point, 0, vec2_add(mean, arm));
+    return load;
+}

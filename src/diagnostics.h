@@ -15,4 +15,7 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
 
 dem_strain diagnostics_strain(const dem_model *model, const double *x);
 
+/** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle);
+
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restitution (8), (9), Moreau's law for a corner, and the complementarity of reactions. Nowhere else. */
+/* Restitution (8), (9), friction (10) and Coulomb's, Moreau's law for a corner, and the complementarity of reactions.
+ * Nowhere else. */
 #include "impact.h"
 
 #include <stdbool.h>
@@ -24,16 +25,32 @@ static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
     vec2_parts(v, s[0].normal, s[1].normal, p);
 }
 
-vec2 impact_rebound(const impact_surface *surface, int n, vec2 v)
+/* Friction where a surface has changed the normal velocity by `kick`, m/s. */
+static vec2 rub(const impact_surface *s, vec2 v, double kick)
+{
+    const vec2 t = {s->normal.y, -s->normal.x};
+    const double vt = vec2_dot(v, t), limit = s->friction * kick;
+    double after = s->friction * vt; /* (10) */
+    if (s->law == DEM_FRICTION_COULOMB) after = fabs(vt) <= limit ? 0.0 : vt - copysign(limit, vt);
+    return vec2_along(v, after - vt, t);
+}
+
+vec2 impact_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
 {
     double p[2], eta[2];
     inward_parts(surface, n, v, p);
     for (int k = 0; k < n; k++) eta[k] = surface[k].restitution;
     const bool both = n == 2 && p[0] < 0.0 && p[1] < 0.0; /* then all of v is in the cone */
     if (both && vec2_dot(surface[0].normal, surface[1].normal) < 0.0) eta[0] = eta[1] = fmin(eta[0], eta[1]);
-    if (both) v = (vec2){0.0, 0.0};
-    for (int k = 0; k < n; k++) v = vec2_along(v, -(both ? eta[k] : 1.0 + eta[k]) * p[k], surface[k].normal); /* (9) */
-    return v;
+    vec2 after = both ? (vec2){0.0, 0.0} : v;
+    for (int k = 0; k < n; k++) {
+        after = vec2_along(after, -(both ? eta[k] : 1.0 + eta[k]) * p[k], surface[k].normal); /* (9) */
+        kick[k] = vec2_scale(-(1.0 + eta[k]) * p[k], surface[k].normal);
+        if (p[k] == 0.0 || both) continue;
+        after = rub(&surface[k], after, -(1.0 + eta[k]) * p[k]);
+        kick[k] = vec2_sub(after, v);
+    }
+    return after;
 }
 
 int impact_holding(const impact_surface *surface, int n, vec2 force, double *reaction)

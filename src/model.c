@@ -150,6 +150,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(fill_defaults(&m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(surface_compile(&m->surface, &m->lattice));
     TRY(obstacles_compile(&m->obstacles, list, n));
     TRY(compile_nodes(m));
     compile_scales(m);
@@ -186,6 +187,7 @@ void dem_model_destroy(dem_model *model)
     dem_lattice_free(&model->lattice);
     springs_free(&model->springs);
     triangles_free(&model->triangles);
+    surface_free(&model->surface);
     obstacles_free(&model->obstacles);
     free(model->inverse_mass);
     free(model->sites);
@@ -216,8 +218,10 @@ dem_model_size dem_model_sizes(const dem_model *model)
                             .n_triangles = model->lattice.n_triangles,
                             .n_bodies = model->n_bodies,
                             .n_contact_nodes = model->n_sites,
+                            .n_contact_edges = model->surface.n_edges,
                             .n_obstacles = model->obstacles.n,
-                            .n_segments = model->obstacles.n_segments};
+                            .n_segments = model->obstacles.n_segments,
+                            .n_vertices = model->obstacles.n_vertices};
 }
 
 double dem_model_spacing(const dem_model *model)

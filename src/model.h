@@ -5,12 +5,14 @@
 
 #include "obstacle.h"
 #include "springs.h"
+#include "surface.h"
 #include "triangles.h"
 
 struct dem_model {
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
     triangles triangles;
+    surface surface; /* edges that may touch */
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
     dem_index n_sites;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polylines compiled to segments with normals and neighbours; every query goes through all of them. */
+/* Polylines compiled to segments with normals and neighbours. Queries take from a tree of boxes what may matter and
+ * judge it as a loop over all would: ties go to the lowest index whatever the order of visits. */
 #include "obstacle.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,26 +45,9 @@ static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
     return fmax(u, v) >= 0.0 && fmin(u, v) <= length;
 }
 
-/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. */
-static dem_status check_crossings(const dem_obstacle *obstacle, dem_index o)
+static void compile_segments(obstacle_set *set, dem_index o)
 {
-    const dem_index n = obstacle->n_points - 1;
-    const double *p = obstacle->points;
-    for (dem_index i = 0; i + 1 < n; i++) {
-        const vec2 here = vec2_sub(vec2_at(p, i + 1), vec2_at(p, i)),
-                   next = vec2_sub(vec2_at(p, i + 2), vec2_at(p, i + 1));
-        CHECK(vec2_cross(here, next) != 0.0 || vec2_dot(here, next) > 0.0, DEM_ERROR_MODEL,
-              "obstacle %lld: segment %lld goes back over segment %lld", (long long)o, (long long)(i + 1),
-              (long long)i);
-        for (dem_index k = i + 2; k < n - (i == 0 && closed(obstacle)); k++)
-            CHECK(!meet(vec2_at(p, i), vec2_at(p, i + 1), vec2_at(p, k), vec2_at(p, k + 1)), DEM_ERROR_MODEL,
-                  "obstacle %lld: segments %lld and %lld meet", (long long)o, (long long)i, (long long)k);
-    }
-    return DEM_OK;
-}
-
-static void compile_segments(obstacle_set *set, dem_index o, const dem_obstacle *obstacle)
-{
+    const dem_obstacle *obstacle = &set->list[o];
     const dem_index n = obstacle->n_points - 1, first = set->first[o];
     const bool ring = closed(obstacle);
     segment *s = set->segments;
@@ -95,6 +80,44 @@ static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
     return DEM_OK;
 }
 
+/* All that counts as the segment, but for a margin. */
+static box cover(const segment *s)
+{
+    return box_around(vec2_along(s->start, -s->buried[0], s->tangent), vec2_along(s->end, s->buried[1], s->tangent),
+                      0.0);
+}
+
+static dem_status plant_tree(obstacle_set *set, dem_index o)
+{
+    const dem_index n = set->list[o].n_points - 1;
+    TRY(box_tree_create(&set->trees[o], n));
+    for (dem_index k = 0; k < n; k++) {
+        const box around = cover(&set->segments[set->first[o] + k]);
+        box_tree_cover(&set->trees[o], k, &around);
+    }
+    return DEM_OK;
+}
+
+/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. Those
+ * whose boxes are apart are never asked, for which rounding would answer where they lie in line. */
+static dem_status check_crossings(const obstacle_set *set, dem_index o)
+{
+    const segment *s = &set->segments[set->first[o]];
+    const box_tree *tree = &set->trees[o];
+    for (dem_index i = 0; i + 1 < tree->n; i++) {
+        const vec2 here = vec2_sub(s[i].end, s[i].start), next = vec2_sub(s[i + 1].end, s[i + 1].start);
+        CHECK(vec2_cross(here, next) != 0.0 || vec2_dot(here, next) > 0.0, DEM_ERROR_MODEL,
+              "obstacle %lld: segment %lld goes back over segment %lld", (long long)o, (long long)(i + 1),
+              (long long)i);
+        const box around = cover(&s[i]);
+        const dem_index end = i == 0 && s[0].before >= 0 ? tree->n - 1 : tree->n;
+        for (dem_index k = box_tree_seek(tree, i + 2, &around); k < end; k = box_tree_seek(tree, k + 1, &around))
+            CHECK(!meet(s[i].start, s[i].end, s[k].start, s[k].end), DEM_ERROR_MODEL,
+                  "obstacle %lld: segments %lld and %lld meet", (long long)o, (long long)i, (long long)k);
+    }
+    return DEM_OK;
+}
+
 /* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
 static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
 {
@@ -109,28 +132,64 @@ static bool on_segment(const segment *s, double place, double tolerance, double 
     return place >= -(tolerance + before) && place <= s->length + tolerance + after;
 }
 
-/* Takes segment k for the nearest if it is nearer than what was nearest so far. */
+/* Whether what is at this distance is nearer than what was nearest so far. */
+static bool nearer(double distance, dem_index k, const obstacle_gap *nearest)
+{
+    const double so_far = fabs(nearest->distance);
+    return distance < so_far || (distance == so_far && k < nearest->segment);
+}
+
+/* Takes segment k for the nearest if it is. */
 static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, double margin, obstacle_gap *nearest)
 {
     const segment *s = &o->segments[k];
     const double place = segment_place(s, x), height = segment_height(s, x);
     if (on_segment(s, place, 0.0, margin)) {
-        if (fabs(height) < fabs(nearest->distance)) *nearest = (obstacle_gap){height, k, s->normal};
+        if (nearer(fabs(height), k, nearest)) *nearest = (obstacle_gap){height, k, s->normal};
         return;
     }
     const vec2 from = vec2_sub(x, place < 0.0 ? s->start : s->end);
     const double distance = vec2_norm(from);
-    if (distance >= fabs(nearest->distance)) return;
+    if (!nearer(distance, k, nearest)) return;
     const vec2 mean = vertex_normal(o, s, place < 0.0 ? s->before : s->after);
     const double signed_distance = vec2_dot(mean, from) >= 0.0 ? distance : -distance;
     *nearest = (obstacle_gap){signed_distance, k, s->normal};
     if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
 }
 
+/* Twice how far x is outside an interval, 0 in it: without a branch, which would be a coin's throw. */
+static inline double outside_twice(double low, double high, double x)
+{
+    const double below = low - x, above = x - high, most = below > above ? below : above;
+    return most + fabs(most);
+}
+
+/* Square of a distance below which nothing in the box is, even if it is longer by the margin. */
+static inline double clearance(const box *b, vec2 x, double margin)
+{
+    const double dx = outside_twice(b->low.x - margin, b->high.x + margin, x.x),
+                 dy = outside_twice(b->low.y - margin, b->high.y + margin, x.y);
+    return 0.25 * (1.0 - BOX_TREE_ROUNDING) * (dx * dx + dy * dy);
+}
+
 obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
 {
+    const box_tree *tree = &o->trees[obstacle];
+    const double longer = (1.0 + BOX_TREE_ROUNDING) * margin;
+    const dem_index first = o->first[obstacle];
     obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
-    for (dem_index k = o->first[obstacle]; k < o->first[obstacle + 1]; k++) take_nearer(o, k, x, margin, &nearest);
+    box_tree_walk walk;
+    for (dem_index node = box_tree_start(&walk, INFINITY); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, clearance(&children[0], x, longer), clearance(&children[1], x, longer));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            take_nearer(o, first + k, x, margin, &nearest);
+        walk.limit = nearest.distance * nearest.distance;
+        node = box_tree_back(&walk);
+    }
     return nearest;
 }
 
@@ -178,16 +237,26 @@ static void bury_ends(obstacle_set *o)
         const double after = s->after < 0 ? buried_length(o, s, s->end, s->tangent) : 0.0;
         o->segments[k].buried[0] = before;
         o->segments[k].buried[1] = after;
+        const box around = cover(s);
+        box_tree_cover(&o->trees[s->obstacle], s->index, &around);
     }
+}
+
+static bool touches(const segment *s, vec2 x, const obstacle_touch *touch)
+{
+    return fabs(segment_height(s, x)) <= touch->tolerance &&
+           on_segment(s, segment_place(s, x), touch->tolerance, touch->margin);
 }
 
 int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity)
 {
+    const box around = box_around(x, x, 2.0 * touch->tolerance + touch->margin); /* tolerance along and across */
     int n = 0;
-    for (dem_index k = 0; k < o->n_segments && n < capacity; k++) {
-        const segment *s = &o->segments[k];
-        if (s->obstacle == touch->without || fabs(segment_height(s, x)) > touch->tolerance) continue;
-        if (on_segment(s, segment_place(s, x), touch->tolerance, touch->margin)) hits[n++] = k;
+    for (dem_index q = 0; q < o->n; q++) {
+        const box_tree *tree = &o->trees[q];
+        if (q == touch->without) continue;
+        for (dem_index k = -1; n < capacity && (k = box_tree_seek(tree, k + 1, &around)) < tree->n;)
+            if (touches(&o->segments[o->first[q] + k], x, touch)) hits[n++] = o->first[q] + k;
     }
     return n;
 }
@@ -212,23 +281,142 @@ obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards,
     return turn < 0.0 ? OBSTACLE_CONVEX : OBSTACLE_CONCAVE;
 }
 
+/* ---- vertices ---- */
+
+/* At most as many as segments. */
+static dem_status find_vertices(obstacle_set *o)
+{
+    o->vertices = malloc(((size_t)o->n_segments + 1) * sizeof *o->vertices);
+    CHECK_MEMORY(o->vertices);
+    for (dem_index k = 0; k < o->n_segments; k++) {
+        dem_index after;
+        if (obstacles_bend(o, k, false, &after) == OBSTACLE_CONVEX)
+            o->vertices[o->n_vertices++] = (obstacle_vertex){o->segments[k].end, k, after};
+    }
+    TRY(box_tree_create(&o->vertex_tree, o->n_vertices));
+    for (dem_index k = 0; k < o->n_vertices; k++) {
+        const box around = box_around(o->vertices[k].at, o->vertices[k].at, 0.0);
+        box_tree_cover(&o->vertex_tree, k, &around);
+    }
+    return DEM_OK;
+}
+
+/* An edge with its directions: what is asked of every box and vertex. */
+typedef struct line {
+    const obstacle_edge *edge;
+    vec2 tangent, normal;
+    double length; /* m */
+} line;
+
+static bool out_of_question(const obstacle_set *o, const obstacle_edge *edge, dem_index k)
+{
+    const dem_index obstacle = o->segments[o->vertices[k].before].obstacle;
+    return k == edge->except[0] || k == edge->except[1] || obstacle == edge->without[0] || obstacle == edge->without[1];
+}
+
+/* Takes vertex k if it is deeper than the deepest so far. */
+/* Whether x is in front of the edge from p to q, or on it. */
+static bool in_front(vec2 p, vec2 q, vec2 x, double tolerance)
+{
+    const vec2 way = vec2_sub(q, p), from = vec2_sub(x, p);
+    const double square = vec2_dot(way, way), along = vec2_dot(from, way);
+    return along >= 0.0 && along <= square && vec2_cross(way, from) < 2.0 * tolerance * sqrt(square);
+}
+
+/* Whether x, behind the edge, is outside the body round one of its corners. */
+static bool round_corner(const obstacle_edge *edge, vec2 x)
+{
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const bool turns_before = vec2_cross(vec2_sub(edge->a, edge->previous), way) > 0.0;
+    const bool turns_after = vec2_cross(way, vec2_sub(edge->next, edge->b)) > 0.0;
+    return (turns_before && in_front(edge->previous, edge->a, x, edge->tolerance)) ||
+           (turns_after && in_front(edge->b, edge->next, x, edge->tolerance));
+}
+
+static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
+{
+    const obstacle_edge *edge = l->edge;
+    const obstacle_vertex *v = &o->vertices[k];
+    const double distance = vec2_dot(vec2_sub(edge->a, v->at), l->normal);
+    const double place = vec2_dot(vec2_sub(v->at, edge->a), l->tangent);
+    if (!(distance > -edge->depth && distance < edge->reach)) return;
+    if (!(place >= -edge->tolerance && place <= l->length + edge->tolerance)) return;
+    if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
+    const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
+    if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
+    if (distance < 0.0 && round_corner(edge, v->at)) return;
+    *deepest = (obstacle_poke){distance, k, place / l->length, l->normal};
+}
+
+/* A distance below which no vertex in the box is that could be taken; infinity if none could. */
+static double shallowest(const box *b, const line *l)
+{
+    const obstacle_edge *edge = l->edge;
+    const vec2 half = {0.5 * (b->high.x - b->low.x), 0.5 * (b->high.y - b->low.y)};
+    const vec2 centre = vec2_sub((vec2){0.5 * (b->low.x + b->high.x), 0.5 * (b->low.y + b->high.y)}, edge->a);
+    const double rounding = BOX_TREE_ROUNDING * (fabs(centre.x) + fabs(centre.y) + half.x + half.y);
+    const double tx = fabs(l->tangent.x), ty = fabs(l->tangent.y);
+    const double place = vec2_dot(centre, l->tangent), along = tx * half.x + ty * half.y + rounding;
+    const double distance = -vec2_dot(centre, l->normal), across = ty * half.x + tx * half.y + rounding;
+    const bool beside = place + along < -edge->tolerance || place - along > l->length + edge->tolerance;
+    return beside || distance + across < -edge->depth ? INFINITY : distance - across;
+}
+
+obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const box_tree *tree = &o->vertex_tree;
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const double length = vec2_norm(way);
+    const vec2 tangent = vec2_scale(1.0 / length, way);
+    const line l = {edge, tangent, {-tangent.y, tangent.x}, length};
+    obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
+    box_tree_walk walk;
+    for (dem_index node = box_tree_start(&walk, fmin(edge->reach, DBL_MAX)); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, shallowest(&children[0], &l), shallowest(&children[1], &l));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            take_deeper(o, k, &l, &deepest);
+        if (deepest.vertex >= 0) walk.limit = deepest.distance;
+        node = box_tree_back(&walk);
+    }
+    return deepest;
+}
+
+/* ---- compiling ---- */
+
+static dem_status reserve(obstacle_set *o, dem_index n)
+{
+    o->list = calloc((size_t)n + 1, sizeof *o->list);
+    o->segments = malloc(((size_t)o->n_segments + 1) * sizeof *o->segments);
+    o->first = calloc((size_t)n + 1, sizeof *o->first);
+    o->trees = calloc((size_t)n + 1, sizeof *o->trees);
+    CHECK(o->list && o->segments && o->first && o->trees, DEM_ERROR_MEMORY, "out of memory for obstacles");
+    return DEM_OK;
+}
+
+static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
+{
+    const dem_index o = set->n;
+    TRY(copy_points(&set->list[o], obstacle));
+    set->n++;
+    compile_segments(set, o);
+    TRY(plant_tree(set, o));
+    return check_crossings(set, o);
+}
+
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
 {
     obstacle_set o = {0};
     for (dem_index k = 0; k < n; k++) {
         TRY(check_obstacle(&list[k], k));
-        TRY(check_crossings(&list[k], k));
         o.n_segments += list[k].n_points - 1;
     }
-    o.list = calloc((size_t)n + 1, sizeof *o.list);
-    o.segments = malloc(((size_t)o.n_segments + 1) * sizeof *o.segments);
-    o.first = calloc((size_t)n + 1, sizeof *o.first);
-    dem_status status =
-        o.list && o.segments && o.first ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for obstacles");
-    for (; status == DEM_OK && o.n < n; o.n++) {
-        compile_segments(&o, o.n, &list[o.n]);
-        status = copy_points(&o.list[o.n], &list[o.n]);
-    }
+    dem_status status = reserve(&o, n);
+    for (dem_index k = 0; k < n && status == DEM_OK; k++) status = append(&o, &list[k]);
+    if (status == DEM_OK) status = find_vertices(&o);
     if (status == DEM_OK) bury_ends(&o);
     if (status == DEM_OK)
         *out = o;
@@ -239,9 +427,15 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
 
 void obstacles_free(obstacle_set *o)
 {
-    for (dem_index k = 0; k < o->n && o->list; k++) free((void *)(uintptr_t)o->list[k].points);
+    for (dem_index k = 0; k < o->n; k++) {
+        free((void *)(uintptr_t)o->list[k].points);
+        box_tree_free(&o->trees[k]);
+    }
     free(o->list);
     free(o->segments);
     free(o->first);
+    free(o->trees);
+    free(o->vertices);
+    box_tree_free(&o->vertex_tree);
     *o = (obstacle_set){0};
 }

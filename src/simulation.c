@@ -13,6 +13,8 @@
 
 enum { max_observers = 8 };
 
+static const double window_share = 0.0; /* of 1/omega_max: default window */
+
 typedef struct watcher {
     dem_observer observer;
     dem_index next_frame; /* the frame at next_frame * interval comes next */
@@ -40,9 +42,10 @@ struct dem_simulation {
     bool started;
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
-    dem_contact *contacts; /* [2 n_sites] closed ones, as seen */
+    dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
     dem_index n_contacts;
     measures *measures;
+    double damping_energy; /* J, taken so far */
     dem_index events;
     watcher watchers[max_observers];
     int n_watchers;
@@ -69,9 +72,9 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
 /* y = (x, v), f = (v, a) with m a = F(x) + m g, less what the closed contacts hold                       (3), (4) */
 static int derivative(double t, const double *y, double *f, void *context)
 {
-    const dem_simulation *s = context;
+    dem_simulation *s = context;
     const dem_index n = unknowns(s->model);
-    const model_load *load = &s->contact.scene.rule.load;
+    const model_load *load = &s->contact.sites.scene.rule.load;
     double *a = f + n, sum = 0.0;
     for (dem_index k = 0; k < n; k++) sum += f[k] = y[n + k];
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {
@@ -79,7 +82,7 @@ static int derivative(double t, const double *y, double *f, void *context)
         sum += ai.x + ai.y;
         vec2_put(a, i, ai);
     }
-    contact_constrain(&s->contact, a);
+    contact_constrain(&s->contact, y, a);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, f);
     return 1;
@@ -87,7 +90,7 @@ static int derivative(double t, const double *y, double *f, void *context)
 
 static void guards(const double *y, double *g, void *context)
 {
-    const dem_simulation *s = context;
+    dem_simulation *s = context;
     contact_guards(&s->contact, y, g);
 }
 
@@ -98,7 +101,7 @@ static void look_at(dem_simulation *s, double t, const double *y)
     s->seen_t = t;
     s->seen = y;
     *s->measures = (measures){0};
-    s->n_contacts = contact_list(&s->contact, s->contacts);
+    s->n_contacts = contact_list(&s->contact, y, s->contacts);
 }
 
 /* Every watcher is told; the first status other than DEM_OK counts. */
@@ -181,14 +184,29 @@ static dem_status go_on(dem_simulation *s, dem_status status)
     return status == DEM_ERROR_CONTACT ? status : first_of(status, tell_step(s));
 }
 
+/* What damping takes in the step in hand, whose end is in y: Simpson's rule. */
+static void follow_damping(dem_simulation *s)
+{
+    const model_load *load = &s->contact.sites.scene.rule.load;
+    const path *p = &s->path;
+    if (s->model->springs.viscosity == NULL && load->mass_damping == 0.0) return;
+    path_state(p, 0.5 * (p->t0 + p->end), s->frame);
+    const double start = diagnostics_damping_power(s->model, load, p->y0, p->y0 + unknowns(s->model)),
+                 middle = diagnostics_damping_power(s->model, load, s->frame, s->frame + unknowns(s->model)),
+                 end = diagnostics_damping_power(s->model, load, s->y, s->y + unknowns(s->model));
+    s->damping_energy += (p->end - p->t0) / 6.0 * (start + 4.0 * middle + end);
+}
+
 static dem_status commit_step(dem_simulation *s)
 {
     const contact_listener listener = {tell_event, s};
-    path_state(&s->path, s->path.end, s->y);
-    s->step = s->path.end - s->t;
-    s->t = s->path.end;
+    const path *p = &s->path;
+    path_state(p, p->end, s->y);
+    follow_damping(s);
+    contact_follow(&s->contact, p, s->y, s->frame);
+    s->step = p->end - s->t;
+    s->t = p->end;
     s->in_hand = false;
-    contact_follow(&s->contact, s->step, s->y);
     if (!s->at_event) return tell_step(s);
     s->events++;
     return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
@@ -232,6 +250,9 @@ static dem_status check_options(const dem_options *o)
     for (int k = 0; k < 6; k++)
         CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],
               lengths[k]);
+    CHECK(isfinite(o->mass_damping) && o->mass_damping >= 0.0, DEM_ERROR_ARGUMENT, "mass_damping must be >= 0, got %g",
+          o->mass_damping);
+    CHECK(isfinite(o->window), DEM_ERROR_ARGUMENT, "window must be finite, got %g", o->window);
     CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
     return DEM_OK;
 }
@@ -249,15 +270,23 @@ static double default_v_scale(const dem_simulation *s)
     return isfinite(drop) && drop > 0.0 ? fmax(speed, sqrt(2.0 * g * drop)) : speed;
 }
 
+/* Largest rate at which damping slows anything, 1/s. */
+static double damping_rate(const dem_simulation *s)
+{
+    const dem_model *m = s->model;
+    return springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass) + s->options.mass_damping;
+}
+
 static dem_status fill_options(dem_simulation *s)
 {
     dem_options *o = &s->options;
     if (o->spacing == 0.0) o->spacing = s->model->spacing;
     CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
     if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
-    if (o->max_step == 0.0 && s->model->omega_max > 0.0) o->max_step = 0.5 / s->model->omega_max;
+    if (o->max_step == 0.0 && s->model->omega_max > 0.0) o->max_step = 0.5 / fmax(s->model->omega_max, damping_rate(s));
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
     if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
+    if (o->window < 0.0) o->window = s->model->omega_max > 0.0 ? window_share / s->model->omega_max : 0.0;
     if (o->v_scale == 0.0) o->v_scale = default_v_scale(s);
     CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
     return DEM_OK;
@@ -268,7 +297,7 @@ static dem_status allocate(dem_simulation *s)
     const size_t n = 2 * (size_t)unknowns(s->model);
     s->y = malloc(n * sizeof *s->y);
     s->frame = malloc(n * sizeof *s->frame);
-    s->contacts = calloc(2 * (size_t)s->model->n_sites + 1, sizeof *s->contacts);
+    s->contacts = calloc(2 * (size_t)(s->model->n_sites + s->model->surface.n_edges) + 1, sizeof *s->contacts);
     s->measures = calloc(1, sizeof *s->measures);
     CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)s->model->lattice.n_nodes);
@@ -287,14 +316,16 @@ static dem_status set_up(dem_simulation *s)
     const contact_rule rule = {.skin = o->skin,
                                .position_error = o->rtol * o->spacing,
                                .rest_speed = o->rest_speed,
+                               .window = o->window,
                                .max_step = o->max_step,
                                .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                                .max_impacts = o->max_impacts,
+                               .vertices = o->vertices != 0,
                                .load = {{o->gravity[0], o->gravity[1]}, o->mass_damping}};
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
     const integrator_problem problem = {.n_nodes = model->lattice.n_nodes,
-                                        .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * model->n_sites : 0,
+                                        .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * s->contact.sites.n : 0,
                                         .derivative = derivative,
                                         .guards = guards,
                                         .context = s,
@@ -368,8 +399,10 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
     if (!m->has_energy)
         m->energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
     m->has_energy = true;
-    m->energy.impact = s->contact.impact_energy;
-    m->energy.projection = s->contact.projection_energy;
+    m->energy.impact = s->contact.sites.books.impact;
+    m->energy.friction = s->contact.sites.books.friction;
+    m->energy.damping = s->damping_energy;
+    m->energy.projection = s->contact.sites.books.projection;
     return m->energy;
 }
 
@@ -389,7 +422,7 @@ void dem_simulation_strains(const dem_simulation *s, double *strain)
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
     const dem_counts of_integrator = integrator_counts(s->integrator);
-    dem_counts counts = s->contact.counts;
+    dem_counts counts = s->contact.sites.books.counts;
     counts.steps = of_integrator.steps;
     counts.rejected = of_integrator.rejected;
     counts.evaluations = of_integrator.evaluations;
@@ -405,14 +438,11 @@ dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
-    const double *impulse = &s->contact.impulse[2 * obstacle];
-    dem_obstacle_load load = {.impulse = {impulse[0], impulse[1]}};
-    for (dem_index k = 0; k < s->n_contacts; k++) {
-        const dem_contact *closed = &s->contacts[k];
-        if (closed->obstacle != obstacle) continue;
-        load.contacts++;
-        load.reaction[0] += closed->force * closed->normal[0];
-        load.reaction[1] += closed->force * closed->normal[1];
+    const contact_books *books = &s->contact.sites.books;
+    dem_obstacle_load load = diagnostics_reaction(s->contacts, s->n_contacts, obstacle);
+    for (int k = 0; k < 2; k++) {
+        load.impulse[k] = books->impulse[2 * obstacle + k];
+        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k];
     }
     return load;
 }

@@ -1,180 +1,196 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Guards of one contact site as functions of the state, and their first zero in a step. */
+/* Gaps and guards of one contact site. */
 #include "site.h"
 
-#include <float.h>
+/* ---- gaps ---- */
 
-vec2 site_force(const contact_scene *scene, const contact_site *site, const double *x)
+contact_spot site_spot(const contact_site *site, const double *x)
 {
-    const double m = scene->model->lattice.mass[site->node];
-    const double *v = x + 2 * scene->model->lattice.n_nodes;
-    return vec2_scale(m, model_acceleration(scene->model, &scene->rule.load, site->node, x, v));
+    contact_spot spot = {.a = vec2_at(x, site->node)};
+    spot.b = site_is_edge(site) ? vec2_at(x, site->other) : spot.a;
+    spot.previous = site->previous >= 0 ? vec2_at(x, site->previous) : spot.a;
+    spot.next = site->next >= 0 ? vec2_at(x, site->next) : spot.b;
+    return spot;
 }
 
-obstacle_gap site_free_gap(const contact_scene *scene, const contact_site *site, vec2 x)
+contact_spot site_spot_on(const contact_site *site, const path *p, double t)
 {
-    return obstacles_gap(&scene->model->obstacles, x, scene_margin(scene), site->behind, -1);
+    contact_spot spot = {.a = path_position(p, t, site->node)};
+    spot.b = site_is_edge(site) ? path_position(p, t, site->other) : spot.a;
+    spot.previous = site->previous >= 0 ? path_position(p, t, site->previous) : spot.a;
+    spot.next = site->next >= 0 ? path_position(p, t, site->next) : spot.b;
+    return spot;
 }
 
-obstacle_gap site_other_gap(const contact_scene *scene, const contact_site *site, vec2 x)
+static contact_gap node_gap(const contact_scene *scene, const contact_site *site, vec2 x)
 {
-    return obstacles_gap(&scene->model->obstacles, x, scene_margin(scene), site->behind,
-                         scene_segment(scene, site->segments[0])->obstacle);
+    const obstacle_set *o = &scene->model->obstacles;
+    const dem_index own = site->n_closed > 0 ? scene_segment(scene, site->closed[0].feature)->obstacle : -1;
+    const obstacle_gap gap = obstacles_gap(o, x, scene_margin(scene), site->behind[0], own);
+    return (contact_gap){gap.distance, gap.segment, 0.0, gap.normal};
 }
 
-void site_reactions(const contact_scene *scene, const contact_site *site, const double *x, double reaction[2])
+/* How far from an edge vertices are looked at, as a share of its length: in front of it and behind it, where a step
+ * may take one at most. */
+static const double edge_reach = 0.5, edge_depth = 0.25;
+
+static obstacle_edge edge_query(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
 {
-    const vec2 f = site_force(scene, site, x), n0 = scene_segment(scene, site->segments[0])->normal;
-    reaction[0] = -vec2_dot(f, n0);
-    reaction[1] = 0.0;
-    if (site->n_closed < 2) return;
-    vec2_parts(vec2_scale(-1.0, f), n0, scene_segment(scene, site->segments[1])->normal, reaction);
+    const double length = vec2_norm(vec2_sub(spot->b, spot->a));
+    return (obstacle_edge){.a = spot->a,
+                           .b = spot->b,
+                           .previous = spot->previous,
+                           .next = spot->next,
+                           .tolerance = scene->rule.skin,
+                           .depth = edge_depth * length,
+                           .reach = edge_reach * length,
+                           .without = {site->behind[0], site->behind[1]},
+                           .except = {site->n_closed > 0 ? site->closed[0].feature : -1, -1}};
 }
 
-/* Distance to the nearer end of the segment, and the skin: an end is passed when a node is beyond it by that. */
-static double end_guard(const contact_scene *scene, const segment *s, vec2 x)
+static contact_gap edge_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
 {
-    const double place = segment_place(s, x);
-    return fmin(place, s->length - place) + scene->rule.skin;
+    const obstacle_edge edge = edge_query(scene, site, spot);
+    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
+    return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
-int site_end_passed(const contact_scene *scene, const contact_site *site, const double *x, const double *v)
+static double moved(const contact_site *site, const contact_spot *spot)
 {
-    const segment *s = scene_segment(scene, site->segments[0]);
-    const vec2 at = vec2_at(x, site->node);
-    if (end_guard(scene, s, at) > 0.0) return 0;
-    const int end = segment_place(s, at) > 0.0 ? 1 : -1;
-    const double speed = vec2_dot(vec2_at(v, site->node), s->tangent);
-    const double heading = speed != 0.0 ? speed : vec2_dot(site_force(scene, site, x), s->tangent);
+    return fmax(vec2_norm(vec2_sub(spot->a, site->clear_at[0])), vec2_norm(vec2_sub(spot->b, site->clear_at[1])));
+}
+
+contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
+{
+    if (site->n_closed == 2) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
+    const double left = site->n_closed == 0 ? site->clear - moved(site, spot) : 0.0;
+    if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
+    return site_is_edge(site) ? edge_gap(scene, site, spot) : node_gap(scene, site, spot->a);
+}
+
+/* An edge is as far from all vertices as its node is from the obstacles, less its length; one that is nearer looks at
+ * the vertices around it. */
+static double edge_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
+{
+    obstacle_edge edge = edge_query(scene, site, spot);
+    const double node =
+        obstacles_gap(&scene->model->obstacles, spot->a, 0.0, site->behind[0], site->behind[1]).distance;
+    const double far = node - edge.reach / edge_reach;
+    if (far > edge.reach) return far;
+    edge.tolerance = edge.depth = edge.reach;
+    edge.previous = edge.a;
+    edge.next = edge.b;
+    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
+    return poke.vertex < 0 ? edge.reach : poke.distance;
+}
+
+bool site_clear(const contact_scene *scene, contact_site *site, const double *x, dem_index *feature)
+{
+    const contact_spot spot = site_spot(site, x);
+    const double way = moved(site, &spot);
+    if (site->n_closed > 0 || way < 0.5 * site->clear) return false;
+    const contact_gap gap = node_gap(scene, site, spot.a);
+    const double clear = site_is_edge(site) ? edge_clearance(scene, site, &spot) : gap.distance;
+    const bool untouched = !site_is_edge(site) && way < site->clear;
+    *feature = gap.feature;
+    site->clear = fmax(0.0, clear - 2.0 * scene_margin(scene));
+    site->clear_at[0] = spot.a;
+    site->clear_at[1] = spot.b;
+    return untouched && gap.distance < 0.0;
+}
+
+/* ---- guards of closed contacts ---- */
+
+/* Distance to the nearer end of the segment or edge, and the skin: an end is passed when a contact is beyond it by
+ * that. */
+static double end_guard(const contact_scene *scene, const contact_site *site, int q, const double *x, int *end)
+{
+    double place, length;
+    if (site_is_edge(site)) {
+        const vec2 a = vec2_at(x, site->node), ab = vec2_sub(vec2_at(x, site->other), a);
+        length = vec2_norm(ab);
+        place = vec2_dot(vec2_sub(scene->model->obstacles.vertices[site->closed[q].feature].at, a), ab) / length;
+    } else {
+        const segment *s = scene_segment(scene, site->closed[q].feature);
+        length = s->length;
+        place = segment_place(s, vec2_at(x, site->node));
+    }
+    *end = place > 0.5 * length ? 1 : -1;
+    return fmin(place, length - place) + scene->rule.skin;
+}
+
+/* A contact that sticks by friction has a grip; one that slides has a sign. */
+static bool sticks(const contact_site *site, int q)
+{
+    return site->closed[q].sign == 0 && !site->closed[q].held;
+}
+
+int site_end_passed(const contact_scene *scene, const contact_site *site, int q, const double *x, const double *v)
+{
+    int end;
+    if (sticks(site, q) || end_guard(scene, site, q, x, &end) > 0.0) return 0;
+    const touch_frame f = touch_frame_at(scene, site, q, x, v);
+    double speed = vec2_dot(f.velocity, f.tangent);
+    for (int p = 0; p < f.n && speed == 0.0; p++) /* at rest it heads where it is driven */
+        speed +=
+            f.weight[p] * vec2_dot(model_acceleration(scene->model, &scene->rule.load, f.node[p], x, v), f.tangent);
+    const double heading = site_is_edge(site) ? -speed : speed; /* a vertex moves along the edge against the body */
     return end * heading > 0.0 ? end : 0;
 }
 
-/* The gap as a guard: finite where there is no obstacle. */
-static double gap_guard(const contact_scene *scene, obstacle_gap gap)
+bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f)
+{
+    const int sign = site->closed[q].sign;
+    return sign != 0 && touch_friction(scene, site, site->closed[q].feature) > 0.0 &&
+           sign * vec2_dot(f->velocity, f->tangent) < 0.0;
+}
+
+double site_grip(const contact_scene *scene, const contact_site *site, int q, const reaction *force)
+{
+    if (!sticks(site, q)) return INFINITY;
+    return touch_friction(scene, site, site->closed[q].feature) * force->normal - fabs(force->tangent);
+}
+
+/* The gap as a guard: finite where there is nothing. */
+static double gap_guard(const contact_scene *scene, contact_gap gap)
 {
     return fmin(gap.distance, 1.0) + scene->rule.skin;
 }
 
-void site_guards(const contact_scene *scene, const contact_site *site, const double *x, double *g)
+void site_guards(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
+                 const double *v, double *g)
 {
-    const vec2 at = vec2_at(x, site->node);
-    g[0] = g[1] = g[2] = 1.0;
-    if (site->n_closed == 0) {
-        g[0] = gap_guard(scene, site_free_gap(scene, site, at));
-        return;
+    int end;
+    const contact_spot spot = site_spot(site, x);
+    g[0] = gap_guard(scene, site_gap(scene, site, &spot));
+    g[1] = g[2] = g[3] = 1.0;
+    if (site->n_closed == 0) return;
+    g[1] = g[2] = g[3] = INFINITY;
+    for (int q = 0; q < site->n_closed; q++) {
+        g[1] = fmin(g[1], force[q].normal);
+        if (site->closed[q].held) continue;
+        const double limit =
+            sticks(site, q) ? site_grip(scene, site, q, &force[q]) : end_guard(scene, site, q, x, &end);
+        g[2] = fmin(g[2], limit);
+        if (sticks(site, q) || touch_friction(scene, site, site->closed[q].feature) == 0.0) continue;
+        const touch_frame f = touch_frame_at(scene, site, q, x, v);
+        g[3] = fmin(g[3], site->closed[q].sign * vec2_dot(f.velocity, f.tangent));
     }
-    double reaction[2];
-    site_reactions(scene, site, x, reaction);
-    g[0] = reaction[0];
-    if (site->n_closed == 2) {
-        g[1] = reaction[1];
-        return;
+    for (int k = 1; k < SITE_GUARDS; k++)
+        if (isinf(g[k])) g[k] = 1.0;
+}
+
+bool site_due(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
+              const double *v)
+{
+    const contact_spot spot = site_spot(site, x);
+    if (gap_guard(scene, site_gap(scene, site, &spot)) <= 0.0) return true;
+    for (int q = 0; q < site->n_closed; q++) {
+        if (force[q].normal <= 0.0) return true;
+        if (site->closed[q].held) continue;
+        const touch_frame f = touch_frame_at(scene, site, q, x, v);
+        if (site_grip(scene, site, q, &force[q]) < 0.0 || site_turns(scene, site, q, &f)) return true;
+        if (site_end_passed(scene, site, q, x, v) != 0) return true;
     }
-    g[1] = end_guard(scene, scene_segment(scene, site->segments[0]), at);
-    g[2] = gap_guard(scene, site_other_gap(scene, site, at));
-}
-
-bool site_due(const contact_scene *scene, const contact_site *site, const double *y)
-{
-    double g[SITE_GUARDS];
-    site_guards(scene, site, y, g);
-    if (g[0] <= 0.0) return true;
-    if (site->n_closed == 2) return g[1] <= 0.0;
-    return g[2] <= 0.0 || site_end_passed(scene, site, y, y + 2 * scene->model->lattice.n_nodes) != 0;
-}
-
-static double free_guard(const contact_scene *scene, const contact_site *site, const path *p, double t)
-{
-    return gap_guard(scene, site_free_gap(scene, site, path_position(p, t, site->node)));
-}
-
-/* Width to which a time in the step is located: what ARKODE's root finder uses. */
-static double time_resolution(const path *p, double t)
-{
-    return 100.0 * DBL_EPSILON * (fabs(t) + p->end - p->t0);
-}
-
-/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0
- * will do. */
-static double lowest(const contact_scene *scene, const contact_site *site, const path *p, double lo, double hi)
-{
-    const double ratio = 0.6180339887498949;
-    double a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
-    double ga = free_guard(scene, site, p, a), gb = free_guard(scene, site, p, b);
-    for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
-        if (ga < gb) {
-            hi = b;
-            b = a;
-            gb = ga;
-            a = hi - ratio * (hi - lo);
-            ga = free_guard(scene, site, p, a);
-        } else {
-            lo = a;
-            a = b;
-            ga = gb;
-            b = lo + ratio * (hi - lo);
-            gb = free_guard(scene, site, p, b);
-        }
-    }
-    return ga < gb ? a : b;
-}
-
-/* The zero of the guard between a time when it is above and one when it is not. */
-static double crossing(const contact_scene *scene, const contact_site *site, const path *p, double clear, double deep)
-{
-    while (deep - clear > time_resolution(p, deep)) {
-        const double middle = 0.5 * (clear + deep);
-        if (free_guard(scene, site, p, middle) <= 0.0)
-            deep = middle;
-        else
-            clear = middle;
-    }
-    return deep;
-}
-
-/* The guard of a free site at one time, and how fast it grows. */
-typedef struct sample {
-    double t, guard, slope;
-} sample;
-
-static sample sample_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
-{
-    const obstacle_gap gap = site_free_gap(scene, site, path_position(p, t, site->node));
-    return (sample){t, gap_guard(scene, gap), vec2_dot(gap.normal, path_velocity(p, t, site->node))};
-}
-
-double site_first_crossing(const contact_scene *scene, const contact_site *site, const path *p, bool rooted)
-{
-    enum { n = 8 };
-    const double h = p->end - p->t0;
-    const double v0 = vec2_norm(path_velocity(p, p->t0, site->node)),
-                 v1 = vec2_norm(path_velocity(p, p->end, site->node));
-    const double reach = 2.0 * h * fmax(v0, v1); /* no site goes further in this step */
-    const sample last = sample_at(scene, site, p, p->end);
-    sample s = sample_at(scene, site, p, p->t0);
-    if (last.guard > reach && s.guard > reach) return INFINITY;
-    for (int k = 1; k <= n; k++) {
-        const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
-        if (next.guard <= 0.0) return k == n && rooted ? INFINITY : crossing(scene, site, p, s.t, next.t);
-        if (s.slope < 0.0 && next.slope > 0.0 && fmin(s.guard, next.guard) < reach / n) { /* a dip in between */
-            const double low = lowest(scene, site, p, s.t, next.t);
-            if (free_guard(scene, site, p, low) <= 0.0) return crossing(scene, site, p, s.t, low);
-        }
-        s = next;
-    }
-    return INFINITY;
-}
-
-double site_first_due(const contact_scene *scene, const contact_site *site, const path *p, double *state)
-{
-    double before = p->t0, after = p->end;
-    while (after - before > time_resolution(p, after)) {
-        const double middle = 0.5 * (before + after);
-        path_state(p, middle, state);
-        if (site_due(scene, site, state))
-            after = middle;
-        else
-            before = middle;
-    }
-    return after;
+    return false;
 }

@@ -1,82 +1,57 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One contact site: the gaps it has and the reactions it feels, the guards that tell when its contacts change, and
- * the search for such a change within a step. Nothing here changes a state. */
+/* What a site can touch, and the guards that tell when its contacts change. Pure functions of (t, x, v) and of the
+ * forces that follow from them; nothing here changes a state. */
 #ifndef DEM_SITE_H
 #define DEM_SITE_H
 
-#include "model.h"
 #include "path.h"
+#include "reaction.h"
 
 /** Guard functions per site; each is > 0 while nothing happens and falls through 0 when something does. */
-#define SITE_GUARDS 3
+enum { SITE_GUARDS = 4 };
 
-/** One node that may touch. Free: n_closed = 0; sliding on a segment: 1; held in a corner: 2. */
-typedef struct contact_site {
-    dem_index node;
-    dem_index behind; /* obstacle whose free end the node has passed round, or -1 */
-    int n_closed;
-    dem_index segments[2];
-    dem_contact closed[2];
-    double storm_start; /* s */
-    dem_index storm;    /* changes of this site since then */
-} contact_site;
+/** Distance to what a site is not in contact with. */
+typedef struct contact_gap {
+    double distance;   /* m, > 0 in front; infinity: nothing there */
+    dem_index feature; /* segment, or vertex; -1: none, or the distance is a lower bound */
+    double place;      /* of a vertex on the edge, 0 to 1 */
+    vec2 normal;       /* unit, the way in which the distance grows */
+} contact_gap;
 
-typedef struct contact_rule {
-    double skin;           /* m, depth at which an impact is taken */
-    double position_error; /* m, tolerance of positions: hops below it are rest */
-    double rest_speed;     /* m/s, 0: by the rule */
-    double max_step;       /* s, longest step: with t it sets how exactly an event is located */
-    double storm_time;     /* s */
-    dem_index max_impacts; /* within storm_time at one node */
-    model_load load;
-} contact_rule;
+/** Where the nodes of a site are: a, an edge's second b, and an edge's neighbours on the boundary. */
+typedef struct contact_spot {
+    vec2 a, b, previous, next;
+} contact_spot;
 
-/** What does not change during a run. */
-typedef struct contact_scene {
-    const dem_model *model;
-    contact_rule rule;
-} contact_scene;
+contact_spot site_spot(const contact_site *site, const double *x);
+contact_spot site_spot_on(const contact_site *site, const path *p, double t);
 
-static inline const segment *scene_segment(const contact_scene *scene, dem_index s)
-{
-    return &scene->model->obstacles.segments[s];
-}
+/** Gap of a site. What it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends
+ *  are guarded by themselves; of an edge its vertex. */
+contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
 
-/** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
-static inline double scene_margin(const contact_scene *scene)
-{
-    return 10.0 * scene->rule.skin;
-}
+/** Notes how far from everything the site is: nearer than that nothing is looked for until it has moved as far.
+ *  Returns true if a node that cannot have touched anything is inside: it has come round the end of `feature`. */
+bool site_clear(const contact_scene *scene, contact_site *site, const double *x, dem_index *feature);
 
-/** Force on a site's node free of contact, elastic and weight, N. */
-vec2 site_force(const contact_scene *scene, const contact_site *site, const double *x);
+/** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */
+int site_end_passed(const contact_scene *scene, const contact_site *site, int q, const double *x, const double *v);
 
-/** Gap of a free node to what it can hit. */
-obstacle_gap site_free_gap(const contact_scene *scene, const contact_site *site, vec2 x);
+/** Whether sliding contact q has turned back: it slides against its sign. Without friction that does not matter. */
+bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f);
 
-/** Gap of a sliding node to the other obstacles: on its own one only the ends of its segment can stop it. */
-obstacle_gap site_other_gap(const contact_scene *scene, const contact_site *site, vec2 x);
+/** How far the friction of contact q is below what the normal force allows, N; infinity unless it sticks by friction.
+ */
+double site_grip(const contact_scene *scene, const contact_site *site, int q, const reaction *force);
 
-/** Reaction of each closed contact, N: what balances the force along its normal; < 0 pulls. */
-void site_reactions(const contact_scene *scene, const contact_site *site, const double *x, double reaction[2]);
+/** Values of the guards in a state, [SITE_GUARDS]: gap + skin; smallest normal force; distance to the nearer end +
+ *  skin of what slides, grip of what sticks; speed of sliding. What does not apply is 1.
+ *  \param force  of its closed contacts in that state */
+void site_guards(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
+                 const double *v, double *g);
 
-/** -1 or 1 if a sliding node is beyond the start or the end of its segment by the skin and heads out, else 0. */
-int site_end_passed(const contact_scene *scene, const contact_site *site, const double *x, const double *v);
-
-/** Values of the guards at positions x, [SITE_GUARDS]:
- *  free: gap + skin; sliding: reaction, distance to the segment's nearer end + skin, gap to the other obstacles + skin;
- *  held: both reactions. What is left over is 1. */
-void site_guards(const contact_scene *scene, const contact_site *site, const double *x, double *g);
-
-/** Whether a closed site's contacts have to change in the state y = (x, v). */
-bool site_due(const contact_scene *scene, const contact_site *site, const double *y);
-
-/** First time in the step at which a free site is as deep as the skin; infinity if never, or if only at the end of a
- *  step that ends at a root (`rooted`). The step is sampled eight times, and every dip between samples followed to
- *  its bottom. */
-double site_first_crossing(const contact_scene *scene, const contact_site *site, const path *p, bool rooted);
-
-/** First time in the step at which a closed site, due at its end, is due.  \param[out] state  [4 n] scratch */
-double site_first_due(const contact_scene *scene, const contact_site *site, const path *p, double *state);
+/** Whether a closed site's contacts have to change in a state. */
+bool site_due(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
+              const double *v);
 
 #endif

@@ -126,12 +126,12 @@ static void at_the_start_touching_is_enough_for_a_contact(void **state)
     check_node(&s, 0, 0.0, 0.0, 3.0, 0.0);
     check_node(&s, 1, 1.0, 0.0, 0.0, 1.0);
     check_node(&s, 2, 2.0, 1e-9, 0.0, -2.0);
-    assert_int_equal(contact_list(&s.c, list), 1);
+    assert_int_equal(contact_list(&s.c, s.y, list), 1);
     assert_int_equal(list[0].nodes[0], 0);
     assert_int_equal(list[0].state, DEM_CONTACT_SLIP);
     assert_close(list[0].force, 2.0 * g, 0.0);
     assert_int_equal(s.n_impacts, 1); /* the resting node's velocity did not change */
-    assert_int_equal(s.c.counts.closings, 1);
+    assert_int_equal(s.c.sites.books.counts.closings, 1);
     close_scene(&s);
 }
 
@@ -143,7 +143,7 @@ static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
     put(&s, 0, 0.0, 0.0, 0.0, 0.5);
     assert_ok(start(&s));
     check_node(&s, 0, 0.0, 0.0, 0.0, 0.5);
-    assert_int_equal(s.c.sites[0].n_closed, 0);
+    assert_int_equal(s.c.sites.list[0].n_closed, 0);
     assert_int_equal(s.n_impacts, 0);
     close_scene(&s);
 }
@@ -171,12 +171,12 @@ static void an_impact_is_reflected_reported_and_booked(void **state)
     const double actual[10] = {hit.x[0],       hit.x[1],      hit.normal[0], hit.normal[1], hit.impulse[0],
                                hit.impulse[1], hit.before[0], hit.before[1], hit.after[0],  hit.after[1]};
     for (int k = 0; k < 10; k++) assert_close(actual[k], expected[k], 1e-15);
-    assert_close(s.c.impact_energy, 12.0, 1e-14);
-    assert_close(s.c.impulse[0], 0.0, 0.0);
-    assert_close(s.c.impulse[1], 12.0, 1e-14);
-    assert_close(s.c.projection_energy, 2.0 * g * skin, 1e-14); /* a difference of energies of order 20 m g */
-    assert_int_equal(s.c.counts.impacts, 1);
-    assert_int_equal(s.c.counts.closings, 0);
+    assert_close(s.c.sites.books.impact, 12.0, 1e-14);
+    assert_close(s.c.sites.books.impulse[0], 0.0, 0.0);
+    assert_close(s.c.sites.books.impulse[1], 12.0, 1e-14);
+    assert_close(s.c.sites.books.projection, 2.0 * g * skin, 1e-14); /* a difference of energies of order 20 m g */
+    assert_int_equal(s.c.sites.books.counts.impacts, 1);
+    assert_int_equal(s.c.sites.books.counts.closings, 0);
     close_scene(&s);
 }
 
@@ -190,8 +190,8 @@ static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void
     assert_ok(resolve(&s, 0.125));
     check_node(&s, 0, 0.25, 0.0, 3.0, 0.0);
     assert_int_not_equal(s.impacts[0].state, DEM_CONTACT_FREE);
-    assert_int_equal(s.c.counts.closings, 1);
-    assert_int_equal(contact_list(&s.c, list), 1);
+    assert_int_equal(s.c.sites.books.counts.closings, 1);
+    assert_int_equal(contact_list(&s.c, s.y, list), 1);
     assert_int_equal(list[0].n_nodes, 1);
     assert_int_equal(list[0].obstacle, 0);
     assert_int_equal(list[0].segment, 0);
@@ -243,13 +243,13 @@ static void a_contact_does_not_last_where_nothing_presses(void **state)
     for (int k = 0; k < 4; k++) {
         scene s;
         open_scene(&s, 1, &plastic, 1);
-        s.c.scene.rule.load.gravity[1] = pull[k];
-        s.c.scene.rule.rest_speed = rest_speed[k];
+        s.c.sites.scene.rule.load.gravity[1] = pull[k];
+        s.c.sites.scene.rule.rest_speed = rest_speed[k];
         put(&s, 0, 0.25, -skin, 1.0, -1.0);
         assert_ok(resolve(&s, 0.0));
         check_node(&s, 0, 0.25, 0.0, 1.0, 0.0);
         assert_int_equal(s.impacts[0].state, DEM_CONTACT_FREE);
-        assert_int_equal(s.c.sites[0].n_closed, 0);
+        assert_int_equal(s.c.sites.list[0].n_closed, 0);
         close_scene(&s);
     }
 }
@@ -268,7 +268,7 @@ static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void 
         assert_int_equal(s.impacts[k].node, k);
         check_node(&s, k, 2.0 - k, 0.0, 0.0, 0.5 * (1.0 + k));
     }
-    assert_close(s.c.impulse[1], 2.0 * 1.5 * (1.0 + 2.0 + 3.0), 1e-14);
+    assert_close(s.c.sites.books.impulse[1], 2.0 * 1.5 * (1.0 + 2.0 + 3.0), 1e-14);
     close_scene(&s);
 }
 
@@ -294,13 +294,13 @@ static void in_a_corner_each_obstacle_gets_the_impulse_along_its_normal(void **s
     put(&s, 0, 2.0 + skin, -skin, 4.0, -3.0);
     assert_ok(resolve(&s, 0.0));
     check_node(&s, 0, 2.0, 0.0, -1.0, 1.5);
-    assert_close(s.c.impulse[0], -2.0 * 5.0, 1e-14);
-    assert_close(s.c.impulse[1], 0.0, 1e-14);
-    assert_close(s.c.impulse[2], 0.0, 1e-14);
-    assert_close(s.c.impulse[3], 2.0 * 4.5, 1e-14);
+    assert_close(s.c.sites.books.impulse[0], -2.0 * 5.0, 1e-14);
+    assert_close(s.c.sites.books.impulse[1], 0.0, 1e-14);
+    assert_close(s.c.sites.books.impulse[2], 0.0, 1e-14);
+    assert_close(s.c.sites.books.impulse[3], 2.0 * 4.5, 1e-14);
     assert_int_equal(s.n_impacts, 1);
     assert_int_equal(s.impacts[0].obstacle, 0); /* approached faster */
-    assert_close(s.c.impact_energy, 25.0 - 1.0 - 2.25, 1e-13);
+    assert_close(s.c.sites.books.impact, 25.0 - 1.0 - 2.25, 1e-13);
     close_scene(&s);
 }
 
@@ -318,7 +318,7 @@ static void open_pair(scene *s)
     put(s, 0, 0.0, 0.0, 0.5, 0.0);
     put(s, 1, 0.0, 1.0, 0.5, 2.0);
     assert_ok(start(s));
-    assert_int_equal(s->c.sites[0].n_closed, 1);
+    assert_int_equal(s->c.sites.list[0].n_closed, 1);
 }
 
 static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(void **state)
@@ -328,13 +328,13 @@ static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(vo
     open_pair(&s);
     put(&s, 1, 0.0, 1.19, 0.5, 2.0); /* pulls with 19 N against 20 N */
     assert_ok(resolve(&s, 0.1));
-    assert_int_equal(s.c.sites[0].n_closed, 1);
-    assert_close(s.c.sites[0].closed[0].force, 1.0, 1e-13);
+    assert_int_equal(s.c.sites.list[0].n_closed, 1);
+    assert_close(s.c.sites.list[0].closed[0].force, 1.0, 1e-13);
     put(&s, 1, 0.0, 1.21, 0.5, 2.0);
     assert_ok(resolve(&s, 0.2));
-    assert_int_equal(s.c.sites[0].n_closed, 0);
+    assert_int_equal(s.c.sites.list[0].n_closed, 0);
     check_node(&s, 0, 0.0, 0.0, 0.5, 0.0);
-    assert_int_equal(s.c.counts.releases, 1);
+    assert_int_equal(s.c.sites.books.counts.releases, 1);
     assert_int_equal(s.n_impacts, 0);
     close_scene(&s);
 }
@@ -347,9 +347,9 @@ static void the_reaction_adds_its_impulse_over_a_step(void **state)
     open_pair(&s);
     put(&s, 1, 0.0, 1.19, 0.5, 2.0);
     contact_follow(&s.c, 0.01, s.y);
-    assert_close(s.c.impulse[1], 0.5 * 0.01 * (20.0 + 1.0), 1e-14);
-    assert_close(s.c.impulse[0], 0.0, 0.0);
-    assert_close(s.c.sites[0].closed[0].force, 1.0, 1e-13);
+    assert_close(s.c.sites.books.impulse[1], 0.5 * 0.01 * (20.0 + 1.0), 1e-14);
+    assert_close(s.c.sites.books.impulse[0], 0.0, 0.0);
+    assert_close(s.c.sites.list[0].closed[0].force, 1.0, 1e-13);
     close_scene(&s);
 }
 
@@ -368,8 +368,8 @@ static void closed_contacts_hold_the_acceleration_along_their_normals(void **sta
     contact_constrain(&s.c, a);
     const double expected[6] = {1.0, -g, 0.5 * (1.0 - g), 0.5 * (1.0 - g), 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(a[k], expected[k], 1e-14);
-    assert_int_equal(s.c.sites[2].n_closed, 2);
-    assert_int_equal(s.c.sites[2].closed[0].state, DEM_CONTACT_STICK);
+    assert_int_equal(s.c.sites.list[2].n_closed, 2);
+    assert_int_equal(s.c.sites.list[2].closed[0].state, DEM_CONTACT_STICK);
     close_scene(&s);
 }
 
@@ -385,7 +385,7 @@ static void contacts_are_listed_in_the_order_of_nodes(void **state)
     put(&s, 1, 0.5, 3.0, 0.0, 0.0);
     put(&s, 2, -1.0, 1.0, 0.0, 0.0);
     assert_ok(start(&s));
-    assert_int_equal(contact_list(&s.c, list), 3);
+    assert_int_equal(contact_list(&s.c, s.y, list), 3);
     assert_int_equal(list[0].nodes[0], 0);
     assert_int_equal(list[1].nodes[0], 0);
     assert_int_equal(list[0].segment + list[1].segment, 1);
@@ -406,18 +406,18 @@ static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
     open_scene(&s, 1, &groove, 1);
     put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     assert_ok(start(&s));
-    assert_int_equal(s.c.sites[0].n_closed, 2);
-    s.c.scene.rule.load.gravity[0] = 1.1 * g;
+    assert_int_equal(s.c.sites.list[0].n_closed, 2);
+    s.c.sites.scene.rule.load.gravity[0] = 1.1 * g;
     assert_ok(resolve(&s, 0.1));
-    assert_int_equal(s.c.sites[0].n_closed, 1);
-    assert_int_equal(s.c.sites[0].closed[0].segment, 1);
-    assert_int_equal(s.c.sites[0].closed[0].state, DEM_CONTACT_SLIP);
-    assert_int_equal(s.c.counts.releases, 1);
-    s.c.scene.rule.load.gravity[0] = 0.0;
-    s.c.scene.rule.load.gravity[1] = g;
+    assert_int_equal(s.c.sites.list[0].n_closed, 1);
+    assert_int_equal(s.c.sites.list[0].closed[0].segment, 1);
+    assert_int_equal(s.c.sites.list[0].closed[0].state, DEM_CONTACT_SLIP);
+    assert_int_equal(s.c.sites.books.counts.releases, 1);
+    s.c.sites.scene.rule.load.gravity[0] = 0.0;
+    s.c.sites.scene.rule.load.gravity[1] = g;
     assert_ok(resolve(&s, 0.2));
-    assert_int_equal(s.c.sites[0].n_closed, 0);
-    assert_int_equal(s.c.counts.releases, 2);
+    assert_int_equal(s.c.sites.list[0].n_closed, 0);
+    assert_int_equal(s.c.sites.books.counts.releases, 2);
     close_scene(&s);
 }
 
@@ -435,8 +435,8 @@ static void a_corner_holds_only_what_is_at_rest_in_it(void **state)
         open_scene(&s, 1, &groove, 1);
         put(&s, 0, 0.0, 0.0, root * speed[k], root * speed[k]);
         assert_ok(start(&s));
-        assert_int_equal(s.c.sites[0].n_closed, 2 - k);
-        if (k == 1) assert_int_equal(s.c.sites[0].segments[0], 1);
+        assert_int_equal(s.c.sites.list[0].n_closed, 2 - k);
+        if (k == 1) assert_int_equal(s.c.sites.list[0].segments[0], 1);
         check_node(&s, 0, 0.0, 0.0, u, u);
         close_scene(&s);
     }
@@ -453,7 +453,7 @@ static void slide(scene *s, const dem_obstacle *obstacle, double x, double u)
     open_scene(s, 1, obstacle, 1);
     put(s, 0, x, 0.0, u, 0.0);
     assert_ok(start(s));
-    assert_int_equal(s->c.sites[0].n_closed, 1);
+    assert_int_equal(s->c.sites.list[0].n_closed, 1);
 }
 
 static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
@@ -463,13 +463,13 @@ static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
     slide(&s, &terrace, -1.0, 1.5);
     put(&s, 0, 1.01 * skin, 0.0, 1.5, 0.0);
     assert_ok(resolve(&s, 0.1));
-    assert_int_equal(s.c.sites[0].closed[0].segment, 1);
+    assert_int_equal(s.c.sites.list[0].closed[0].segment, 1);
     check_node(&s, 0, 1.01 * skin, 0.0, 1.5, 0.0);
     put(&s, 0, -1.01 * skin, 0.0, -1.5, 0.0); /* and back */
     assert_ok(resolve(&s, 0.2));
-    assert_int_equal(s.c.sites[0].closed[0].segment, 0);
-    assert_int_equal(s.c.counts.passings, 2);
-    assert_int_equal(s.c.counts.releases, 0);
+    assert_int_equal(s.c.sites.list[0].closed[0].segment, 0);
+    assert_int_equal(s.c.sites.books.counts.passings, 2);
+    assert_int_equal(s.c.sites.books.counts.releases, 0);
     close_scene(&s);
 }
 
@@ -480,15 +480,15 @@ static void a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end(void **sta
     slide(&s, &terrace, 1.0, 1.5);
     put(&s, 0, 2.0 + 1.01 * skin, 0.0, 1.5, 0.0);
     assert_ok(resolve(&s, 0.1));
-    assert_int_equal(s.c.sites[0].n_closed, 0);
+    assert_int_equal(s.c.sites.list[0].n_closed, 0);
     check_node(&s, 0, 2.0 + 1.01 * skin, 0.0, 1.5, 0.0);
-    assert_int_equal(s.c.counts.passings, 1);
-    assert_int_equal(s.c.counts.releases, 1);
+    assert_int_equal(s.c.sites.books.counts.passings, 1);
+    assert_int_equal(s.c.sites.books.counts.releases, 1);
     close_scene(&s);
     slide(&s, &terrace, -1.0, -1.5);
     put(&s, 0, -4.0 - 1.01 * skin, 0.0, -1.5, 0.0);
     assert_ok(resolve(&s, 0.1));
-    assert_int_equal(s.c.sites[0].n_closed, 0);
+    assert_int_equal(s.c.sites.list[0].n_closed, 0);
     close_scene(&s);
 }
 
@@ -504,9 +504,9 @@ static void a_sliding_node_takes_its_impact_at_a_concave_bend(void **state)
     assert_ok(resolve(&s, 0.1));
     assert_int_equal(s.n_impacts, 1);
     check_node(&s, 0, 0.0, 0.0, 2.0 * cosine * cosine, 2.0 * cosine * 0.5);
-    assert_int_equal(s.c.sites[0].n_closed, 1);
-    assert_int_equal(s.c.sites[0].closed[0].segment, 1);
-    assert_int_equal(s.c.counts.passings, 1);
+    assert_int_equal(s.c.sites.list[0].n_closed, 1);
+    assert_int_equal(s.c.sites.list[0].closed[0].segment, 1);
+    assert_int_equal(s.c.sites.books.counts.passings, 1);
     close_scene(&s);
 }
 
@@ -522,10 +522,10 @@ static void another_obstacle_stops_a_sliding_node(void **state)
     put(&s, 0, 2.0 + skin, 0.0, 3.0, 0.0);
     assert_ok(resolve(&s, 0.1));
     check_node(&s, 0, 2.0, 0.0, -1.5, 0.0);
-    assert_int_equal(s.c.sites[0].n_closed, 1);
-    assert_int_equal(s.c.sites[0].closed[0].obstacle, 0);
-    assert_close(s.c.impulse[2], -2.0 * 4.5, 1e-14);
-    assert_close(s.c.impulse[1], 0.0, 1e-14);
+    assert_int_equal(s.c.sites.list[0].n_closed, 1);
+    assert_int_equal(s.c.sites.list[0].closed[0].obstacle, 0);
+    assert_close(s.c.sites.books.impulse[2], -2.0 * 4.5, 1e-14);
+    assert_close(s.c.sites.books.impulse[1], 0.0, 1e-14);
     close_scene(&s);
 }
 
@@ -547,7 +547,7 @@ static void too_many_changes_of_one_node_in_a_short_time_are_a_storm(void **stat
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    s.c.scene.rule.max_impacts = 2;
+    s.c.sites.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
         put(&s, 0, 0.5, -skin, 0.0, -1.0);
         assert_int_equal(resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
@@ -562,7 +562,7 @@ static void changes_further_apart_are_no_storm(void **state)
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    s.c.scene.rule.max_impacts = 2;
+    s.c.sites.scene.rule.max_impacts = 2;
     for (int k = 0; k < 20; k++) {
         put(&s, 0, 0.5, -skin, 0.0, -1.0);
         assert_ok(resolve(&s, 0.3 * (k + 1)));
@@ -580,17 +580,17 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
     open_scene(&s, 1, &half, 1);
     put(&s, 0, -4.0, -0.5, 1.0, 2.0); /* right below the end: from in front to 0.5 m inside */
     assert_ok(resolve(&s, 0.1));
-    assert_int_equal(s.c.counts.behind, 1);
-    assert_int_equal(s.c.sites[0].behind, 0);
+    assert_int_equal(s.c.sites.books.counts.behind, 1);
+    assert_int_equal(s.c.sites.list[0].behind, 0);
     contact_guards(&s.c, s.y, guards);
     assert_close(guards[0], 1.0 + skin, 0.0);
     put(&s, 0, -3.0, -0.01, 1.0, 2.0);
     contact_follow(&s.c, 0.01, s.y);
-    assert_int_equal(s.c.counts.behind, 1);
+    assert_int_equal(s.c.sites.books.counts.behind, 1);
     put(&s, 0, -3.0, 0.01, 1.0, 2.0);
     contact_follow(&s.c, 0.01, s.y);
-    assert_int_equal(s.c.counts.behind, 0);
-    assert_int_equal(s.c.sites[0].behind, -1);
+    assert_int_equal(s.c.sites.books.counts.behind, 0);
+    assert_int_equal(s.c.sites.list[0].behind, -1);
     assert_int_equal(s.n_impacts, 0);
     close_scene(&s);
 }
@@ -621,7 +621,7 @@ static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
     path p = drift(&s, 1.0, y1, f);
     assert_true(contact_check(&s.c, &p, false, scratch));
     assert_close(p.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
-    assert_int_equal(s.c.counts.late, 1);
+    assert_int_equal(s.c.sites.books.counts.late, 1);
     close_scene(&s);
 }
 
@@ -635,7 +635,7 @@ static void a_step_without_contacts_is_left_as_it_is(void **state)
     path p = drift(&s, 1.0, y1, f);
     assert_false(contact_check(&s.c, &p, false, scratch));
     assert_close(p.end, 1.0, 0.0);
-    assert_int_equal(s.c.counts.late, 0);
+    assert_int_equal(s.c.sites.books.counts.late, 0);
     close_scene(&s);
 }
 

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bracketing, dips and bisection along the path of a step. */
+#include "search.h"
+
+#include <float.h>
+
+double search_resolution(const path *p)
+{
+    return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
+}
+
+/* The guard of a free site at one time, and how fast it grows. */
+typedef struct sample {
+    double t, guard, slope;
+} sample;
+
+static sample sample_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+{
+    const contact_spot spot = site_spot_on(site, p, t);
+    const contact_gap gap = site_gap(scene, site, &spot);
+    vec2 v = path_velocity(p, t, site->node);
+    if (site_is_edge(site))
+        v = vec2_add(vec2_scale(1.0 - gap.place, v), vec2_scale(gap.place, path_velocity(p, t, site->other)));
+    return (sample){t, fmin(gap.distance, 1.0) + scene->rule.skin, vec2_dot(gap.normal, v)};
+}
+
+static double guard_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+{
+    const contact_spot spot = site_spot_on(site, p, t);
+    return fmin(site_gap(scene, site, &spot).distance, 1.0) + scene->rule.skin;
+}
+
+/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0
+ * will do. */
+static double lowest(const contact_scene *scene, const contact_site *site, const path *p, double lo, double hi)
+{
+    const double ratio = 0.6180339887498949;
+    double a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double ga = guard_at(scene, site, p, a), gb = guard_at(scene, site, p, b);
+    for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
+        if (ga < gb) {
+            hi = b;
+            b = a;
+            gb = ga;
+            a = hi - ratio * (hi - lo);
+            ga = guard_at(scene, site, p, a);
+        } else {
+            lo = a;
+            a = b;
+            ga = gb;
+            b = lo + ratio * (hi - lo);
+            gb = guard_at(scene, site, p, b);
+        }
+    }
+    return ga < gb ? a : b;
+}
+
+/* The zero of the guard between a time when it is above and one when it is not. */
+static double crossing(const contact_scene *scene, const contact_site *site, const path *p, double clear, double deep)
+{
+    while (deep - clear > search_resolution(p)) {
+        const double middle = 0.5 * (clear + deep);
+        if (guard_at(scene, site, p, middle) <= 0.0)
+            deep = middle;
+        else
+            clear = middle;
+    }
+    return deep;
+}
+
+static double fastest(const path *p, double t, const contact_site *site)
+{
+    const double v = vec2_norm(path_velocity(p, t, site->node));
+    return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
+}
+
+double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
+{
+    enum { n = 8 };
+    const double h = p->end - p->t0;
+    const sample last = sample_at(scene, site, p, p->end);
+    const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
+    if (last.guard > reach) return INFINITY;
+    sample s = sample_at(scene, site, p, p->t0);
+    for (int k = 1; k <= n; k++) {
+        const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
+        if (next.guard <= 0.0) return crossing(scene, site, p, s.t, next.t);
+        if (s.slope < 0.0 && next.slope > 0.0 && fmin(s.guard, next.guard) < reach / n) { /* a dip in between */
+            const double low = lowest(scene, site, p, s.t, next.t);
+            if (guard_at(scene, site, p, low) <= 0.0) return crossing(scene, site, p, s.t, low);
+        }
+        s = next;
+    }
+    return INFINITY;
+}
+
+/* ---- closed contacts ---- */
+
+static void put_node(const path *p, double t, dem_index i, double *state)
+{
+    vec2_put(state, i, path_position(p, t, i));
+    vec2_put(state, p->n_nodes + i, path_velocity(p, t, i));
+}
+
+/* A node and all whose positions its force depends on. */
+static void put_around(const dem_model *model, const path *p, double t, dem_index i, double *state)
+{
+    const springs *s = &model->springs;
+    const triangles *tri = &model->triangles;
+    put_node(p, t, i, state);
+    for (dem_index q = s->row[i]; q < s->row[i + 1]; q++) put_node(p, t, s->neighbour[q], state);
+    for (dem_index q = tri->row[i]; q < tri->row[i + 1]; q++) {
+        put_node(p, t, tri->next[q], state);
+        put_node(p, t, tri->last[q], state);
+    }
+}
+
+void search_state(const reactions *r, dem_index group, const path *p, double t, double *state)
+{
+    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
+        const contact_site *site = &r->sites[r->members[m]];
+        put_around(r->scene->model, p, t, site->node, state);
+        if (!site_is_edge(site)) continue;
+        put_around(r->scene->model, p, t, site->other, state);
+        if (site->previous >= 0) put_node(p, t, site->previous, state);
+        if (site->next >= 0) put_node(p, t, site->next, state);
+    }
+}
+
+double search_due(reactions *r, const contact_site *site, const path *p, double *state)
+{
+    const dem_index k = site - r->sites, group = r->group[k];
+    double before = p->t0, after = p->end;
+    while (after - before > search_resolution(p)) {
+        const double middle = 0.5 * (before + after);
+        search_state(r, group, p, middle, state);
+        reactions_solve(r, group, state, state + 2 * p->n_nodes);
+        if (site_due(r->scene, site, r->force[k], state, state + 2 * p->n_nodes))
+            after = middle;
+        else
+            before = middle;
+    }
+    return after;
+}

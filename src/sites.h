@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All contact sites of a model with the forces in their contacts and the books: how contacts begin and end. */
+#ifndef DEM_SITES_H
+#define DEM_SITES_H
+
+#include "books.h"
+#include "site.h"
+
+typedef struct contact_sites {
+    contact_scene scene;
+    dem_index n;
+    contact_site *list; /* [n] the model's nodes that may touch, then its edges */
+    reactions reactions;
+    contact_books books;
+    dem_index *of_node; /* [n_nodes] site of a node, or -1 */
+} contact_sites;
+
+/** `out` must stay where it is. */
+dem_status sites_create(contact_sites *out, const dem_model *model, const contact_rule *rule);
+void sites_destroy(contact_sites *c);
+
+/** The site of the k-th edge of the surface. */
+static inline dem_index sites_of_edge(const contact_sites *c, dem_index edge)
+{
+    return c->scene.model->n_sites + edge;
+}
+
+/** Whether other closed contacts share a node with the site. */
+bool sites_coupled(const contact_sites *c, dem_index k);
+
+/** A node has passed round the free end of an obstacle, or come back (-1); its edges know as well. */
+void sites_go_behind(contact_sites *c, dem_index k, dem_index obstacle);
+
+/** Finds the groups of contacts and which of them are corners, when closed contacts have changed. */
+dem_status sites_regroup(contact_sites *c);
+
+/** Adds or takes away a closed contact. */
+dem_status sites_close(contact_sites *c, dem_index k, contact_touch touch);
+dem_status sites_open(contact_sites *c, dem_index k, int q);
+
+/** Moves node i by `shift` and books the energy that this puts in. */
+void sites_move(contact_sites *c, dem_index i, vec2 shift, double *x);
+
+/** Stores the forces of a site's contacts as last solved for. */
+void sites_store(contact_sites *c, dem_index k, const double *x, const double *v);
+
+/** Solves for the forces of the site's group and stores them in the site's contacts. */
+void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v);
+
+/** An event of a site at a feature: what is known without the impact. */
+dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,
+                      const contact_moment *now);
+
+#endif

@@ -1,0 +1,517 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Impacts of nodes by themselves, and of groups of contacts that share nodes. */
+#include "strike.h"
+
+#include <float.h>
+
+#include "impact.h"
+#include "status.h"
+
+/* Sweeps over a group of contacts that strike one another in turn; after half of them they do so without rebound. */
+enum { most_sweeps = 200 };
+
+static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
+
+static impact_surface surface_of(const contact_sites *c, dem_index k, dem_index feature, vec2 normal)
+{
+    const dem_obstacle *o = touch_obstacle(&c->scene, &c->list[k], feature);
+    return (impact_surface){normal, o->restitution, o->friction, o->friction_law};
+}
+
+/* The sign with which a contact begins: it slides the way it moves; at rest it sticks if there is friction. */
+static int sign_of(const contact_sites *c, dem_index k, dem_index feature, double speed)
+{
+    if (speed == 0.0 && touch_friction(&c->scene, &c->list[k], feature) > 0.0) return 0;
+    return speed < 0.0 ? -1 : 1;
+}
+
+/* Speed at or below which what an acceleration `back` returns is at rest: the hop would be lower than the position
+ * tolerance, or than what rounding leaves of the coordinates, or shorter than twice the window. Nothing is at rest (-1)
+ * that does not return. */
+static double resting_speed(const contact_sites *c, vec2 x, double back)
+{
+    const contact_rule *rule = &c->scene.rule;
+    if (!(back > 0.0)) return -1.0;
+    if (rule->rest_speed > 0.0) return rule->rest_speed;
+    const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
+    return fmax(sqrt(2.0 * back * fmax(rule->position_error, rounding)), back * rule->window);
+}
+
+static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
+{
+    const vec2 along = vec2_scale(vec2_dot(impulse, normal), normal);
+    books_add_impulse(&c->books, obstacle, impulse, vec2_sub(impulse, along));
+}
+
+/* ---- a node by itself ---- */
+
+/* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
+static vec2 way_back(const contact_sites *c, contact_hit hit, vec2 x)
+{
+    const segment *a = scene_segment(&c->scene, hit.feature[0]), *b = scene_segment(&c->scene, hit.feature[hit.n - 1]);
+    vec2 vertex;
+    if (hit.n == 2 && obstacles_share(&c->scene.model->obstacles, hit.feature[0], hit.feature[1], &vertex))
+        return vec2_sub(vertex, x);
+    const double h0 = segment_height(a, x), h1 = segment_height(b, x), place = segment_place(a, x);
+    if (hit.n == 2) /* n0.shift = -h0 and n1.shift = -h1 */
+        return vec2_scale(1.0 / vec2_cross(a->tangent, b->tangent),
+                          vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
+    const double beyond =
+        (place < 0.0 && a->before >= 0) ? place : (place > a->length && a->after >= 0 ? place - a->length : 0.0);
+    return vec2_along(vec2_scale(-h0, a->normal), -beyond, a->tangent);
+}
+
+/* Of the segments struck, those on which a node with velocity v stays. At rest it is all that push it; in a corner at
+ * rest means that it would not get further out than a hop before the corner has it back. Otherwise it is the one
+ * segment it moves along. */
+static contact_hit lasting(const contact_sites *c, dem_index k, contact_hit hit, vec2 v, const contact_moment *now)
+{
+    const dem_index i = c->list[k].node;
+    const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, i, now->x, now->v), at = vec2_at(now->x, i);
+    const double speed = vec2_norm(v);
+    impact_surface wall[2];
+    double push[2], away[2];
+    contact_hit held = {0};
+    for (int q = 0; q < hit.n; q++) {
+        wall[q] = surface_of(c, k, hit.feature[q], scene_segment(&c->scene, hit.feature[q])->normal);
+        away[q] = vec2_dot(v, wall[q].normal);
+    }
+    const int holding = impact_holding(wall, hit.n, a, push);
+    const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
+    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= resting_speed(c, at, back)))) {
+        for (int q = 0; q < hit.n; q++)
+            if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
+        return held;
+    }
+    const int along = hit.n == 2 && away[1] < away[0] ? 1 : 0;
+    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal)))
+        held = (contact_hit){1, {hit.feature[along]}};
+    return held;
+}
+
+static vec2 without_normals(const contact_sites *c, contact_hit held, vec2 v)
+{
+    if (held.n == 2) return (vec2){0.0, 0.0};
+    if (held.n == 0) return v;
+    const vec2 n = scene_segment(&c->scene, held.feature[0])->normal;
+    return vec2_along(v, -vec2_dot(v, n), n);
+}
+
+/* Tells of an impact and books its energy, J, and the impulse (N s) that each of the features gave. */
+static void book(contact_sites *c, dem_event *event, double energy, vec2 impulse, contact_moment *now)
+{
+    event->impulse[0] = impulse.x;
+    event->impulse[1] = impulse.y;
+    event->energy = energy;
+    c->books.impact += energy;
+    books_enter(&c->books, event, now);
+}
+
+/* Leaves what is closed and closes what is held, quietly. */
+static dem_status hold_on(contact_sites *c, dem_index k, contact_hit held, const contact_moment *now)
+{
+    contact_site *site = &c->list[k];
+    site->n_closed = 0;
+    site->clear = 0.0;
+    for (int q = 0; q < held.n; q++) {
+        const segment *s = scene_segment(&c->scene, held.feature[q]);
+        const double speed = vec2_dot(vec2_at(now->v, site->node), s->tangent);
+        site->closed[site->n_closed++] =
+            (contact_touch){.feature = held.feature[q], .sign = sign_of(c, k, held.feature[q], speed)};
+    }
+    return sites_regroup(c);
+}
+
+/* Tells that contacts began or ceased to last where no impact tells it. */
+static void tell_change(contact_sites *c, dem_index k, int was_closed, dem_index feature, bool struck,
+                        contact_moment *now)
+{
+    const int is_closed = c->list[k].n_closed;
+    c->books.counts.closings += is_closed > was_closed;
+    if (is_closed == was_closed || (struck && is_closed > was_closed)) return;
+    const dem_event event =
+        sites_event(c, k, feature, is_closed > was_closed ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
+    books_enter(&c->books, &event, now);
+}
+
+static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, contact_moment *now)
+{
+    const dem_index i = c->list[k].node;
+    const int was_closed = c->list[k].n_closed;
+    const vec2 before = vec2_at(now->v, i);
+    impact_surface wall[2];
+    vec2 kick[2];
+    for (int q = 0; q < hit.n; q++)
+        wall[q] = surface_of(c, k, hit.feature[q], scene_segment(&c->scene, hit.feature[q])->normal);
+    sites_move(c, i, way_back(c, hit, vec2_at(now->x, i)), now->x);
+    vec2 after = impact_rebound(wall, hit.n, before, kick);
+    if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
+    const contact_hit held = lasting(c, k, hit, after, now);
+    after = without_normals(c, held, after);
+    vec2_put(now->v, i, after);
+    TRY(hold_on(c, k, held, now));
+    const bool struck = after.x != before.x || after.y != before.y;
+    if (struck) {
+        const double m = c->scene.model->lattice.mass[i];
+        vec2 rest = vec2_sub(after, before); /* what rounding and closing add goes with the first that acts */
+        for (int q = 0; q < hit.n; q++) rest = vec2_sub(rest, kick[q]);
+        const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
+        kick[first] = vec2_add(kick[first], rest);
+        for (int q = 0; q < hit.n; q++)
+            book_impulse(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
+        dem_event event = sites_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
+        event.before[0] = before.x;
+        event.before[1] = before.y;
+        book(c, &event, 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after)),
+             vec2_scale(m, vec2_sub(after, before)), now);
+    }
+    tell_change(c, k, was_closed, hit.feature[0], struck, now);
+    return DEM_OK;
+}
+
+/* ---- contacts that share nodes ---- */
+
+static void stir(contact_sites *c, dem_index k)
+{
+    contact_site *site = &c->list[k];
+    const dem_index first = c->of_node[site->node], second = site_is_edge(site) ? c->of_node[site->other] : -1;
+    site->stirred = true;
+    if (first >= 0) c->list[first].stirred = true;
+    if (second >= 0) c->list[second].stirred = true;
+}
+
+/* Kinetic energy of the nodes that take part, J. */
+static double stirred_energy(const contact_sites *c, const double *v)
+{
+    double energy = 0.0;
+    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
+        const dem_index i = c->list[k].node;
+        const vec2 vi = vec2_at(v, i);
+        if (c->list[k].stirred) energy += 0.5 * c->scene.model->lattice.mass[i] * vec2_dot(vi, vi);
+    }
+    return energy;
+}
+
+/* Puts the contacts of the site's group on their surfaces. */
+static void straighten(contact_sites *c, dem_index k, contact_moment *now)
+{
+    reactions *r = &c->reactions;
+    const dem_index group = r->group[k];
+    const double *shift = reactions_shift(r, group, now->x, now->v);
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &c->list[r->members[p]];
+        const dem_index nodes[2] = {site->node, site->other};
+        for (int e = 0; e < (site_is_edge(site) ? 2 : 1); e++) {
+            sites_move(c, nodes[e], vec2_at(shift, nodes[e]), now->x);
+            vec2_put(r->a, nodes[e], (vec2){0.0, 0.0}); /* an edge's node may come again */
+        }
+    }
+}
+
+/* Notes where the contacts of the group start from; returns their largest speed. */
+static double prepare(contact_sites *c, dem_index group, const contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    double scale = 0.0;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        contact_site *site = &c->list[r->members[p]];
+        stir(c, r->members[p]);
+        site->n_struck = site->n_closed;
+        for (int q = 0; q < site->n_closed; q++) {
+            const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
+            contact_touch *touch = &site->closed[q];
+            touch->before = f.velocity;
+            touch->impulse = (vec2){0.0, 0.0};
+            touch->energy = 0.0;
+            touch->opens = touch->held = touch->struck = false;
+            scale = fmax(scale, vec2_norm(f.velocity));
+        }
+    }
+    return scale;
+}
+
+/* One contact of the group by itself: whether it strikes. */
+static bool strike_once(contact_sites *c, dem_index k, int q, double tolerance, bool plastic, contact_moment *now)
+{
+    contact_touch *touch = &c->list[k].closed[q];
+    const touch_frame f = touch_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+    vec2 kick;
+    if (vec2_dot(f.velocity, f.normal) >= -tolerance) return false;
+    impact_surface wall = surface_of(c, k, touch->feature, f.normal);
+    if (plastic) wall.restitution = 0.0;
+    const vec2 after = impact_rebound(&wall, 1, f.velocity, &kick);
+    const vec2 impulse = vec2_scale(1.0 / f.mobility, kick);
+    for (int p = 0; p < f.n; p++)
+        vec2_put(
+            now->v, f.node[p],
+            vec2_along(vec2_at(now->v, f.node[p]), f.weight[p] * c->scene.model->inverse_mass[f.node[p]], impulse));
+    touch->struck = true;
+    touch->impulse = vec2_add(touch->impulse, impulse);
+    touch->energy -= 0.5 * vec2_dot(impulse, vec2_add(f.velocity, after));
+    return true;
+}
+
+static void sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    bool struck = true;
+    for (int s = 0; s < most_sweeps && struck; s++) {
+        struck = false;
+        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+            for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
+                struck |= strike_once(c, r->members[p], q, tolerance, 2 * s >= most_sweeps, now);
+    }
+}
+
+/* Which contacts of the group last, and how they slide. */
+static void judge(contact_sites *c, dem_index group, double tolerance, const contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const dem_index k = r->members[p];
+        for (int q = 0; q < c->list[k].n_closed; q++) {
+            contact_touch *touch = &c->list[k].closed[q];
+            const touch_frame f = touch_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+            const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
+            double back = 0.0;
+            for (int e = 0; e < f.n; e++)
+                back -= f.weight[e] * vec2_dot(f.normal, model_acceleration(c->scene.model, &c->scene.rule.load,
+                                                                            f.node[e], now->x, now->v));
+            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back);
+            touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
+            const int sign = sign_of(c, k, touch->feature, fabs(speed) <= tolerance ? 0.0 : speed);
+            if (sign == 0 && (touch->fresh || touch->sign != 0)) touch->place = fmin(fmax(f.place, 0.0), 1.0);
+            touch->sign = sign;
+        }
+    }
+}
+
+/* Takes the contacts that open out of the closed ones, but keeps them behind these. */
+static void part(contact_site *site)
+{
+    if (site->n_closed == 2 && site->closed[0].opens && !site->closed[1].opens) {
+        const contact_touch first = site->closed[0];
+        site->closed[0] = site->closed[1];
+        site->closed[1] = first;
+    }
+    while (site->n_closed > 0 && site->closed[site->n_closed - 1].opens) site->n_closed--;
+}
+
+/* Closed contacts neither open nor slide where they stick: what the sweeps have left of that goes. */
+static void settle_velocities(contact_sites *c, contact_moment *now)
+{
+    reactions *r = &c->reactions;
+    const double before = stirred_energy(c, now->v);
+    for (dem_index g = 0; g < r->n_groups; g++) {
+        if (!c->list[r->members[r->row[g]]].stirred) continue;
+        reactions_stop(r, g, now->x, now->v);
+        for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
+            contact_site *site = &c->list[r->members[p]];
+            for (int q = 0; q < site->n_closed; q++) {
+                const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
+                const reaction got = r->force[r->members[p]][q];
+                site->closed[q].impulse = vec2_add(
+                    site->closed[q].impulse, vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent));
+            }
+        }
+    }
+    c->books.impact += before - stirred_energy(c, now->v);
+}
+
+/* Books and tells what the contacts of a site got. */
+static void tell_party(contact_sites *c, dem_index k, contact_moment *now)
+{
+    contact_site *site = &c->list[k];
+    for (int q = 0; q < site->n_struck; q++) {
+        const contact_touch *touch = &site->closed[q];
+        const bool kept = q < site->n_closed;
+        dem_event event = sites_event(c, k, touch->feature, DEM_EVENT_IMPACT, now);
+        c->books.counts.closings += touch->fresh && kept;
+        book_impulse(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
+        if (touch->struck) {
+            event.before[0] = touch->before.x;
+            event.before[1] = touch->before.y;
+            book(c, &event, touch->energy, touch->impulse, now);
+        }
+        if (kept == !touch->fresh || (touch->struck && kept)) continue;
+        event = sites_event(c, k, touch->feature, kept ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
+        books_enter(&c->books, &event, now);
+    }
+    for (int q = 0; q < site->n_closed; q++) site->closed[q].fresh = false;
+    site->stirred = false;
+    site->n_struck = 0;
+}
+
+/* Takes up the hit among the closed contacts of the site, in place of those it does not go with. */
+static dem_status take_up(contact_sites *c, dem_index k, contact_hit hit)
+{
+    contact_site *site = &c->list[k];
+    for (int q = 0; q < site->n_closed; q++) site->closed[q].fresh = false;
+    if (!site_is_edge(site) && site->n_closed == 1 && hit.n == 1) site->n_closed = 0;
+    for (int h = 0; h < hit.n && site->n_closed < 2; h++) {
+        const bool known = site->n_closed == 1 && site->closed[0].feature == hit.feature[h];
+        if (!known) TRY(sites_close(c, k, (contact_touch){.feature = hit.feature[h], .sign = 1, .fresh = true}));
+    }
+    return sites_regroup(c);
+}
+
+/* The contacts of the group strike one another in turn until none approaches any more. */
+static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit, contact_moment *now)
+{
+    TRY(take_up(c, k, hit));
+    const dem_index group = c->reactions.group[k];
+    straighten(c, k, now);
+    const double tolerance = noise * prepare(c, group, now);
+    sweep(c, group, tolerance, now);
+    judge(c, group, tolerance, now);
+    for (dem_index m = 0; m < c->n; m++)
+        if (c->list[m].stirred) part(&c->list[m]);
+    TRY(sites_regroup(c));
+    settle_velocities(c, now);
+    for (dem_index m = 0; m < c->n; m++)
+        if (c->list[m].stirred) tell_party(c, m, now);
+    return DEM_OK;
+}
+
+dem_status strike(contact_sites *c, dem_index k, contact_hit hit, contact_moment *now)
+{
+    if (!site_is_edge(&c->list[k]) && !sites_coupled(c, k)) return strike_alone(c, k, hit, now);
+    return strike_together(c, k, hit, now);
+}
+
+/* Unit normal of an edge, into the body. */
+static vec2 edge_normal(const contact_site *edge, const double *x)
+{
+    const vec2 way = vec2_sub(vec2_at(x, edge->other), vec2_at(x, edge->node));
+    return vec2_scale(1.0 / vec2_norm(way), (vec2){-way.y, way.x});
+}
+
+bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const contact_moment *now)
+{
+    const contact_site *here = &c->list[edge], *there = &c->list[next];
+    const dem_index node = here->node == there->other ? here->node : here->other;
+    const vec2 v = vec2_at(now->v, node), at = vec2_at(now->x, node);
+    const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
+    const impact_surface sides[2] = {{.normal = edge_normal(here, now->x)}, {.normal = edge_normal(there, now->x)}};
+    const double speed = vec2_norm(v), back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0;
+    double push[2];
+    if (impact_holding(sides, 2, a, push) != 3) return false;
+    return speed == 0.0 || back <= 0.0 || speed <= resting_speed(c, at, back);
+}
+
+void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now)
+{
+    contact_site *site = &c->list[k];
+    contact_site alone = *site;
+    vec2 kick;
+    alone.closed[0] = (contact_touch){.feature = gap->feature, .sign = 1};
+    touch_frame f = touch_frame_at(&c->scene, &alone, 0, now->x, now->v);
+    f.normal = gap->normal;
+    const impact_surface wall = surface_of(c, k, gap->feature, f.normal);
+    const vec2 after = impact_rebound(&wall, 1, f.velocity, &kick), impulse = vec2_scale(1.0 / f.mobility, kick);
+    dem_event event = sites_event(c, k, gap->feature, DEM_EVENT_IMPACT, now);
+    for (int p = 0; p < f.n; p++)
+        vec2_put(
+            now->v, f.node[p],
+            vec2_along(vec2_at(now->v, f.node[p]), f.weight[p] * c->scene.model->inverse_mass[f.node[p]], impulse));
+    event.normal[0] = f.normal.x;
+    event.normal[1] = f.normal.y;
+    event.after[0] = after.x;
+    event.after[1] = after.y;
+    c->books.counts.early++;
+    book_impulse(c, event.obstacle, impulse, f.normal);
+    book(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
+}
+
+/* ---- what is struck ---- */
+
+double strike_depth(const contact_sites *c, dem_index k, const contact_moment *now)
+{
+    const contact_site *site = &c->list[k];
+    const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
+    const double speed = vec2_norm(vec2_at(now->v, site->node));
+    const double other = site_is_edge(site) ? vec2_norm(vec2_at(now->v, site->other)) : 0.0;
+    return 2.0 * c->scene.rule.skin + located * fmax(speed, other);
+}
+
+/* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the
+ * one approached faster, on a tie the one that ends there. */
+static bool yields(const contact_sites *c, dem_index s, dem_index to, vec2 v)
+{
+    dem_index after, before;
+    const obstacle_bend ahead = obstacles_bend(&c->scene.model->obstacles, s, false, &after);
+    const obstacle_bend behind = obstacles_bend(&c->scene.model->obstacles, s, true, &before);
+    const bool follows = before == to && behind != OBSTACLE_CONCAVE, leads = after == to && ahead != OBSTACLE_CONCAVE;
+    if (!follows && !leads) return false;
+    const double mine = vec2_dot(v, scene_segment(&c->scene, s)->normal),
+                 other = vec2_dot(v, scene_segment(&c->scene, to)->normal);
+    return mine > other || (mine == other && follows);
+}
+
+bool strike_corner(const contact_sites *c, dem_index s, dem_index other, vec2 x, double tolerance)
+{
+    vec2 vertex;
+    if (obstacles_share(&c->scene.model->obstacles, s, other, &vertex))
+        return vec2_norm(vec2_sub(x, vertex)) <= 4.0 * tolerance;
+    return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
+}
+
+static double approach(const contact_sites *c, dem_index s, vec2 v)
+{
+    return -vec2_dot(v, scene_segment(&c->scene, s)->normal);
+}
+
+contact_hit strike_met(const contact_sites *c, dem_index k, const contact_moment *now)
+{
+    enum { capacity = 8 };
+    dem_index hits[capacity];
+    contact_hit out = {0};
+    const contact_site *site = &c->list[k];
+    const vec2 x = vec2_at(now->x, site->node), v = vec2_at(now->v, site->node);
+    const obstacle_touch touch = {strike_depth(c, k, now), scene_margin(&c->scene), site->behind[0]};
+    const int n = obstacles_touching(&c->scene.model->obstacles, x, &touch, hits, capacity);
+    for (int h = 0; h < n; h++) {
+        bool meets = true;
+        for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[h], hits[q], v);
+        if (!meets) continue;
+        const int place = out.n > 0 && approach(c, hits[h], v) <= approach(c, out.feature[0], v) ? 1 : 0;
+        if (place == 1 && out.n == 2 && approach(c, hits[h], v) <= approach(c, out.feature[1], v)) continue;
+        if (place == 0) out.feature[1] = out.feature[0];
+        out.feature[place] = hits[h];
+        out.n = out.n < 2 ? out.n + 1 : 2;
+    }
+    if (out.n == 2 && !strike_corner(c, out.feature[0], out.feature[1], x, touch.tolerance)) out.n = 1;
+    return out;
+}
+
+/* Whether a direction lies between the normals of a convex vertex. */
+static bool in_cone(const contact_sites *c, const obstacle_vertex *at, vec2 n)
+{
+    return vec2_cross(scene_segment(&c->scene, at->before)->normal, n) <= 0.0 &&
+           vec2_cross(n, scene_segment(&c->scene, at->after)->normal) <= 0.0;
+}
+
+dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment *now, dem_index *at)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index node = c->list[k].node;
+    const double tolerance = strike_depth(c, k, now);
+    double fastest = 0.0;
+    dem_index best = -1;
+    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_sites; p++) {
+        const dem_index e = sites_of_edge(c, s->at[p]);
+        const contact_spot spot = site_spot(&c->list[e], now->x);
+        contact_site bare = c->list[e];
+        bare.clear = 0.0;
+        const contact_gap gap = site_gap(&c->scene, &bare, &spot);
+        if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
+        const obstacle_vertex *v = &c->scene.model->obstacles.vertices[gap.feature];
+        if (vec2_norm(vec2_sub(v->at, vec2_at(now->x, node))) > 2.0 * tolerance || !in_cone(c, v, gap.normal)) continue;
+        const double speed = -vec2_dot(vec2_at(now->v, node), gap.normal);
+        if (speed <= fastest) continue;
+        fastest = speed;
+        best = e;
+        *at = gap.feature;
+    }
+    return best;
+}
