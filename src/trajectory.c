@@ -323,7 +323,7 @@ static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const d
                                const dem_state *state)
 {
     const dem_index steps = t->frames + 1;
-    TRY(history_flush(&t->history, file));
+    TRY(table_flush(&t->history.table, file));
     TRY(append_arrays(t, file, simulation, state));
     TRY(append_fields(t, file, state));
     TRY(append_steps(t, file, state->t));
@@ -333,7 +333,7 @@ static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const d
 /* Bounds of what is added, in bytes: deflate never lengthens. */
 static hsize_t frame_bytes(const dem_trajectory *t)
 {
-    return history_bytes(&t->history) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
+    return table_bytes(&t->history.table) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
 }
 
 static hsize_t start_bytes(const dem_model *model)
@@ -361,15 +361,15 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 static dem_status flush(dem_trajectory *t)
 {
     hdf5_file file;
-    TRY(hdf5_open_write(&file, t->part, history_bytes(&t->history)));
-    return hdf5_close(&file, history_flush(&t->history, &file));
+    TRY(hdf5_open_write(&file, t->part, table_bytes(&t->history.table)));
+    return hdf5_close(&file, table_flush(&t->history.table, &file));
 }
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", t->path);
-    if (t->history.buffered == HISTORY_ROWS) TRY(flush(t));
+    if (t->history.table.buffered == TABLE_ROWS) TRY(flush(t));
     history_record(&t->history, simulation);
     return DEM_OK;
 }
@@ -403,7 +403,7 @@ static dem_status write_start(const dem_trajectory *t, const hdf5_file *file, co
     if (t->options.frame_interval > 0.0) TRY(write_vtk(t, file, lattice));
     TRY(lattice_file_write(file, lattice, t->options.deflate));
     TRY(write_obstacle_group(file, model));
-    return history_create(&t->history, file);
+    return table_create(&t->history.table, file);
 }
 
 static dem_status start(const dem_trajectory *t, const dem_model *model)
@@ -462,7 +462,7 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
 
 static dem_status verify_counts(const dem_trajectory *t, const hdf5_file *file)
 {
-    TRY(history_verify(&t->history, file));
+    TRY(table_verify(&t->history.table, file));
     if (t->options.frame_interval <= 0.0) return DEM_OK;
     for (int a = 0; a < N_ARRAYS; a++)
         TRY(hdf5_expect_rows(file, arrays[a].name, (hsize_t)(t->frames * count_of(t, arrays[a].of))));
