@@ -13,6 +13,8 @@ static const table_column columns[] = {
     {"/history/guard", HDF5_F64, RUN, 1},
     {"/history/gravity", HDF5_F64, RUN, 1},
     {"/history/impact", HDF5_F64, RUN, 1},
+    {"/history/friction", HDF5_F64, RUN, 1},
+    {"/history/damping", HDF5_F64, RUN, 1},
     {"/history/projection", HDF5_F64, RUN, 1},
     {"/history/strain_min", HDF5_F64, RUN, 1},
     {"/history/strain_max", HDF5_F64, RUN, 1},
@@ -20,15 +22,27 @@ static const table_column columns[] = {
     {"/history/guarded", HDF5_I64, RUN, 1},
     {"/history/contacts", HDF5_I64, RUN, 1},
     {"/history/impacts", HDF5_I64, RUN, 1},
-    {"/history/steps", HDF5_I64, RUN, 1},
-    {"/history/evaluations", HDF5_I64, RUN, 1},
-    {"/history/events", HDF5_I64, RUN, 1},
+    {"/history/vertex_impacts", HDF5_I64, RUN, 1},
+    {"/history/early", HDF5_I64, RUN, 1},
+    {"/history/closings", HDF5_I64, RUN, 1},
+    {"/history/releases", HDF5_I64, RUN, 1},
+    {"/history/slips", HDF5_I64, RUN, 1},
+    {"/history/sticks", HDF5_I64, RUN, 1},
+    {"/history/passings", HDF5_I64, RUN, 1},
     {"/history/late", HDF5_I64, RUN, 1},
+    {"/history/behind", HDF5_I64, RUN, 1},
+    {"/history/events", HDF5_I64, RUN, 1},
+    {"/history/steps", HDF5_I64, RUN, 1},
+    {"/history/rejected", HDF5_I64, RUN, 1},
+    {"/history/retries", HDF5_I64, RUN, 1},
+    {"/history/evaluations", HDF5_I64, RUN, 1},
     {"/history/body_centre", HDF5_F64, BODIES, 2},
     {"/history/body_velocity", HDF5_F64, BODIES, 2},
     {"/history/body_angular_momentum", HDF5_F64, BODIES, 1},
     {"/history/obstacle_reaction", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_point", HDF5_F64, OBSTACLES, 2},
     {"/history/obstacle_impulse", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_friction_impulse", HDF5_F64, OBSTACLES, 2},
     {"/history/obstacle_contacts", HDF5_I64, OBSTACLES, 1},
 };
 
@@ -37,9 +51,11 @@ static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, c
     const dem_energy *e = &state->energy;
     const dem_strain s = dem_simulation_strain(simulation);
     const dem_counts n = dem_simulation_counts(simulation);
-    const double reals[] = {state->t,  state->step,   e->kinetic, e->elastic, e->guard,  e->gravity,
-                            e->impact, e->projection, s.min,      s.max,      s.area_min};
-    const dem_index counts[] = {s.guarded, state->n_contacts, n.impacts, n.steps, n.evaluations, n.events, n.late};
+    const double reals[] = {state->t,    state->step, e->kinetic,    e->elastic, e->guard, e->gravity, e->impact,
+                            e->friction, e->damping,  e->projection, s.min,      s.max,    s.area_min};
+    const dem_index counts[] = {s.guarded,  state->n_contacts, n.impacts,  n.vertex_impacts, n.early,      n.closings,
+                                n.releases, n.slips,           n.sticks,   n.passings,       n.late,       n.behind,
+                                n.events,   n.steps,           n.rejected, n.retries,        n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }
@@ -58,11 +74,14 @@ static table_cell *put_bodies(table_cell *cell, const dem_simulation *simulation
 
 static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulation, dem_index n_obstacles)
 {
-    table_cell *reaction = cell, *impulse = reaction + 2 * n_obstacles, *contacts = impulse + 2 * n_obstacles;
+    table_cell *reaction = cell, *point = reaction + 2 * n_obstacles, *impulse = point + 2 * n_obstacles;
+    table_cell *friction = impulse + 2 * n_obstacles, *contacts = friction + 2 * n_obstacles;
     for (dem_index o = 0; o < n_obstacles; o++) {
         const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
         reaction = table_put_reals(reaction, load.reaction, 2);
+        point = table_put_reals(point, load.point, 2);
         impulse = table_put_reals(impulse, load.impulse, 2);
+        friction = table_put_reals(friction, load.friction_impulse, 2);
         contacts = table_put_wholes(contacts, &load.contacts, 1);
     }
     return contacts;

@@ -22,6 +22,9 @@ typedef struct flight {
     support_run run;
     history history;
     hdf5_file file;
+    dem_counts counts; /* at the last row that record_step() made */
+    dem_energy energy;
+    dem_obstacle_load load[2];
 } flight;
 
 static void begin(flight *f, dem_index n_obstacles)
@@ -150,6 +153,9 @@ static dem_status record_step(void *context, const dem_simulation *simulation)
 {
     flight *f = context;
     history_record(&f->history, simulation);
+    f->counts = dem_simulation_counts(simulation);
+    f->energy = dem_simulation_energy(simulation);
+    for (dem_index o = 0; o < 2; o++) f->load[o] = dem_simulation_obstacle(simulation, o);
     return DEM_OK;
 }
 
@@ -176,6 +182,70 @@ static void a_row_has_the_loads_of_its_obstacles(void **state)
     drop(f);
 }
 
+/* Where the first node has hit the floor, and the second rests. */
+static flight *new_landing(void)
+{
+    flight *f = new_flight(2);
+    const dem_observer observer = {.step = record_step, .context = f};
+    assert_ok(dem_simulation_observe(f->run.simulation, &observer));
+    (void)support_at(&f->run, 1.5);
+    assert_ok(table_flush(&f->history.table, &f->file));
+    assert_true(f->counts.impacts >= 1 && f->counts.closings >= 2 && f->energy.impact > 0.0);
+    return f;
+}
+
+static void every_energy_has_its_column(void **state)
+{
+    (void)state;
+    flight *f = new_landing();
+    const dem_energy *e = &f->energy;
+    const struct {
+        const char *column;
+        double value;
+    } columns[] = {{"kinetic", e->kinetic}, {"elastic", e->elastic},      {"guard", e->guard},
+                   {"gravity", e->gravity}, {"impact", e->impact},        {"friction", e->friction},
+                   {"damping", e->damping}, {"projection", e->projection}};
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        expect_number(f, columns[k].column, f->history.table.written - 1, columns[k].value);
+    drop(f);
+}
+
+static void every_count_has_its_column(void **state)
+{
+    (void)state;
+    flight *f = new_landing();
+    const dem_counts *n = &f->counts;
+    const struct {
+        const char *column;
+        dem_index value;
+    } columns[] = {{"steps", n->steps},   {"rejected", n->rejected}, {"evaluations", n->evaluations},
+                   {"events", n->events}, {"impacts", n->impacts},   {"vertex_impacts", n->vertex_impacts},
+                   {"early", n->early},   {"closings", n->closings}, {"releases", n->releases},
+                   {"slips", n->slips},   {"sticks", n->sticks},     {"passings", n->passings},
+                   {"late", n->late},     {"retries", n->retries},   {"behind", n->behind}};
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        expect_number(f, columns[k].column, f->history.table.written - 1, (double)columns[k].value);
+    drop(f);
+}
+
+static void every_part_of_a_load_has_its_column(void **state)
+{
+    (void)state;
+    flight *f = new_landing();
+    const dem_obstacle_load *a = &f->load[0], *b = &f->load[1];
+    const struct {
+        const char *column;
+        double value[4];
+    } columns[] = {{"obstacle_reaction", {a->reaction[0], a->reaction[1], b->reaction[0], b->reaction[1]}},
+                   {"obstacle_point", {a->point[0], a->point[1], b->point[0], b->point[1]}},
+                   {"obstacle_impulse", {a->impulse[0], a->impulse[1], b->impulse[0], b->impulse[1]}},
+                   {"obstacle_friction_impulse",
+                    {a->friction_impulse[0], a->friction_impulse[1], b->friction_impulse[0], b->friction_impulse[1]}}};
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        expect_row(f, columns[k].column, f->history.table.written - 1, columns[k].value, 4);
+    drop(f);
+}
+
 /* One index for what a row tells of, one for the components of a vector; counts are integers. */
 static void columns_have_the_shapes_of_what_they_tell(void **state)
 {
@@ -191,6 +261,7 @@ static void columns_have_the_shapes_of_what_they_tell(void **state)
         {"body_centre", 0, 3, {1, 2, 2}},
         {"body_angular_momentum", 0, 2, {1, 2, 1}},
         {"obstacle_reaction", 0, 3, {1, 1, 2}},
+        {"obstacle_point", 0, 3, {1, 1, 2}},
         {"obstacle_contacts", 1, 2, {1, 1, 1}},
     };
     flight *f = new_flight(1);
@@ -236,6 +307,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_row_has_the_numbers_of_its_instant),
         cmocka_unit_test(a_row_has_the_loads_of_its_obstacles),
+        cmocka_unit_test(every_energy_has_its_column),
+        cmocka_unit_test(every_count_has_its_column),
+        cmocka_unit_test(every_part_of_a_load_has_its_column),
         cmocka_unit_test(columns_have_the_shapes_of_what_they_tell),
         cmocka_unit_test(without_obstacles_there_are_no_columns_of_them),
         cmocka_unit_test(an_instant_has_one_row),

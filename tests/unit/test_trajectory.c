@@ -264,6 +264,8 @@ static void offsets_tell_where_a_frame_begins(void **state)
                    {"PointDataOffsets/id", 0},
                    {"PointDataOffsets/body", 0},
                    {"CellDataOffsets/broken", size.n_springs},
+                   {"FieldDataOffsets/friction_energy", 1},
+                   {"FieldDataOffsets/damping_energy", 1},
                    {"FieldDataOffsets/contacts", 1}};
     assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
@@ -367,6 +369,8 @@ static void history_has_a_row_for_every_accepted_step(void **state)
                                           "guard",
                                           "gravity",
                                           "impact",
+                                          "friction",
+                                          "damping",
                                           "projection",
                                           "contacts",
                                           "impacts",
@@ -382,7 +386,9 @@ static void history_has_a_row_for_every_accepted_step(void **state)
                                           "body_velocity",
                                           "body_angular_momentum",
                                           "obstacle_reaction",
+                                          "obstacle_point",
                                           "obstacle_impulse",
+                                          "obstacle_friction_impulse",
                                           "obstacle_contacts"};
     for (size_t c = 0; c < sizeof columns / sizeof columns[0]; c++) {
         char name[64];
