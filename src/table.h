@@ -19,7 +19,7 @@ typedef union table_cell {
 /** A dataset of the table. */
 typedef struct table_column {
     const char *name;   /**< absolute path */
-    hdf5_kind kind;     /**< HDF5_F64 from table_put_reals(), HDF5_I64 from table_put_wholes() */
+    hdf5_kind kind;     /**< HDF5_F64 from table_put_reals(), HDF5_I64 or HDF5_I8 from table_put_wholes() */
     int of;             /**< 0: one item a row; 1, 2: as many as the table's count says */
     hsize_t components; /**< of an item */
 } table_column;

@@ -2,6 +2,7 @@
 /* A run as a VTKHDF file: which dataset is where, and when it is written. docs/output.md lists them all. */
 #include <dem/trajectory.h>
 
+#include "events.h"
 #include "hdf5_file.h"
 #include "history.h"
 #include "lattice_file.h"
@@ -25,6 +26,7 @@ struct dem_trajectory {
     int finished;
     double *scratch; /* [3 max(n_nodes, n_springs)] */
     history history;
+    table events; /* without columns unless wanted */
 };
 
 static const char suffix[] = ".vtkhdf";
@@ -321,12 +323,18 @@ static dem_status append_steps(const dem_trajectory *t, const hdf5_file *file, d
     return hdf5_append(file, &values, (hsize_t)t->frames, 1, &time);
 }
 
+static dem_status flush_tables(dem_trajectory *t, const hdf5_file *file)
+{
+    TRY(table_flush(&t->history.table, file));
+    return table_flush(&t->events, file);
+}
+
 /* The count of steps comes last: readers believe it. */
 static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation,
                                const dem_state *state)
 {
     const dem_index steps = t->frames + 1;
-    TRY(table_flush(&t->history.table, file));
+    TRY(flush_tables(t, file));
     TRY(append_arrays(t, file, simulation, state));
     TRY(append_fields(t, file, state));
     TRY(append_steps(t, file, state->t));
@@ -334,9 +342,14 @@ static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const d
 }
 
 /* Bounds of what is added, in bytes: deflate never lengthens. */
+static hsize_t tables_bytes(const dem_trajectory *t)
+{
+    return table_bytes(&t->history.table) + table_bytes(&t->events);
+}
+
 static hsize_t frame_bytes(const dem_trajectory *t)
 {
-    return table_bytes(&t->history.table) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
+    return tables_bytes(t) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
 }
 
 static hsize_t start_bytes(const dem_model *model)
@@ -364,8 +377,8 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 static dem_status flush(dem_trajectory *t)
 {
     hdf5_file file;
-    TRY(hdf5_open_write(&file, t->part, table_bytes(&t->history.table)));
-    return hdf5_close(&file, table_flush(&t->history.table, &file));
+    TRY(hdf5_open_write(&file, t->part, tables_bytes(t)));
+    return hdf5_close(&file, flush_tables(t, &file));
 }
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
@@ -374,6 +387,16 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", t->path);
     if (t->history.table.buffered == TABLE_ROWS) TRY(flush(t));
     history_record(&t->history, simulation);
+    return DEM_OK;
+}
+
+static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    dem_trajectory *t = context;
+    (void)simulation;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more events", t->path);
+    if (t->events.buffered == TABLE_ROWS) TRY(flush(t));
+    events_record(&t->events, event);
     return DEM_OK;
 }
 
@@ -406,6 +429,7 @@ static dem_status write_start(const dem_trajectory *t, const hdf5_file *file, co
     if (t->options.frame_interval > 0.0) TRY(write_vtk(t, file, lattice));
     TRY(lattice_file_write(file, lattice, t->options.deflate));
     TRY(write_obstacle_group(file, model));
+    if (t->options.events) TRY(events_create(&t->events, file));
     return table_create(&t->history.table, file);
 }
 
@@ -458,6 +482,7 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
     TRY(make_names(t, path));
     t->scratch = calloc((size_t)largest, 3 * sizeof *t->scratch);
     CHECK_MEMORY(t->scratch);
+    if (t->options.events) TRY(events_init(&t->events));
     return history_init(&t->history, model);
 }
 
@@ -466,6 +491,7 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
 static dem_status verify_counts(const dem_trajectory *t, const hdf5_file *file)
 {
     TRY(table_verify(&t->history.table, file));
+    TRY(table_verify(&t->events, file));
     if (t->options.frame_interval <= 0.0) return DEM_OK;
     for (int a = 0; a < N_ARRAYS; a++)
         TRY(hdf5_expect_rows(file, arrays[a].name, (hsize_t)(t->frames * count_of(t, arrays[a].of))));
@@ -512,7 +538,8 @@ dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const d
 
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
 {
-    return (dem_observer){trajectory->options.frame_interval, on_frame, on_step, NULL, trajectory};
+    return (dem_observer){trajectory->options.frame_interval, on_frame, on_step,
+                          trajectory->options.events ? on_event : NULL, trajectory};
 }
 
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
@@ -542,6 +569,7 @@ void dem_trajectory_destroy(dem_trajectory *trajectory)
 {
     if (trajectory == NULL) return;
     history_free(&trajectory->history);
+    table_free(&trajectory->events);
     free(trajectory->scratch);
     free(trajectory->path);
     free(trajectory);

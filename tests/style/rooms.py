@@ -13,7 +13,7 @@ LAYERS = [
     {"vec2", "status", "commit"},
     {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
     {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance", "table"},
-    {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body"},
+    {"site", "diagnostics", "integrator", "events", "history", "lattice_file", "schema_table", "schema_print", "body"},
     {"contact", "trajectory", "deck"},
     {"simulation", "output", "report"},
     {"dem_batch"},
