@@ -3,9 +3,11 @@
 #include <dem/trajectory.h>
 
 #include "events.h"
+#include "grid.h"
 #include "hdf5_file.h"
 #include "history.h"
 #include "lattice_file.h"
+#include "obstacle_file.h"
 #include "status.h"
 
 #include <math.h>
@@ -14,8 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GRID  "/VTKHDF/"
-#define STEPS "/VTKHDF/Steps/"
+#define STEPS GRID "Steps/"
 
 struct dem_trajectory {
     char *path, *part, *obstacle, *obstacle_part; /* names: one allocation */
@@ -30,139 +31,6 @@ struct dem_trajectory {
 };
 
 static const char suffix[] = ".vtkhdf";
-enum { VTK_LINE = 3 };
-
-/* ---- an UnstructuredGrid of lines ---- */
-
-typedef struct grid {
-    dem_index n_points, n_cells;
-    const dem_index *ends; /* [n_cells][2] */
-} grid;
-
-static dem_status write_numbers(const hdf5_file *file, const char *name, int deflate, dem_index count,
-                                const dem_index *data)
-{
-    return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, deflate}, (hsize_t)count, data);
-}
-
-static dem_status write_offsets(const hdf5_file *file, const grid *g, int deflate)
-{
-    dem_index *offsets = malloc((size_t)(g->n_cells + 1) * sizeof *offsets);
-    CHECK_MEMORY(offsets);
-    for (dem_index k = 0; k <= g->n_cells; k++) offsets[k] = 2 * k;
-    const dem_status status = write_numbers(file, GRID "Offsets", deflate, g->n_cells + 1, offsets);
-    free(offsets);
-    return status;
-}
-
-static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
-{
-    unsigned char *types = malloc((size_t)g->n_cells + 1);
-    CHECK_MEMORY(types);
-    memset(types, VTK_LINE, (size_t)g->n_cells);
-    const hdf5_rows rows = {GRID "Types", HDF5_U8, 1, {0}, 0, deflate};
-    const dem_status status = hdf5_write(file, rows, (hsize_t)g->n_cells, types);
-    free(types);
-    return status;
-}
-
-static dem_status write_grid(const hdf5_file *file, const grid *g, int deflate)
-{
-    static const dem_index version[2] = {2, 0};
-    const dem_index n_ends = 2 * g->n_cells;
-    TRY(hdf5_write_attribute(file, "/VTKHDF", "Version", HDF5_I64, 2, version));
-    TRY(hdf5_write_attribute_text(file, "/VTKHDF", "Type", "UnstructuredGrid"));
-    TRY(write_numbers(file, GRID "NumberOfPoints", 0, 1, &g->n_points));
-    TRY(write_numbers(file, GRID "NumberOfCells", 0, 1, &g->n_cells));
-    TRY(write_numbers(file, GRID "NumberOfConnectivityIds", 0, 1, &n_ends));
-    TRY(write_numbers(file, GRID "Connectivity", deflate, n_ends, g->ends));
-    TRY(write_offsets(file, g, deflate));
-    return write_types(file, g, deflate);
-}
-
-/* ---- obstacles ---- */
-
-static dem_status write_obstacle_group(const hdf5_file *file, const dem_model *model)
-{
-    dem_index n_obstacles = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
-    for (dem_index o = 0; o < n_obstacles; o++) {
-        char group[48], points[64];
-        (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)o);
-        (void)snprintf(points, sizeof points, "%s/points", group);
-        const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
-        TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
-        TRY(hdf5_write_attribute(file, group, "restitution", HDF5_F64, 1, &obstacles[o].restitution));
-    }
-    return DEM_OK;
-}
-
-/* The polylines as one grid. */
-typedef struct outline {
-    grid grid;
-    double *points; /* [n_points][3] */
-    dem_index *ends;
-    int32_t *owner; /* [n_cells] the obstacle of each segment */
-} outline;
-
-static void free_outline(outline *o)
-{
-    free(o->points);
-    free(o->ends);
-    free(o->owner);
-}
-
-static dem_status allocate_outline(outline *out, dem_index n_points, dem_index n_segments)
-{
-    outline o = {.grid = {n_points, n_segments, NULL}};
-    o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
-    o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
-    o.owner = calloc((size_t)n_segments, sizeof *o.owner);
-    o.grid.ends = o.ends;
-    *out = o;
-    if (o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
-    free_outline(&o);
-    return status_fail(DEM_ERROR_MEMORY, "out of memory");
-}
-
-static dem_status make_outline(outline *out, const dem_model *model)
-{
-    dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
-    for (dem_index o = 0; o < n_obstacles; o++) n_points += obstacles[o].n_points;
-    TRY(allocate_outline(out, n_points, n_points - n_obstacles));
-    for (dem_index o = 0; o < n_obstacles; o++)
-        for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
-            memcpy(out->points + 3 * point, obstacles[o].points + 2 * p, 2 * sizeof *out->points);
-            if (p == 0) continue;
-            out->ends[2 * segment] = point - 1;
-            out->ends[2 * segment + 1] = point;
-            out->owner[segment++] = (int32_t)o;
-        }
-    return DEM_OK;
-}
-
-static dem_status write_outline(const hdf5_file *file, const outline *o, int deflate)
-{
-    const hdf5_rows points = {GRID "Points", HDF5_F64, 2, {3}, 0, deflate};
-    const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
-    TRY(write_grid(file, &o->grid, deflate));
-    TRY(hdf5_write(file, points, (hsize_t)o->grid.n_points, o->points));
-    return hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner);
-}
-
-static dem_status write_obstacle_file(const dem_trajectory *t, const dem_model *model)
-{
-    outline o;
-    hdf5_file file;
-    TRY(make_outline(&o, model));
-    dem_status status = hdf5_open_new(&file, t->obstacle_part, 64 * (hsize_t)o.grid.n_points);
-    if (status == DEM_OK) status = hdf5_close(&file, write_outline(&file, &o, t->options.deflate));
-    if (status == DEM_OK) status = hdf5_publish(t->obstacle_part, t->obstacle);
-    if (status != DEM_OK) (void)unlink(t->obstacle_part);
-    free_outline(&o);
-    return status;
-}
 
 /* ---- what is written at every frame ---- */
 
@@ -406,10 +274,11 @@ static dem_status write_constants(const hdf5_file *file, const dem_lattice *latt
 {
     const size_t n = (size_t)lattice->n_nodes;
     const hdf5_rows body = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, deflate};
+    const hdf5_rows number = {GRID "PointData/id", HDF5_I64, 1, {0}, 0, deflate};
     dem_index *id = malloc(n * sizeof *id);
     CHECK_MEMORY(id);
     for (dem_index i = 0; i < lattice->n_nodes; i++) id[i] = i;
-    const dem_status status = write_numbers(file, GRID "PointData/id", deflate, lattice->n_nodes, id);
+    const dem_status status = hdf5_write(file, number, n, id);
     free(id);
     TRY(status);
     return hdf5_write(file, body, n, lattice->body);
@@ -418,7 +287,7 @@ static dem_status write_constants(const hdf5_file *file, const dem_lattice *latt
 static dem_status write_vtk(const dem_trajectory *t, const hdf5_file *file, const dem_lattice *lattice)
 {
     const grid g = {t->n_nodes, t->n_springs, lattice->ends};
-    TRY(write_grid(file, &g, t->options.deflate));
+    TRY(grid_write(file, &g, t->options.deflate));
     TRY(write_constants(file, lattice, t->options.deflate));
     return create_frames(t, file);
 }
@@ -428,7 +297,7 @@ static dem_status write_start(const dem_trajectory *t, const hdf5_file *file, co
     const dem_lattice *lattice = dem_model_lattice(model);
     if (t->options.frame_interval > 0.0) TRY(write_vtk(t, file, lattice));
     TRY(lattice_file_write(file, lattice, t->options.deflate));
-    TRY(write_obstacle_group(file, model));
+    TRY(obstacle_file_write(file, model));
     if (t->options.events) TRY(events_create(&t->events, file));
     return table_create(&t->history.table, file);
 }
@@ -438,7 +307,8 @@ static dem_status start(const dem_trajectory *t, const dem_model *model)
     hdf5_file file;
     dem_status status = hdf5_open_new(&file, t->part, start_bytes(model));
     if (status == DEM_OK) status = hdf5_close(&file, write_start(t, &file, model));
-    if (status == DEM_OK && t->n_obstacles > 0) status = write_obstacle_file(t, model);
+    if (status == DEM_OK && t->n_obstacles > 0)
+        status = obstacle_file_publish(t->obstacle_part, t->obstacle, model, t->options.deflate);
     if (status != DEM_OK) (void)unlink(t->part);
     return status;
 }

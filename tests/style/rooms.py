@@ -12,8 +12,8 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 LAYERS = [
     {"vec2", "status", "commit"},
     {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
-    {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance", "table"},
-    {"site", "diagnostics", "integrator", "events", "history", "lattice_file", "schema_table", "schema_print", "body"},
+    {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"site", "diagnostics", "integrator", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body"},
     {"contact", "trajectory", "deck"},
     {"simulation", "output", "report"},
     {"dem_batch"},
