@@ -10,6 +10,14 @@
 #include <string.h>
 #include <unistd.h>
 
+static dem_status write_law(const hdf5_file *file, const char *group, const dem_obstacle *o)
+{
+    const char *law = o->friction_law == DEM_FRICTION_PAPER ? "paper" : "coulomb";
+    TRY(hdf5_write_attribute(file, group, "restitution", HDF5_F64, 1, &o->restitution));
+    TRY(hdf5_write_attribute(file, group, "friction", HDF5_F64, 1, &o->friction));
+    return hdf5_write_attribute_text(file, group, "friction_law", law);
+}
+
 dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
 {
     dem_index n_obstacles = 0;
@@ -20,7 +28,7 @@ dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
         (void)snprintf(points, sizeof points, "%s/points", group);
         const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
         TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
-        TRY(hdf5_write_attribute(file, group, "restitution", HDF5_F64, 1, &obstacles[o].restitution));
+        TRY(write_law(file, group, &obstacles[o]));
     }
     return DEM_OK;
 }

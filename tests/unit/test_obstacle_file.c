@@ -63,6 +63,18 @@ static void expect_number(const hdf5_file *file, const char *group, const char *
     assert_close(value, expected, 0.0);
 }
 
+static void expect_text(const hdf5_file *file, const char *group, const char *name, const char *expected)
+{
+    char text[32] = "";
+    const hid_t id = H5Aopen_by_name(file->id, group, name, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(id >= 0);
+    const hid_t type = H5Aget_type(id);
+    assert_true(H5Tget_size(type) < sizeof text && H5Aread(id, type, text) >= 0);
+    (void)H5Tclose(type);
+    (void)H5Aclose(id);
+    assert_string_equal(text, expected);
+}
+
 static void the_group_has_points_and_laws(void **state)
 {
     (void)state;
@@ -74,6 +86,10 @@ static void the_group_has_points_and_laws(void **state)
     expect(&file, "/obstacles/1/points", flat, 4);
     expect_number(&file, "/obstacles/0", "restitution", 0.5);
     expect_number(&file, "/obstacles/1", "restitution", 0.25);
+    expect_number(&file, "/obstacles/0", "friction", 0.3);
+    expect_number(&file, "/obstacles/1", "friction", 0.75);
+    expect_text(&file, "/obstacles/0", "friction_law", "coulomb");
+    expect_text(&file, "/obstacles/1", "friction_law", "paper");
     assert_ok(hdf5_close(&file, DEM_OK));
     dem_model_destroy(model);
 }
