@@ -289,7 +289,8 @@ def main():
         if "obstacles" in file:
             segments = check_obstacles(options.path.removesuffix(".vtkhdf") + ".obstacle.vtkhdf", file["obstacles"])
     print(f"{os.path.basename(options.path)}: {len(times)} frames of {size[0]} nodes and {size[1]} springs, {rows} "
-          f"rows of history, {events} events, {segments} obstacle segments: VTK {vtkVersion.GetVTKVersion()} and h5py agree")
+          f"rows of history, {events} events, {segments} obstacle segments: VTK {vtkVersion.GetVTKVersion()} and h5py "
+          "agree")
 
 
 if __name__ == "__main__":
