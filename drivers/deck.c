@@ -163,6 +163,7 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->frame_interval = schema_real(output, "frame_interval");
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
+    d->events = schema_real(output, "events") != 0.0;
     d->title = strdup(schema_text(run, "title"));
     d->name = strdup(schema_text(output, "name"));
     return d->title != NULL && d->name != NULL;

@@ -28,7 +28,7 @@ typedef struct deck {
     dem_index n_obstacles;
     dem_options options;   /* 0 where the library is to choose */
     double frame_interval; /* s */
-    int double_precision, deflate;
+    int double_precision, deflate, events;
 } deck;
 
 /* Reads and builds. Faults of syntax, of keys and of their meaning are reported together; geometry is built only where

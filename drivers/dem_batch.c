@@ -131,6 +131,7 @@ static int run(const deck *d, dem_simulation *simulation, const char *path)
     options.frame_interval = d->frame_interval;
     options.double_precision = d->double_precision;
     options.deflate = d->deflate;
+    options.events = d->events;
     const dem_status created = dem_trajectory_create(&trajectory, path, simulation, &options);
     if (created != DEM_OK) return complain(code_of(created), path);
     report_header(stdout, d, simulation, path);

@@ -11,6 +11,8 @@
 
 #include "commit.h"
 
+enum { most_listed = 16 }; /* obstacles */
+
 static double wall_clock(void)
 {
     struct timespec now;
@@ -34,17 +36,12 @@ static double rising_speed(const dem_simulation *simulation)
     return momentum / mass;
 }
 
-static double total(dem_energy e)
-{
-    return dem_energy_ledger(e);
-}
-
 /* ---- following a run ---- */
 
 static void follow_energy(report *r, const dem_state *state)
 {
     const dem_energy e = state->energy;
-    if (state->t == 0.0) r->energy_start = total(e);
+    if (state->t == 0.0) r->energy_start = dem_energy_ledger(e);
     r->energy_max = fmax(r->energy_max, e.kinetic + e.elastic + e.guard);
     const double share = r->energy_max > 0.0 ? (e.elastic + e.guard) / r->energy_max : 0.0;
     if (share <= r->elastic_share_max) return;
@@ -89,7 +86,7 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
     const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
     if (!due || !(done > 0.0)) return;
     const dem_counts counts = dem_simulation_counts(simulation);
-    const double error = (total(state->energy) - r->energy_start) / fmax(r->energy_max, 1e-300);
+    const double error = (dem_energy_ledger(state->energy) - r->energy_start) / fmax(r->energy_max, 1e-300);
     r->wall_shown = now;
     r->t_shown = state->t;
     (void)fprintf(
@@ -119,6 +116,52 @@ static int evaluations_per_step(dem_method method)
                                         : (method == DEM_METHOD_ZONNEVELD34 ? 5 : (method == DEM_METHOD_BS23 ? 4 : 6));
 }
 
+static bool has_friction(const dem_obstacle *o)
+{
+    return o->friction_law == DEM_FRICTION_PAPER ? o->friction < 1.0 : o->friction > 0.0;
+}
+
+static void print_friction(FILE *out, const dem_model *model)
+{
+    dem_index n = 0, n_rough = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    for (dem_index o = 0; o < n; o++) {
+        if (!has_friction(&obstacles[o]) || ++n_rough > most_listed) continue;
+        (void)fprintf(out, "friction   obstacle %lld: %g (%s)\n", (long long)o + 1, obstacles[o].friction,
+                      obstacles[o].friction_law == DEM_FRICTION_PAPER ? "paper" : "Coulomb");
+    }
+    if (n_rough > most_listed) (void)fprintf(out, "friction   on %lld obstacles in all\n", (long long)n_rough);
+}
+
+/* The longest damping time of the springs, s. */
+static double damping_time(const dem_lattice *lattice)
+{
+    double longest = 0.0;
+    for (dem_index k = 0; k < lattice->n_springs && lattice->viscosity != NULL; k++)
+        longest = fmax(longest, lattice->viscosity[k] / lattice->stiffness[k]);
+    return longest;
+}
+
+static void print_damping(FILE *out, double of_masses, double of_springs)
+{
+    if (of_masses > 0.0) (void)fprintf(out, "damping    of masses: %g 1/s\n", of_masses);
+    if (of_springs > 0.0) (void)fprintf(out, "damping    of springs: %g s\n", of_springs);
+}
+
+static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    (void)fprintf(out, "impacts    window %.4g s%s, vertices ", fmax(o->window, 0.0),
+                  o->window > 0.0 ? "" : " (each by itself)");
+    if (o->vertices)
+        (void)fprintf(out, "on: %lld may touch %lld edges\n", (long long)size.n_vertices,
+                      (long long)size.n_contact_edges);
+    else
+        (void)fprintf(out, "off\n");
+    print_friction(out, model);
+    print_damping(out, o->mass_damping, damping_time(dem_model_lattice(model)));
+}
+
 static void print_sizes(FILE *out, const dem_model *model)
 {
     const dem_model_size size = dem_model_sizes(model);
@@ -138,11 +181,12 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
     const double width = d->double_precision ? 8.0 : 4.0;
     const double frame_bytes =
         (double)size.n_nodes * (24.0 + 6.0 * width) + (double)size.n_springs * (2.0 * width + 1.0);
+    const double history_bytes = 8.0 * (30.0 + 5.0 * (double)size.n_bodies + 9.0 * (double)size.n_obstacles);
     const double state_bytes = (double)size.n_nodes * 4.0 * 8.0 * 24.0 + (double)size.n_springs * 2.0 * 32.0;
     (void)fprintf(
         out,
         "estimate   at least %.0f steps of %d evaluations, %.0f frames, up to %.3g MB of output, %.3g MB of memory\n",
-        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes + steps * 8.0 * 30.0),
+        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes + steps * history_bytes),
         1e-6 * state_bytes);
 }
 
@@ -162,6 +206,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
                   (unsigned long long)d->hash);
     print_sizes(out, model);
+    print_rules(out, &o, model);
     (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
     (void)fprintf(out, "time       t_end %.6g s, %s, rtol %.3g, largest step %.4g s\n", d->t_end,
@@ -211,16 +256,62 @@ static void print_strain(const report *r)
                       r->area_min, r->area_min_t, (long long)r->guarded_max);
 }
 
+/* What took energy, beside impacts, if it did. */
+static void print_taken(FILE *out, const char *by, double energy)
+{
+    if (energy != 0.0) (void)fprintf(out, ", %s %.4g", by, energy);
+}
+
+static void print_ledger(const report *r, dem_energy e)
+{
+    (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->energy_start,
+                  e.kinetic + e.elastic + e.guard + e.gravity, e.impact);
+    print_taken(r->out, "friction", e.friction);
+    print_taken(r->out, "damping", e.damping);
+    (void)fprintf(r->out, " - projection %.3g; closure %+.2e\n", e.projection,
+                  (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300));
+}
+
 static void print_energy(const report *r, dem_energy e)
 {
     (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, guard %.4g, gravity %.4g J\n", e.kinetic, e.elastic,
                   e.guard, e.gravity);
-    (void)fprintf(r->out,
-                  "ledger     start %.9g J = now %.9g + taken by impacts %.4g - projection %.3g; closure %+.2e\n",
-                  r->energy_start, e.kinetic + e.elastic + e.guard + e.gravity, e.impact, e.projection,
-                  (total(e) - r->energy_start) / fmax(r->energy_max, 1e-300));
+    print_ledger(r, e);
     (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
                   r->elastic_share_max, r->elastic_share_t);
+}
+
+static void print_events(FILE *out, const dem_counts *c)
+{
+    (void)fprintf(out, "events     %lld stops: %lld impacts, %lld on vertices, %lld early, %lld late, %lld behind\n",
+                  (long long)c->events, (long long)c->impacts, (long long)c->vertex_impacts, (long long)c->early,
+                  (long long)c->late, (long long)c->behind);
+    (void)fprintf(out, "lasting    %lld closings, %lld releases, %lld slips, %lld sticks, %lld ends passed\n",
+                  (long long)c->closings, (long long)c->releases, (long long)c->slips, (long long)c->sticks,
+                  (long long)c->passings);
+}
+
+/* Numbered from 1, as decks are. */
+static void print_obstacle(FILE *out, dem_index number, const dem_obstacle_load *load)
+{
+    (void)fprintf(out, "obstacle   %lld: impulse (%.6g, %.6g) N s, by friction (%.4g, %.4g) N s, %lld contact%s",
+                  (long long)number, load->impulse[0], load->impulse[1], load->friction_impulse[0],
+                  load->friction_impulse[1], (long long)load->contacts, load->contacts == 1 ? "" : "s");
+    if (load->contacts > 0)
+        (void)fprintf(out, ", (%.6g, %.6g) N at (%.6g, %.6g) m", load->reaction[0], load->reaction[1], load->point[0],
+                      load->point[1]);
+    (void)fprintf(out, "\n");
+}
+
+static void print_obstacles(FILE *out, const dem_simulation *simulation)
+{
+    const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_obstacles;
+    for (dem_index o = 0; o < n && o < most_listed; o++) {
+        const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
+        print_obstacle(out, o + 1, &load);
+    }
+    if (n > most_listed)
+        (void)fprintf(out, "obstacle   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
 }
 
 void report_summary(report *r, const dem_simulation *simulation)
@@ -230,11 +321,8 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_contact(r, simulation);
     print_strain(r);
     print_energy(r, dem_simulation_energy(simulation));
-    (void)fprintf(
-        r->out,
-        "events     %lld stops: %lld impacts, %lld closings, %lld releases, %lld ends passed, %lld late, %lld behind\n",
-        (long long)c.events, (long long)c.impacts, (long long)c.closings, (long long)c.releases, (long long)c.passings,
-        (long long)c.late, (long long)c.behind);
+    print_obstacles(r->out, simulation);
+    print_events(r->out, &c);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
                   wall_clock() - r->wall_start);

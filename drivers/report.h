@@ -29,13 +29,13 @@ typedef struct report {
 /** Starts the log of a run to t_end. */
 void report_start(report *r, FILE *out, bool terminal, double t_end);
 
-/** Versions, sizes, scales, estimates. `output`: the file that will be written, NULL: none. */
+/** Versions, sizes, rules of contact, scales, estimates. `output`: the file that will be written, NULL: none. */
 void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);
 
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
-/** First and last contact, rebound, strains, energy ledger and its closure, counts, wall time. */
+/** First and last contact, rebound, strains, energy ledger and its closure, obstacles, counts, wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
 
 /** The versions of program, compiler and libraries in one line. */

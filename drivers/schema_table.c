@@ -115,6 +115,8 @@ static const schema_key output_keys[] = {
      "Precision of the arrays in the frames; positions are always double.", NULL},
     {"deflate", SCHEMA_INTEGER, 1, 1, "-", "1", "[0, 9]", NULL, false,
      "Compression of the frames: 0 is none, 9 the smallest files.", NULL},
+    {"events", SCHEMA_LOGICAL, 1, 1, "-", ".false.", ANY, NULL, false, "Write the table /events of all contact events.",
+     NULL},
 };
 
 #define KEYS(keys) (int)(sizeof(keys) / sizeof(keys)[0]), keys

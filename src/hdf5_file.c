@@ -30,6 +30,8 @@ static hid_t file_type(hdf5_kind kind)
         return H5T_STD_I64LE;
     case HDF5_I32:
         return H5T_STD_I32LE;
+    case HDF5_I8:
+        return H5T_STD_I8LE;
     default:
         return H5T_STD_U8LE;
     }
@@ -268,6 +270,7 @@ hid_t hdf5_memory_type(hdf5_kind kind)
 {
     switch (kind) {
     case HDF5_I64:
+    case HDF5_I8:
         return H5T_NATIVE_INT64;
     case HDF5_I32:
         return H5T_NATIVE_INT32;

@@ -8,8 +8,8 @@
 
 #include <hdf5.h>
 
-/** Number types. In memory HDF5_F32 is double too; the others are what they say. */
-typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_U8 } hdf5_kind;
+/** Number types. In memory HDF5_F32 is double too, HDF5_I8 is int64_t; the others are what they say. */
+typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
 
 /** An open file. HDF5's own error printing is off in this thread from its opening to its closing. */
 typedef struct hdf5_file {

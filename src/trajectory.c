@@ -2,9 +2,12 @@
 /* A run as a VTKHDF file: which dataset is where, and when it is written. docs/output.md lists them all. */
 #include <dem/trajectory.h>
 
+#include "events.h"
+#include "grid.h"
 #include "hdf5_file.h"
 #include "history.h"
 #include "lattice_file.h"
+#include "obstacle_file.h"
 #include "status.h"
 
 #include <math.h>
@@ -13,8 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define GRID  "/VTKHDF/"
-#define STEPS "/VTKHDF/Steps/"
+#define STEPS GRID "Steps/"
 
 struct dem_trajectory {
     char *path, *part, *obstacle, *obstacle_part; /* names: one allocation */
@@ -25,142 +27,10 @@ struct dem_trajectory {
     int finished;
     double *scratch; /* [3 max(n_nodes, n_springs)] */
     history history;
+    table events; /* without columns unless wanted */
 };
 
 static const char suffix[] = ".vtkhdf";
-enum { VTK_LINE = 3 };
-
-/* ---- an UnstructuredGrid of lines ---- */
-
-typedef struct grid {
-    dem_index n_points, n_cells;
-    const dem_index *ends; /* [n_cells][2] */
-} grid;
-
-static dem_status write_numbers(const hdf5_file *file, const char *name, int deflate, dem_index count,
-                                const dem_index *data)
-{
-    return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, deflate}, (hsize_t)count, data);
-}
-
-static dem_status write_offsets(const hdf5_file *file, const grid *g, int deflate)
-{
-    dem_index *offsets = malloc((size_t)(g->n_cells + 1) * sizeof *offsets);
-    CHECK_MEMORY(offsets);
-    for (dem_index k = 0; k <= g->n_cells; k++) offsets[k] = 2 * k;
-    const dem_status status = write_numbers(file, GRID "Offsets", deflate, g->n_cells + 1, offsets);
-    free(offsets);
-    return status;
-}
-
-static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
-{
-    unsigned char *types = malloc((size_t)g->n_cells + 1);
-    CHECK_MEMORY(types);
-    memset(types, VTK_LINE, (size_t)g->n_cells);
-    const hdf5_rows rows = {GRID "Types", HDF5_U8, 1, {0}, 0, deflate};
-    const dem_status status = hdf5_write(file, rows, (hsize_t)g->n_cells, types);
-    free(types);
-    return status;
-}
-
-static dem_status write_grid(const hdf5_file *file, const grid *g, int deflate)
-{
-    static const dem_index version[2] = {2, 0};
-    const dem_index n_ends = 2 * g->n_cells;
-    TRY(hdf5_write_attribute(file, "/VTKHDF", "Version", HDF5_I64, 2, version));
-    TRY(hdf5_write_attribute_text(file, "/VTKHDF", "Type", "UnstructuredGrid"));
-    TRY(write_numbers(file, GRID "NumberOfPoints", 0, 1, &g->n_points));
-    TRY(write_numbers(file, GRID "NumberOfCells", 0, 1, &g->n_cells));
-    TRY(write_numbers(file, GRID "NumberOfConnectivityIds", 0, 1, &n_ends));
-    TRY(write_numbers(file, GRID "Connectivity", deflate, n_ends, g->ends));
-    TRY(write_offsets(file, g, deflate));
-    return write_types(file, g, deflate);
-}
-
-/* ---- obstacles ---- */
-
-static dem_status write_obstacle_group(const hdf5_file *file, const dem_model *model)
-{
-    dem_index n_obstacles = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
-    for (dem_index o = 0; o < n_obstacles; o++) {
-        char group[48], points[64];
-        (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)o);
-        (void)snprintf(points, sizeof points, "%s/points", group);
-        const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
-        TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
-        TRY(hdf5_write_attribute(file, group, "restitution", HDF5_F64, 1, &obstacles[o].restitution));
-    }
-    return DEM_OK;
-}
-
-/* The polylines as one grid. */
-typedef struct outline {
-    grid grid;
-    double *points; /* [n_points][3] */
-    dem_index *ends;
-    int32_t *owner; /* [n_cells] the obstacle of each segment */
-} outline;
-
-static void free_outline(outline *o)
-{
-    free(o->points);
-    free(o->ends);
-    free(o->owner);
-}
-
-static dem_status allocate_outline(outline *out, dem_index n_points, dem_index n_segments)
-{
-    outline o = {.grid = {n_points, n_segments, NULL}};
-    o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
-    o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
-    o.owner = calloc((size_t)n_segments, sizeof *o.owner);
-    o.grid.ends = o.ends;
-    *out = o;
-    if (o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
-    free_outline(&o);
-    return status_fail(DEM_ERROR_MEMORY, "out of memory");
-}
-
-static dem_status make_outline(outline *out, const dem_model *model)
-{
-    dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
-    for (dem_index o = 0; o < n_obstacles; o++) n_points += obstacles[o].n_points;
-    TRY(allocate_outline(out, n_points, n_points - n_obstacles));
-    for (dem_index o = 0; o < n_obstacles; o++)
-        for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
-            memcpy(out->points + 3 * point, obstacles[o].points + 2 * p, 2 * sizeof *out->points);
-            if (p == 0) continue;
-            out->ends[2 * segment] = point - 1;
-            out->ends[2 * segment + 1] = point;
-            out->owner[segment++] = (int32_t)o;
-        }
-    return DEM_OK;
-}
-
-static dem_status write_outline(const hdf5_file *file, const outline *o, int deflate)
-{
-    const hdf5_rows points = {GRID "Points", HDF5_F64, 2, {3}, 0, deflate};
-    const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
-    TRY(write_grid(file, &o->grid, deflate));
-    TRY(hdf5_write(file, points, (hsize_t)o->grid.n_points, o->points));
-    return hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner);
-}
-
-static dem_status write_obstacle_file(const dem_trajectory *t, const dem_model *model)
-{
-    outline o;
-    hdf5_file file;
-    TRY(make_outline(&o, model));
-    dem_status status = hdf5_open_new(&file, t->obstacle_part, 64 * (hsize_t)o.grid.n_points);
-    if (status == DEM_OK) status = hdf5_close(&file, write_outline(&file, &o, t->options.deflate));
-    if (status == DEM_OK) status = hdf5_publish(t->obstacle_part, t->obstacle);
-    if (status != DEM_OK) (void)unlink(t->obstacle_part);
-    free_outline(&o);
-    return status;
-}
 
 /* ---- what is written at every frame ---- */
 
@@ -184,9 +54,9 @@ static const struct array_layout {
 
 /* In the order of field_values(). */
 static const char *const fields[] = {
-    GRID "FieldData/kinetic_energy", GRID "FieldData/elastic_energy", GRID "FieldData/guard_energy",
-    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",  GRID "FieldData/projection_energy",
-    GRID "FieldData/contacts",
+    GRID "FieldData/kinetic_energy", GRID "FieldData/elastic_energy",    GRID "FieldData/guard_energy",
+    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",     GRID "FieldData/friction_energy",
+    GRID "FieldData/damping_energy", GRID "FieldData/projection_energy", GRID "FieldData/contacts",
 };
 enum { N_FIELDS = sizeof fields / sizeof fields[0] };
 
@@ -212,6 +82,8 @@ static const struct offset {
     {STEPS "FieldDataOffsets/guard_energy", 1, ONE},
     {STEPS "FieldDataOffsets/gravity_energy", 1, ONE},
     {STEPS "FieldDataOffsets/impact_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/friction_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/damping_energy", 1, ONE},
     {STEPS "FieldDataOffsets/projection_energy", 1, ONE},
     {STEPS "FieldDataOffsets/contacts", 1, ONE},
 };
@@ -296,8 +168,9 @@ static dem_status append_arrays(const dem_trajectory *t, const hdf5_file *file, 
 static dem_status append_fields(const dem_trajectory *t, const hdf5_file *file, const dem_state *state)
 {
     const dem_energy *e = &state->energy;
-    const double values[] = {
-        e->kinetic, e->elastic, e->guard, e->gravity, e->impact, e->projection, (double)state->n_contacts};
+    const double values[] = {e->kinetic, e->elastic,    e->guard,
+                             e->gravity, e->impact,     e->friction,
+                             e->damping, e->projection, (double)state->n_contacts};
     for (int f = 0; f < N_FIELDS; f++) {
         const hdf5_rows rows = frame_rows(fields[f], HDF5_F64, 1);
         TRY(hdf5_append(file, &rows, (hsize_t)t->frames, 1, &values[f]));
@@ -318,12 +191,18 @@ static dem_status append_steps(const dem_trajectory *t, const hdf5_file *file, d
     return hdf5_append(file, &values, (hsize_t)t->frames, 1, &time);
 }
 
+static dem_status flush_tables(dem_trajectory *t, const hdf5_file *file)
+{
+    TRY(table_flush(&t->history.table, file));
+    return table_flush(&t->events, file);
+}
+
 /* The count of steps comes last: readers believe it. */
 static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation,
                                const dem_state *state)
 {
     const dem_index steps = t->frames + 1;
-    TRY(history_flush(&t->history, file));
+    TRY(flush_tables(t, file));
     TRY(append_arrays(t, file, simulation, state));
     TRY(append_fields(t, file, state));
     TRY(append_steps(t, file, state->t));
@@ -331,9 +210,14 @@ static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const d
 }
 
 /* Bounds of what is added, in bytes: deflate never lengthens. */
+static hsize_t tables_bytes(const dem_trajectory *t)
+{
+    return table_bytes(&t->history.table) + table_bytes(&t->events);
+}
+
 static hsize_t frame_bytes(const dem_trajectory *t)
 {
-    return history_bytes(&t->history) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
+    return tables_bytes(t) + 72 * (hsize_t)t->n_nodes + 17 * (hsize_t)t->n_springs;
 }
 
 static hsize_t start_bytes(const dem_model *model)
@@ -361,16 +245,26 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 static dem_status flush(dem_trajectory *t)
 {
     hdf5_file file;
-    TRY(hdf5_open_write(&file, t->part, history_bytes(&t->history)));
-    return hdf5_close(&file, history_flush(&t->history, &file));
+    TRY(hdf5_open_write(&file, t->part, tables_bytes(t)));
+    return hdf5_close(&file, flush_tables(t, &file));
 }
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", t->path);
-    if (t->history.buffered == HISTORY_ROWS) TRY(flush(t));
+    if (t->history.table.buffered == TABLE_ROWS) TRY(flush(t));
     history_record(&t->history, simulation);
+    return DEM_OK;
+}
+
+static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    dem_trajectory *t = context;
+    (void)simulation;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more events", t->path);
+    if (t->events.buffered == TABLE_ROWS) TRY(flush(t));
+    events_record(&t->events, event);
     return DEM_OK;
 }
 
@@ -380,10 +274,11 @@ static dem_status write_constants(const hdf5_file *file, const dem_lattice *latt
 {
     const size_t n = (size_t)lattice->n_nodes;
     const hdf5_rows body = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, deflate};
+    const hdf5_rows number = {GRID "PointData/id", HDF5_I64, 1, {0}, 0, deflate};
     dem_index *id = malloc(n * sizeof *id);
     CHECK_MEMORY(id);
     for (dem_index i = 0; i < lattice->n_nodes; i++) id[i] = i;
-    const dem_status status = write_numbers(file, GRID "PointData/id", deflate, lattice->n_nodes, id);
+    const dem_status status = hdf5_write(file, number, n, id);
     free(id);
     TRY(status);
     return hdf5_write(file, body, n, lattice->body);
@@ -392,7 +287,7 @@ static dem_status write_constants(const hdf5_file *file, const dem_lattice *latt
 static dem_status write_vtk(const dem_trajectory *t, const hdf5_file *file, const dem_lattice *lattice)
 {
     const grid g = {t->n_nodes, t->n_springs, lattice->ends};
-    TRY(write_grid(file, &g, t->options.deflate));
+    TRY(grid_write(file, &g, t->options.deflate));
     TRY(write_constants(file, lattice, t->options.deflate));
     return create_frames(t, file);
 }
@@ -402,8 +297,9 @@ static dem_status write_start(const dem_trajectory *t, const hdf5_file *file, co
     const dem_lattice *lattice = dem_model_lattice(model);
     if (t->options.frame_interval > 0.0) TRY(write_vtk(t, file, lattice));
     TRY(lattice_file_write(file, lattice, t->options.deflate));
-    TRY(write_obstacle_group(file, model));
-    return history_create(&t->history, file);
+    TRY(obstacle_file_write(file, model));
+    if (t->options.events) TRY(events_create(&t->events, file));
+    return table_create(&t->history.table, file);
 }
 
 static dem_status start(const dem_trajectory *t, const dem_model *model)
@@ -411,7 +307,8 @@ static dem_status start(const dem_trajectory *t, const dem_model *model)
     hdf5_file file;
     dem_status status = hdf5_open_new(&file, t->part, start_bytes(model));
     if (status == DEM_OK) status = hdf5_close(&file, write_start(t, &file, model));
-    if (status == DEM_OK && t->n_obstacles > 0) status = write_obstacle_file(t, model);
+    if (status == DEM_OK && t->n_obstacles > 0)
+        status = obstacle_file_publish(t->obstacle_part, t->obstacle, model, t->options.deflate);
     if (status != DEM_OK) (void)unlink(t->part);
     return status;
 }
@@ -455,6 +352,7 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
     TRY(make_names(t, path));
     t->scratch = calloc((size_t)largest, 3 * sizeof *t->scratch);
     CHECK_MEMORY(t->scratch);
+    if (t->options.events) TRY(events_init(&t->events));
     return history_init(&t->history, model);
 }
 
@@ -462,7 +360,8 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
 
 static dem_status verify_counts(const dem_trajectory *t, const hdf5_file *file)
 {
-    TRY(history_verify(&t->history, file));
+    TRY(table_verify(&t->history.table, file));
+    TRY(table_verify(&t->events, file));
     if (t->options.frame_interval <= 0.0) return DEM_OK;
     for (int a = 0; a < N_ARRAYS; a++)
         TRY(hdf5_expect_rows(file, arrays[a].name, (hsize_t)(t->frames * count_of(t, arrays[a].of))));
@@ -509,7 +408,8 @@ dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const d
 
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
 {
-    return (dem_observer){trajectory->options.frame_interval, on_frame, on_step, NULL, trajectory};
+    return (dem_observer){trajectory->options.frame_interval, on_frame, on_step,
+                          trajectory->options.events ? on_event : NULL, trajectory};
 }
 
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
@@ -539,6 +439,7 @@ void dem_trajectory_destroy(dem_trajectory *trajectory)
 {
     if (trajectory == NULL) return;
     history_free(&trajectory->history);
+    table_free(&trajectory->events);
     free(trajectory->scratch);
     free(trajectory->path);
     free(trajectory);

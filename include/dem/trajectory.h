@@ -19,6 +19,7 @@ typedef struct dem_trajectory_options {
     double frame_interval; /**< s between frames; <= 0: none, only the history */
     int double_precision;  /**< 0: displacement, velocity, strain, force in single precision; 1: in double */
     int deflate;           /**< compression 0 (none) to 9; default 1 */
+    int events;            /**< 1: the table /events of all contact events; default 0 */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

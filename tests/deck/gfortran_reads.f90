@@ -76,7 +76,8 @@ contains
     character(4096) :: name, precision
     real(dp) :: frame_interval
     integer :: deflate
-    namelist /output/ name, frame_interval, precision, deflate
+    logical :: events
+    namelist /output/ name, frame_interval, precision, deflate, events
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads a trajectory as its users do, with VTK's reader and with h5py, and compares the two value by value.
+"""Reads a trajectory as its users do, with VTK's reader and with h5py, and compares the two value by value; holds the
+history and the table of events against the laws of momentum and energy.
 
-usage: read_vtkhdf.py RUN.vtkhdf [--expect-frames N] [--interval DT]
+usage: read_vtkhdf.py RUN.vtkhdf [--expect-frames N] [--interval DT] [--bounces N]
 Exit code: 0 all equal, 1 a difference, 77 a Python package is missing."""
 import argparse
 import os
+import re
 import sys
 
 try:
@@ -20,6 +22,14 @@ except ImportError as error:
     sys.exit(77)
 
 LINE = 3
+IMPACT = 0
+NAMES = {"kind": "impact close release slip stick pass", "state": "free slip stick"}
+EVENT_SHAPES = {
+    **dict.fromkeys(("t", "weight", "normal_impulse", "tangential_impulse", "energy"), ("f8", ())),
+    **dict.fromkeys(("x", "normal", "before", "after"), ("f8", (2,))),
+    **dict.fromkeys(("node", "other", "obstacle", "segment"), ("i8", ())),
+    **dict.fromkeys(("kind", "state"), ("i1", ())),
+}
 
 
 def same(what, found, expected):
@@ -130,7 +140,110 @@ def check_history(history):
     t = history["t"][...]
     if len(t) > 1 and not np.all(np.diff(t) > 0):
         sys.exit("history: t does not increase")
+    for name in ("impacts", "vertex_impacts", "early", "closings", "releases", "slips", "sticks", "passings", "late",
+                 "events", "steps", "rejected", "retries", "evaluations"):
+        if np.any(np.diff(history[name][...], prepend=0) < 0):
+            sys.exit(f"history: {name} decreases")
+    check_ledger(history)
     return len(t)
+
+
+def check_ledger(history):
+    """Start and end, to the 2e-3 of the largest energy of motion that docs/verification.md asks for."""
+    energy = {name: history[name][...] for name in ("kinetic", "elastic", "guard", "gravity", "impact", "friction",
+                                                    "damping", "projection")}
+    largest = np.max(energy["kinetic"] + energy["elastic"] + energy["guard"])
+    ledger = sum(energy.values()) - 2.0 * energy["projection"]
+    close("history: ledger", ledger, ledger[0], 2e-3 * largest)
+
+
+def check_fields(vtk_group, history):
+    """A frame lies within a step: impacts have taken what they had in the row before it, friction and damping no less
+    than there and no more than in the row behind."""
+    rows = np.searchsorted(history["t"][...], vtk_group["Steps/Values"][...], side="right") - 1
+    for name in ("impact", "projection"):
+        same(f"{name} of the frames", vtk_group[f"FieldData/{name}_energy"][...], history[name][...][rows])
+    for name in ("friction", "damping"):
+        found, taken = vtk_group[f"FieldData/{name}_energy"][...], history[name][...]
+        most = np.maximum(taken[rows], taken[np.minimum(rows + 1, len(taken) - 1)])
+        close(f"{name} of the frames", found, np.clip(found, taken[rows], most), 1e-12 * taken[-1])
+
+
+def gravity_of(file):
+    deck = file["provenance/resolved"].asstr()[()]
+    return np.array([float(word) for word in re.search(r"(?m)^    gravity = (\S+), (\S+)", deck).groups()])
+
+
+def momentum_gained(file):
+    """By the obstacles, from the motion of the bodies: the sum of m (v - v0), less m g t."""
+    history, lattice = file["history"], file["lattice"]
+    mass = np.bincount(lattice["body"][...], lattice["mass"][...])
+    velocity = history["body_velocity"][...]
+    return mass @ (velocity[-1] - velocity[0]) - mass.sum() * gravity_of(file) * history["t"][-1]
+
+
+def impulses_of(events):
+    normal = events["normal"][...]
+    tangent = np.stack([normal[:, 1], -normal[:, 0]], axis=1)
+    return events["normal_impulse"][...][:, None] * normal + events["tangential_impulse"][...][:, None] * tangent
+
+
+def check_event_rows(events, file):
+    if set(events) != set(EVENT_SHAPES):
+        sys.exit(f"events: {sorted(events)}")
+    n = len(events["t"])
+    for name, (kind, tail) in EVENT_SHAPES.items():
+        if events[name].shape != (n, *tail) or events[name].dtype != np.dtype("<" + kind):
+            sys.exit(f"events: {name} is {events[name].dtype} {events[name].shape}")
+    for name, words in NAMES.items():
+        same(f"names of {name}", events[name].attrs["names"].decode().split(), words.split())
+        same(f"codes of {name}", np.isin(events[name], range(len(words.split()))), np.ones(n, bool))
+    node, other, weight = (events[name][...] for name in ("node", "other", "weight"))
+    nodes = file["lattice/x"].shape[0]
+    same("nodes of events", (0 <= node) & (node < nodes) & (-1 <= other) & (other < nodes), np.ones(n, bool))
+    same("weights of nodes", weight[other < 0], np.zeros(np.sum(other < 0)))
+    close("weights of edges", weight, 0.5, 0.5)
+    close("normals", np.linalg.norm(events["normal"][...], axis=1), 1.0, 1e-12)
+    same("instants of events", np.isin(events["t"], file["history/t"]), np.ones(n, bool))
+    if np.any(np.diff(events["t"][...]) < 0):
+        sys.exit("events: t decreases")
+
+
+def check_event_places(events, obstacles):
+    """On the line of the segment, to a millionth of its length."""
+    for o, s, x in zip(events["obstacle"][...], events["segment"][...], events["x"][...]):
+        a, b = obstacles[str(o)]["points"][s:s + 2]
+        length = np.linalg.norm(b - a)
+        across = np.array([a[1] - b[1], b[0] - a[0]]) / length
+        close("place of an event", across @ (x - a), 0.0, 1e-6 * length)
+
+
+def check_events(file):
+    """The table alone, and against the last row of the history."""
+    events, history = file["events"], file["history"]
+    check_event_rows(events, file)
+    check_event_places(events, file.get("obstacles"))
+    impact = events["kind"][...] == IMPACT
+    same("impacts", np.sum(impact), history["impacts"][-1])
+    same("impacts on vertices", np.sum(impact & (events["other"][...] >= 0)), history["vertex_impacts"][-1])
+    impulse = impulses_of(events)
+    same("impulses of what is no impact", impulse[~impact], np.zeros((np.sum(~impact), 2)))
+    taken = events["energy"][...]
+    if not taken.any():  # not told: it is the work that the impulse takes, -p.(v + v')/2
+        taken = -0.5 * np.sum(impulse * (events["before"][...] + events["after"][...]), axis=1)
+    close("energy of impacts", taken.sum(), history["impact"][-1], 1e-9 * np.max(history["kinetic"]))
+    return len(impact)
+
+
+def check_bounces(file, n):
+    """Without lasting contacts the obstacles' impulses are those of the impacts, and all there is to the momentum."""
+    events, history = file["events"], file["history"]
+    same("bounces", [np.sum(events["kind"][...] == IMPACT), history["closings"][-1]], [n, 0])
+    impulse, given = impulses_of(events), history["obstacle_impulse"][-1]
+    rounding = 1e-9 * np.sum(np.abs(impulse))
+    for o, expected in enumerate(given):
+        close(f"impulse of obstacle {o}", impulse[events["obstacle"][...] == o].sum(axis=0), expected, rounding)
+    close("balance of momentum", momentum_gained(file), given.sum(axis=0), rounding)
 
 
 def check_obstacles(path, obstacles):
@@ -152,6 +265,7 @@ def main():
     parser.add_argument("path")
     parser.add_argument("--expect-frames", type=int)
     parser.add_argument("--interval", type=float)
+    parser.add_argument("--bounces", type=int)
     options = parser.parse_args()
     with h5py.File(options.path, "r") as file:
         grid = Grid(options.path)
@@ -166,12 +280,17 @@ def main():
         for frame in [*range(1, len(times), 2), *range(0, len(times), 2)]:
             check_frame(file, grid.at(times[frame]), frame, len(times))
         rows = check_history(file["history"])
+        check_fields(file["VTKHDF"], file["history"])
+        events = check_events(file) if "events" in file else "no"
+        if options.bounces is not None:
+            check_bounces(file, options.bounces)
         size = file["lattice/x"].shape[0], file["lattice/ends"].shape[0]
         segments = 0
         if "obstacles" in file:
             segments = check_obstacles(options.path.removesuffix(".vtkhdf") + ".obstacle.vtkhdf", file["obstacles"])
     print(f"{os.path.basename(options.path)}: {len(times)} frames of {size[0]} nodes and {size[1]} springs, {rows} "
-          f"rows of history, {segments} obstacle segments: VTK {vtkVersion.GetVTKVersion()} and h5py agree")
+          f"rows of history, {events} events, {segments} obstacle segments: VTK {vtkVersion.GetVTKVersion()} and h5py "
+          "agree")
 
 
 if __name__ == "__main__":

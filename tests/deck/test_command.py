@@ -146,7 +146,7 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "contact", "scales", "time", "estimate"])
+                         ["dem", "deck", "lattice", "contact", "impacts", "scales", "time", "estimate"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -157,6 +157,9 @@ class Check(Case):
         may_touch, obstacles, segments = numbers("contact    # nodes may touch # obstacle of # segments", out)
         self.assertTrue(0 < may_touch < nodes)
         self.assertEqual((obstacles, segments), (1, 8))
+        window, vertices, edges = numbers("impacts    window # s, vertices on: # may touch # edges",
+                                          out.replace(" (each by itself)", ""))
+        self.assertTrue(window >= 0 and vertices >= 0 and edges >= 0)
         spacing, omega_max, v_scale, skin = numbers(
             "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, skin # m", out)
         self.assertAlmostEqual(spacing, 0.01)
@@ -317,11 +320,23 @@ class Run(Case):
         self.assertLess(abs(closure), 2e-3)
         share, when = numbers("elastic    largest share # of the largest kinetic and elastic energy so far, at # s", log)
         self.assertTrue(0.5 < share < 1 and first < when < last)
-        counts = numbers("events     # stops: # impacts, # closings, # releases, # ends passed, # late, # behind", log)
+        _, up, *friction, contacts = numbers(
+            "obstacle   1: impulse (#, #) N s, by friction (#, #) N s, # contacts", log)
+        self.assertTrue(up > 0 and friction == [0, 0] and contacts == 0)
+        counts = numbers("events     # stops: # impacts, # on vertices, # early, # late, # behind", log)
         self.assertTrue(counts[0] > 0 and counts[1] > 0 and all(count >= 0 for count in counts))
+        lasting = numbers("lasting    # closings, # releases, # slips, # sticks, # ends passed", log)
+        self.assertTrue(lasting[0] > 0 and lasting[0] == lasting[1], "nothing touches at the end")
         steps, rejected, retried, evaluations, seconds = numbers(
             "run        # steps, # rejected, # retried, # evaluations, # s", log)
         self.assertTrue(steps > 0 and rejected >= 0 and retried >= 0 and evaluations >= 5 * steps and seconds >= 0)
+
+    def test_a_storm_tells_node_place_and_time(self):
+        self.put(coarse() + "&contact max_impacts = 1 /\n")
+        done = run("deck.nml", cwd=self.folder)
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"\Adeck\.nml: error: node \d+ at \(\S+, \S+\) m .* at t = \S+ s\n\Z")
+        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf"})
 
     def test_progress_is_plain_lines_where_there_is_no_terminal(self):
         done = run("deck.nml", cwd=self.folder, text=False)

@@ -6,29 +6,57 @@ import subprocess
 import sys
 import tempfile
 
+try:
+    import h5py
+except ImportError as error:
+    print(f"skipped: the Python package h5py is needed ({error})")
+    sys.exit(77)
+
 DEM_BATCH, INPUTS, READER = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 
 DECKS = [
     # name, changes, frames, interval
-    ("rectangle", {"2.5e-3": "1e-2"}, 21, 1e-3),
+    ("rectangle", {"2.5e-3": "1e-2", "'rectangle'\n    frame": "'rectangle'\n    events = T\n    frame"}, 21, 1e-3),
     ("disc", {"2.5e-3": "1e-2", "t_end   = 20e-3": "t_end   = 7e-3"}, 8, 1e-3),
-    ("every_key", {"precision = 'single'": "precision = 'double'", "deflate = 1": "deflate = 0"}, 6, 1e-3),
+    ("every_key", {"precision = 'single'": "precision = 'double'", "deflate = 1": "deflate = 0",
+                   "events = .false.": "events = .true."}, 6, 1e-3),
 ]
 
+# A point of 2 kg is thrown onto a floor, against a wall and onto the floor again.
+BOUNCE = """
+&run t_end = 0.9 /
+&body shape = 'file', file = 'point.h5', position = 0, 0.5, velocity = 1, 0 /
+&obstacle points = -1, 0, 9, 0, restitution = 0.8 /
+&obstacle points = 0.5, 0.2, 0.5, 5, restitution = 0.5 /
+&solver spacing = 1, max_step = 0.01, v_scale = 1 /
+&output name = 'bounce', frame_interval = 0.1, events = .true. /
+"""
 
-def check(name, changes, frames, interval):
+
+def check(name, text, folder, *options):
+    pathlib.Path(folder, "deck.nml").write_text(text, encoding="utf-8")
+    subprocess.run([DEM_BATCH, "deck.nml"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    command = [sys.executable, READER, pathlib.Path(folder, f"{name}.vtkhdf"), *map(str, options)]
+    return subprocess.run(command, check=False).returncode
+
+
+def check_input(name, changes, frames, interval):
     text = pathlib.Path(INPUTS, f"{name}.nml").read_text(encoding="utf-8")
     for old, new in changes.items():
         assert old in text, f"{old} is not in {name}.nml"
         text = text.replace(old, new, 1)
     with tempfile.TemporaryDirectory() as folder:
-        pathlib.Path(folder, "deck.nml").write_text(text, encoding="utf-8")
-        subprocess.run([DEM_BATCH, "deck.nml"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        command = [sys.executable, READER, pathlib.Path(folder, f"{name}.vtkhdf")]
-        return subprocess.run([*command, "--expect-frames", str(frames), "--interval", str(interval)], check=False).returncode
+        return check(name, text, folder, "--expect-frames", frames, "--interval", interval)
 
 
-for deck in DECKS:
-    code = check(*deck)
+def check_bounce():
+    with tempfile.TemporaryDirectory() as folder:
+        with h5py.File(pathlib.Path(folder, "point.h5"), "w") as file:
+            file["lattice/x"] = [[0.0, 0.0]]
+            file["lattice/mass"] = [2.0]
+        return check("bounce", BOUNCE, folder, "--bounces", 3)
+
+
+for code in [*(check_input(*deck) for deck in DECKS), check_bounce()]:
     if code != 0:
         sys.exit(code)

@@ -74,6 +74,7 @@ static dem_status write_and_run(dem_simulation *simulation)
     dem_trajectory *trajectory = NULL;
     dem_trajectory_options options = dem_trajectory_options_default();
     options.frame_interval = 2e-4;
+    options.events = 1;
     dem_status status = dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options);
     if (status != DEM_OK) return status;
     const dem_observer observer = dem_trajectory_observer(trajectory);

@@ -12,14 +12,15 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 LAYERS = [
     {"vec2", "status", "commit"},
     {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
-    {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance"},
-    {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body"},
+    {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"site", "diagnostics", "integrator", "events", "history", "lattice_file", "obstacle_file",
+     "schema_table", "schema_print", "body"},
     {"contact", "trajectory", "deck"},
     {"simulation", "output", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
-BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("history", "hdf5_file"), ("lattice_mesh", "lattice"), ("shape", "pores"),
+BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice"), ("shape", "pores"),
           ("pores", "shape")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),

@@ -97,7 +97,7 @@ static void every_key_finds_its_place(void **state)
                        "&obstacle points = 0, -1, 1, -2, 2, -1, restitution = 0.25 /\n" FLOOR
                        "&contact skin = 1e-7, rest_speed = 1e-4, max_impacts = 77 /\n"
                        "&solver method = 'bs23', rtol = 1e-4, max_step = 1e-5, v_scale = 3, spacing = 0.5 /\n"
-                       "&output name = 'n', frame_interval = 0.125, precision = 'double', deflate = 4 /\n");
+                       "&output name = 'n', frame_interval = 0.125, precision = 'double', deflate = 4, events = T /\n");
     assert_string_equal(d.title, "A title");
     assert_string_equal(d.name, "n");
     assert_string_equal(strrchr(d.path, '/'), "/a.nml");
@@ -108,6 +108,7 @@ static void every_key_finds_its_place(void **state)
     assert_close(d.frame_interval, 0.125, 0.0);
     assert_int_equal(d.double_precision, 1);
     assert_int_equal(d.deflate, 4);
+    assert_int_equal(d.events, 1);
     assert_int_equal(d.n_obstacles, 2);
     assert_int_equal(d.obstacles[0].n_points, 3);
     assert_close(d.obstacles[0].points[3], -2.0, 0.0);
@@ -145,6 +146,7 @@ static void keys_not_given_are_left_to_the_library(void **state)
     assert_int_equal(d.n_obstacles, 0);
     assert_int_equal(d.double_precision, 0);
     assert_int_equal(d.deflate, 1);
+    assert_int_equal(d.events, 0);
     assert_string_equal(d.title, "");
     assert_int_equal(d.lattice.n_nodes, 19);
     deck_free(&d);

@@ -166,6 +166,7 @@ static void numbers_are_stored_little_endian_in_their_own_width(void **state)
     (void)state;
     const double reals[2] = {0.1, -4.0};
     const int64_t wide[2] = {INT64_C(1) << 40, -7};
+    const int64_t codes[2] = {127, -1};
     const int32_t narrow[2] = {INT32_MAX, -8};
     const unsigned char bytes[2] = {255, 9};
     const struct {
@@ -177,6 +178,7 @@ static void numbers_are_stored_little_endian_in_their_own_width(void **state)
                  {HDF5_F32, H5T_IEEE_F32LE, reals, (double)0.1f, -4.0},
                  {HDF5_I64, H5T_STD_I64LE, wide, 1099511627776.0, -7.0},
                  {HDF5_I32, H5T_STD_I32LE, narrow, 2147483647.0, -8.0},
+                 {HDF5_I8, H5T_STD_I8LE, codes, 127.0, -1.0},
                  {HDF5_U8, H5T_STD_U8LE, bytes, 255.0, 9.0}};
     hdf5_file file = open_new();
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -190,6 +192,7 @@ static void numbers_are_stored_little_endian_in_their_own_width(void **state)
         (void)H5Tclose(t.type);
     }
     assert_true(H5Tequal(hdf5_memory_type(HDF5_F32), H5T_NATIVE_DOUBLE) > 0);
+    assert_true(H5Tequal(hdf5_memory_type(HDF5_I8), H5T_NATIVE_INT64) > 0);
     finish(&file);
 }
 

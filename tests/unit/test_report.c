@@ -15,6 +15,25 @@
 static const double g = 9.81, mass = 2.0, drop = 0.5, eta = 0.5, six_digits = 6e-7, four_digits = 6e-5;
 static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
 
+/* Stand-ins for what the simulation tells, where a test wants other numbers; the linker wraps report.c's calls. */
+dem_energy __real_dem_simulation_energy(const dem_simulation *simulation);
+dem_counts __real_dem_simulation_counts(const dem_simulation *simulation);
+dem_energy __wrap_dem_simulation_energy(const dem_simulation *simulation);
+dem_counts __wrap_dem_simulation_counts(const dem_simulation *simulation);
+
+static const dem_energy *other_energy;
+static const dem_counts *other_counts;
+
+dem_energy __wrap_dem_simulation_energy(const dem_simulation *simulation)
+{
+    return other_energy != NULL ? *other_energy : __real_dem_simulation_energy(simulation);
+}
+
+dem_counts __wrap_dem_simulation_counts(const dem_simulation *simulation)
+{
+    return other_counts != NULL ? *other_counts : __real_dem_simulation_counts(simulation);
+}
+
 /* A run with its log. */
 typedef struct logged {
     support_run run;
@@ -205,6 +224,54 @@ static void the_ledger_closes(void **state)
     drop_logged(l);
 }
 
+static void what_friction_and_damping_took_is_told_if_they_did(void **state)
+{
+    (void)state;
+    const dem_energy e = {.kinetic = 5.0, .impact = 1.0, .friction = 2.5, .damping = 0.75, .projection = 0.125};
+    logged *l = drop_node(false, 0.1);
+    l->report.energy_start = 9.125, l->report.energy_max = 10.0;
+    other_energy = &e;
+    report_summary(&l->report, l->run.simulation);
+    other_energy = NULL;
+    report_summary(&l->report, l->run.simulation);
+    read_log(l);
+    assert_non_null(strstr(l->text,
+                           "\nledger     start 9.125 J = now 5 + taken by impacts 1, friction 2.5, damping 0.75 "
+                           "- projection 0.125; closure +0.00e+00\n"));
+    assert_non_null(strstr(l->text, " + taken by impacts 0 - projection 0; closure "));
+    drop_logged(l);
+}
+
+/* ---- obstacles ---- */
+
+/* m g t in all, of which the impacts and the reaction are parts. */
+static void an_obstacle_tells_its_impulse(void **state)
+{
+    (void)state;
+    const double t1 = first_touch(), v1 = g * t1;
+    logged *l = drop_node(false, 1.1 * t1);
+    finish(l, 1.1 * t1);
+    const double up = mass * (1.0 + eta) * v1;
+    const char *line = strstr(l->text, "\nobstacle   1: impulse (0, ");
+    assert_non_null(line);
+    assert_close(strtod(line + strlen("\nobstacle   1: impulse (0, "), NULL), up, 1e-5 * up); /* six digits in all */
+    assert_non_null(strstr(l->text, " N s, by friction (0, 0) N s, 0 contacts\n"));
+    drop_logged(l);
+}
+
+static void an_obstacle_in_contact_tells_its_resultant(void **state)
+{
+    (void)state;
+    const double x[2] = {0.0, 0.0};
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    support_point(&l->run, mass, x, NULL, floor_points, 2, 0.0);
+    follow(l, false, 0.5);
+    finish(l, 0.5);
+    assert_non_null(strstr(l->text, " N s, 1 contact, (0, 19.62) N at ("));
+    drop_logged(l);
+}
+
 /* ---- strains ---- */
 
 /* Two nodes of mass m pulled apart by a tenth: strain 0.1 cos(omega t), omega^2 = 2 E/(m d0). */
@@ -355,6 +422,85 @@ static void versions_are_those_in_use(void **state)
     assert_int_equal(strlen(cut), sizeof cut - 1);
 }
 
+/* A node above n floors, whose friction the caller sets. */
+static logged *new_floors(dem_index n, dem_obstacle *floors, const dem_options *changed)
+{
+    const double x[2] = {0.0, drop};
+    dem_options options = *changed;
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0;
+    double *points = calloc((size_t)n, 4 * sizeof *points);
+    assert_non_null(points);
+    for (dem_index o = 0; o < n; o++) {
+        memcpy(points + 4 * o, floor_points, sizeof floor_points);
+        points[4 * o + 1] = points[4 * o + 3] = -(double)o;
+        floors[o].n_points = 2, floors[o].points = points + 4 * o;
+    }
+    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    support_open(&l->run, &lattice, floors, n, &options);
+    dem_lattice_free(&lattice);
+    free(points);
+    follow(l, false, 1.0);
+    return l;
+}
+
+static void print_header(logged *l)
+{
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+}
+
+static void the_header_tells_the_rules_of_impact(void **state)
+{
+    (void)state;
+    dem_obstacle floor = {0};
+    dem_options options = dem_options_default();
+    for (int on = 0; on <= 1; on++) {
+        options.window = on ? 2.5e-5 : 0.0, options.vertices = on;
+        logged *l = new_floors(1, &floor, &options);
+        print_header(l);
+        assert_non_null(strstr(l->text, on ? "\nimpacts    window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
+                                           : "\nimpacts    window 0 s (each by itself), vertices off\n"));
+        assert_false(has_line(l->text, "friction") || has_line(l->text, "damping"));
+        drop_logged(l);
+    }
+}
+
+static void the_header_tells_friction_and_damping(void **state)
+{
+    (void)state;
+    dem_obstacle floors[4] = {{.friction = 0.3},
+                              {.friction = 0.0},
+                              {.friction = 0.5, .friction_law = DEM_FRICTION_PAPER},
+                              {.friction = 1.0, .friction_law = DEM_FRICTION_PAPER}};
+    dem_options options = dem_options_default();
+    options.mass_damping = 0.75;
+    logged *l = new_floors(4, floors, &options);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nfriction   obstacle 1: 0.3 (Coulomb)\nfriction   obstacle 3: 0.5 (paper)\n"
+                                    "damping    of masses: 0.75 1/s\n"));
+    drop_logged(l);
+}
+
+static void of_many_obstacles_only_the_first_are_listed(void **state)
+{
+    (void)state;
+    dem_obstacle floors[20];
+    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25};
+    const dem_options options = dem_options_default();
+    logged *l = new_floors(20, floors, &options);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nfriction   obstacle 16: 0.25 (Coulomb)\nfriction   on 20 obstacles in all\n"));
+    finish(l, 0.1);
+    assert_non_null(strstr(l->text, "\nobstacle   16: "));
+    assert_non_null(strstr(l->text, "\nobstacle   17 to 20: see /history\n"));
+    drop_logged(l);
+}
+
 /* ---- counts ---- */
 
 static void counts_are_those_of_the_simulation(void **state)
@@ -373,6 +519,32 @@ static void counts_are_those_of_the_simulation(void **state)
     drop_logged(l);
 }
 
+static void every_kind_of_event_is_told(void **state)
+{
+    (void)state;
+    const dem_counts n = {.events = 11,
+                          .impacts = 12,
+                          .vertex_impacts = 13,
+                          .early = 14,
+                          .closings = 15,
+                          .releases = 16,
+                          .slips = 17,
+                          .sticks = 18,
+                          .passings = 19,
+                          .late = 20,
+                          .behind = 21,
+                          .retries = 22};
+    logged *l = drop_node(false, 0.1);
+    other_counts = &n;
+    report_summary(&l->report, l->run.simulation);
+    other_counts = NULL;
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nevents     11 stops: 12 impacts, 13 on vertices, 14 early, 20 late, 21 behind\n"
+                                    "lasting    15 closings, 16 releases, 17 slips, 18 sticks, 19 ends passed\n"));
+    assert_non_null(strstr(l->text, " 22 retried, "));
+    drop_logged(l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -382,6 +554,9 @@ int main(void)
         cmocka_unit_test(what_rests_at_the_end_is_still_touching),
         cmocka_unit_test(the_rebound_is_measured_against_gravity),
         cmocka_unit_test(the_ledger_closes),
+        cmocka_unit_test(what_friction_and_damping_took_is_told_if_they_did),
+        cmocka_unit_test(an_obstacle_tells_its_impulse),
+        cmocka_unit_test(an_obstacle_in_contact_tells_its_resultant),
         cmocka_unit_test(strains_have_the_extremes_of_a_vibration),
         cmocka_unit_test(without_springs_there_is_no_strain),
         cmocka_unit_test(the_smallest_triangle_is_told),
@@ -390,7 +565,11 @@ int main(void)
         cmocka_unit_test(the_header_tells_what_is_about_to_run),
         cmocka_unit_test(without_an_output_none_is_told),
         cmocka_unit_test(versions_are_those_in_use),
+        cmocka_unit_test(the_header_tells_the_rules_of_impact),
+        cmocka_unit_test(the_header_tells_friction_and_damping),
+        cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
         cmocka_unit_test(counts_are_those_of_the_simulation),
+        cmocka_unit_test(every_kind_of_event_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -264,6 +264,8 @@ static void offsets_tell_where_a_frame_begins(void **state)
                    {"PointDataOffsets/id", 0},
                    {"PointDataOffsets/body", 0},
                    {"CellDataOffsets/broken", size.n_springs},
+                   {"FieldDataOffsets/friction_energy", 1},
+                   {"FieldDataOffsets/damping_energy", 1},
                    {"FieldDataOffsets/contacts", 1}};
     assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
@@ -367,6 +369,8 @@ static void history_has_a_row_for_every_accepted_step(void **state)
                                           "guard",
                                           "gravity",
                                           "impact",
+                                          "friction",
+                                          "damping",
                                           "projection",
                                           "contacts",
                                           "impacts",
@@ -382,7 +386,9 @@ static void history_has_a_row_for_every_accepted_step(void **state)
                                           "body_velocity",
                                           "body_angular_momentum",
                                           "obstacle_reaction",
+                                          "obstacle_point",
                                           "obstacle_impulse",
+                                          "obstacle_friction_impulse",
                                           "obstacle_contacts"};
     for (size_t c = 0; c < sizeof columns / sizeof columns[0]; c++) {
         char name[64];
@@ -429,6 +435,96 @@ static void without_frames_there_is_only_the_history(void **state)
     assert_close(read_cell(r.path, "/history/steps", n - 1), (double)n - 1.0, 0.0);
     assert_false(has(r.path, "/VTKHDF"));
     assert_true(has(r.path, "/lattice"));
+    end(&r);
+}
+
+/* ---- events ---- */
+
+static dem_trajectory_options with_events(void)
+{
+    dem_trajectory_options options = every_frame();
+    options.events = 1;
+    return options;
+}
+
+static void every_event_has_a_row_in_the_order_of_time(void **state)
+{
+    (void)state;
+    const dem_trajectory_options options = with_events();
+    run r = begin(&options);
+    assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    const table t = read_table(r.path, "/events/t"), kind = read_table(r.path, "/events/kind");
+    dem_index impacts = 0;
+    for (hsize_t k = 0; k < t.extent[0]; k++) {
+        impacts += kind.value[k] == DEM_EVENT_IMPACT;
+        assert_true(k == 0 || t.value[k] >= t.value[k - 1]);
+    }
+    const hsize_t last = count_rows(r.path, "/history/t") - 1;
+    assert_true(impacts > 2);
+    assert_close(read_cell(r.path, "/history/impacts", last), (double)impacts, 0.0);
+    free(t.value);
+    free(kind.value);
+    end(&r);
+}
+
+static void events_are_written_only_where_they_are_wanted(void **state)
+{
+    (void)state;
+    const dem_trajectory_options options = every_frame();
+    run r = begin(&options);
+    assert_null(dem_trajectory_observer(r.trajectory).event);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    assert_false(has(r.path, "/events"));
+    end(&r);
+}
+
+static void without_an_event_the_table_is_there_and_empty(void **state)
+{
+    (void)state;
+    const dem_trajectory_options options = with_events();
+    run r = begin(&options);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    assert_int_equal(count_rows(r.path, "/events/x"), 0);
+    end(&r);
+}
+
+static void events_reach_the_file_with_a_frame_or_a_full_buffer(void **state)
+{
+    (void)state;
+    const dem_trajectory_options options = with_events();
+    run r = begin(&options);
+    const dem_observer observer = dem_trajectory_observer(r.trajectory);
+    const hsize_t full = 1024;
+    dem_event event = {.kind = DEM_EVENT_SLIP};
+    for (hsize_t k = 0; k <= full; k++) {
+        event.t = (double)k;
+        assert_int_equal(observer.event(observer.context, r.simulation, &event), DEM_OK);
+    }
+    assert_int_equal(count_rows(r.part, "/events/t"), full);
+    assert_int_equal(observer.frame(observer.context, r.simulation), DEM_OK);
+    assert_int_equal(count_rows(r.part, "/events/t"), full + 1);
+    assert_close(read_cell(r.part, "/events/t", full), (double)full, 0.0);
+    event.t += 1.0;
+    assert_int_equal(observer.event(observer.context, r.simulation, &event), DEM_OK);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    assert_int_equal(count_rows(r.path, "/events/kind"), full + 2);
+    assert_int_equal(observer.event(observer.context, r.simulation, &event), DEM_ERROR_ARGUMENT);
+    assert_non_null(strstr(dem_status_message(), "is finished and takes no more events"));
+    end(&r);
+}
+
+static void a_lost_event_is_not_published(void **state)
+{
+    (void)state;
+    const dem_trajectory_options options = with_events();
+    run r = begin(&options);
+    const hid_t file = H5Fopen(r.part, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, "/events/energy", H5P_DEFAULT) >= 0);
+    (void)H5Fclose(file);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/events/energy: cannot be opened"));
+    assert_false(exists(r.path));
     end(&r);
 }
 
@@ -703,6 +799,11 @@ int main(void)
         cmocka_unit_test(history_has_a_row_for_every_accepted_step),
         cmocka_unit_test(history_tells_bodies_and_obstacles_apart),
         cmocka_unit_test(without_frames_there_is_only_the_history),
+        cmocka_unit_test(every_event_has_a_row_in_the_order_of_time),
+        cmocka_unit_test(events_are_written_only_where_they_are_wanted),
+        cmocka_unit_test(without_an_event_the_table_is_there_and_empty),
+        cmocka_unit_test(events_reach_the_file_with_a_frame_or_a_full_buffer),
+        cmocka_unit_test(a_lost_event_is_not_published),
         cmocka_unit_test(the_lattice_comes_back),
         cmocka_unit_test(obstacles_are_in_a_file_beside_the_run),
         cmocka_unit_test(notes_are_kept_and_replaced),
