@@ -13,14 +13,14 @@ LAYERS = [
     {"vec2", "status", "commit"},
     {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
     {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance"},
-    {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body"},
+    {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body", "uses"},
     {"contact", "trajectory", "deck"},
     {"simulation", "output", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("history", "hdf5_file"), ("lattice_mesh", "lattice"), ("shape", "pores"),
-          ("pores", "shape")}
+          ("pores", "shape"), ("body", "uses")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
