@@ -317,7 +317,8 @@ static dem_status make_mesh(builder *b)
     const dem_material material = {.youngs_modulus = schema_real(m, "youngs_modulus"),
                                    .density = schema_real(m, "density"),
                                    .thickness = schema_real(m, "thickness"),
-                                   .guard = schema_real(m, "guard")};
+                                   .guard = schema_real(m, "guard"),
+                                   .damping_time = schema_real(m, "damping_time")};
     shape s = {.outline = read_outline(b->body), .spacing = schema_real(b->body, "spacing")};
     dem_status status = add_voids(b, &s);
     for (size_t k = 0; status == DEM_OK && k < schema_count(groups, "pores"); k++) {

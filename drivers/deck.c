@@ -54,6 +54,11 @@ static deck_status read_text(deck *d, size_t *size, namelist_errors *errors)
 
 /* ---- checks ---- */
 
+static bool has_paper_law(const schema_instance *obstacle)
+{
+    return strcmp(schema_text(obstacle, "friction_law"), "paper") == 0;
+}
+
 /* Squares of lengths must be numbers that can be computed with. */
 static bool is_degenerate(const double *a)
 {
@@ -83,6 +88,21 @@ static void check_points(const schema_instance *obstacle, size_t number, namelis
                         "'points' in &obstacle: segment %d of obstacle %zu, from (%g, %g) to (%g, %g) m, %s%s",
                         first + 1, number, a[0], a[1], a[2], a[3],
                         length > 1.0 ? "is too long" : (length > 0.0 ? "is too short" : "has no length"), more);
+}
+
+/* The default, none by Coulomb's law, would stop all sliding by the paper's. */
+static void check_friction(const schema_instance *obstacle, namelist_errors *errors)
+{
+    const schema_value *friction = schema_value_of(obstacle, "friction");
+    if (!has_paper_law(obstacle) || friction->faulty) return;
+    if (!friction->given)
+        namelist_errors_add(errors, obstacle->place,
+                            "'friction' in &obstacle must be given for friction_law 'paper', in [0, 1]: an impact "
+                            "leaves this part of the tangential velocity, and 1 is frictionless");
+    else if (friction->reals[0] > 1.0)
+        namelist_errors_add(errors, friction->place,
+                            "'friction' in &obstacle must be in [0, 1] for friction_law 'paper', got %g",
+                            friction->reals[0]);
 }
 
 static void check_frames(const schema_deck *groups, namelist_errors *errors)
@@ -117,8 +137,10 @@ static void check_name(const schema_instance *output, namelist_errors *errors)
 static void check(const schema_deck *groups, namelist_errors *errors)
 {
     body_check_all(groups, errors);
-    for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
+    for (size_t k = 0; k < schema_count(groups, "obstacle"); k++) {
         check_points(schema_get(groups, "obstacle", k), k + 1, errors);
+        check_friction(schema_get(groups, "obstacle", k), errors);
+    }
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
 }
@@ -153,6 +175,9 @@ static void set_options(dem_options *options, const schema_deck *groups)
     options->skin = schema_real(contact, "skin");
     options->rest_speed = schema_real(contact, "rest_speed");
     options->max_impacts = (dem_index)schema_real(contact, "max_impacts");
+    options->vertices = schema_real(contact, "vertices") != 0.0;
+    options->mass_damping = schema_real(solver, "mass_damping");
+    if (schema_value_of(contact, "window")->given) options->window = schema_real(contact, "window");
 }
 
 static bool set_scalars(deck *d, const schema_deck *groups)
@@ -180,8 +205,12 @@ static bool set_obstacles(deck *d, const schema_deck *groups)
         double *points = calloc((size_t)from->count, sizeof *points);
         if (points == NULL) return false;
         memcpy(points, from->reals, (size_t)from->count * sizeof *points);
-        d->obstacles[d->n_obstacles++] = (dem_obstacle){
-            .n_points = from->count / 2, .points = points, .restitution = schema_real(group, "restitution")};
+        d->obstacles[d->n_obstacles++] =
+            (dem_obstacle){.n_points = from->count / 2,
+                           .points = points,
+                           .restitution = schema_real(group, "restitution"),
+                           .friction = schema_real(group, "friction"),
+                           .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
     }
     return d->obstacles != NULL;
 }

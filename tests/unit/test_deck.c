@@ -131,6 +131,62 @@ static void every_key_finds_its_place(void **state)
     deck_free(&d);
 }
 
+#define BODY "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', clearance = 1 /\n"
+
+static void friction_window_vertices_and_damping_find_their_places(void **state)
+{
+    (void)state;
+    deck d =
+        good_deck(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction = 1.5 /\n"
+                                  "&obstacle points = -9, -1, 9, -1, friction = 0.25, friction_law = 'paper' /\n" FLOOR
+                                  "&contact method = 'exact', window = 2e-6, vertices = .false. /\n"
+                                  "&solver mass_damping = 12.5 /\n");
+    assert_close(d.obstacles[0].friction, 1.5, 0.0);
+    assert_int_equal(d.obstacles[0].friction_law, DEM_FRICTION_COULOMB);
+    assert_close(d.obstacles[1].friction, 0.25, 0.0);
+    assert_int_equal(d.obstacles[1].friction_law, DEM_FRICTION_PAPER);
+    assert_close(d.obstacles[2].friction, 0.0, 0.0);
+    assert_int_equal(d.obstacles[2].friction_law, DEM_FRICTION_COULOMB);
+    assert_close(d.options.window, 2e-6, 0.0);
+    assert_int_equal(d.options.vertices, 0);
+    assert_close(d.options.mass_damping, 12.5, 0.0);
+    deck_free(&d);
+}
+
+/* The window is the library's if it is not given; stated, 0 is 0. */
+static void a_window_of_zero_is_not_the_default(void **state)
+{
+    (void)state;
+    deck chosen = good_deck(RUN RUBBER BODY FLOOR), single = good_deck(RUN RUBBER BODY FLOOR "&contact window = 0 /\n");
+    assert_close(chosen.options.window, dem_options_default().window, 0.0);
+    assert_true(chosen.options.window < 0.0);
+    assert_close(single.options.window, 0.0, 0.0);
+    assert_true(chosen.hash != single.hash);
+    assert_non_null(strstr(chosen.echo, "    ! window = (not given)\n"));
+    assert_non_null(strstr(chosen.echo, "    vertices = .true. ! default\n"));
+    assert_non_null(strstr(chosen.echo, "    friction = 0 ! default\n    friction_law = 'coulomb' ! default\n"));
+    assert_non_null(strstr(chosen.echo, "    mass_damping = 0 ! default\n"));
+    assert_non_null(strstr(chosen.echo, "    damping_time = 0 ! default\n"));
+    assert_non_null(strstr(single.echo, "    window = 0\n"));
+    deck_free(&chosen);
+    deck_free(&single);
+}
+
+static void friction_goes_with_its_law(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction_law = 'paper' /\n"
+                                  "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'paper' /\n"
+                                  "&obstacle points = -9, 0, 9, 0, friction = 'high', friction_law = 'paper' /\n"
+                                  "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'papper' /\n",
+                  "4:1: 'friction' in &obstacle must be given for friction_law 'paper', in [0, 1]: an impact leaves "
+                  "this part of the tangential velocity, and 1 is frictionless\n"
+                  "5:33: 'friction' in &obstacle must be in [0, 1] for friction_law 'paper', got 1.5\n"
+                  "6:44: 'friction' in &obstacle expects a real, got 'high'\n"
+                  "7:64: 'friction_law' in &obstacle must be 'coulomb' or 'paper', got 'papper' (did you mean "
+                  "'paper'?)\n");
+}
+
 static void keys_not_given_are_left_to_the_library(void **state)
 {
     (void)state;
@@ -142,6 +198,8 @@ static void keys_not_given_are_left_to_the_library(void **state)
     assert_close(d.options.spacing + d.options.v_scale + d.options.max_step + d.options.skin + d.options.rest_speed,
                  0.0, 0.0);
     assert_int_equal(d.options.max_impacts, expected.max_impacts);
+    assert_int_equal(d.options.vertices, expected.vertices);
+    assert_close(d.options.mass_damping, expected.mass_damping, 0.0);
     assert_int_equal(d.n_obstacles, 0);
     assert_int_equal(d.double_precision, 0);
     assert_int_equal(d.deflate, 1);
@@ -638,6 +696,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_key_finds_its_place),
+        cmocka_unit_test(friction_window_vertices_and_damping_find_their_places),
+        cmocka_unit_test(a_window_of_zero_is_not_the_default),
+        cmocka_unit_test(friction_goes_with_its_law),
         cmocka_unit_test(keys_not_given_are_left_to_the_library),
         cmocka_unit_test(bodies_come_in_their_order_turned_and_placed),
         cmocka_unit_test(clearance_is_the_smallest_gap_and_leaves_x_alone),
