@@ -11,7 +11,8 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
+    {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores",
+     "profile"},
     {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance"},
     {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body", "uses"},
     {"contact", "trajectory", "deck"},
@@ -24,7 +25,7 @@ BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("history", "hdf5_file"), 
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
-    (r'#include [<"]gsl/', {"drivers/pores.c", "drivers/report.c"}),
+    (r'#include [<"]gsl/', {"drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
     (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),
