@@ -107,7 +107,9 @@ static void add_heights(double *out, size_t n_samples, const double *weights, si
 
 static dem_status roughen(double *out, const profile_recipe *r)
 {
-    const size_t n = (size_t)ceil(reach * r->correlation / length_of_segment(r)), n_samples = r->n_segments + 1;
+    const double slack = 1e-9; /* where the profile lies must not, by rounding, make another of it */
+    const size_t n = (size_t)ceil(reach * r->correlation / length_of_segment(r) - slack);
+    const size_t n_samples = r->n_segments + 1;
     const size_t n_noise = n_samples + 2 * n; /* the ends have neighbours, too */
     double *weights = calloc(n + 1, sizeof *weights), *noise = calloc(n_noise, sizeof *noise);
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);

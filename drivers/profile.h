@@ -8,8 +8,8 @@
 
 #include <dem/dem.h>
 
-/* More segments than this are refused. */
-#define PROFILE_MAX 1000000
+/* More segments than this are refused: the library checks and searches them one by one. */
+#define PROFILE_MAX 100000
 /* Segments of a correlation length: with fewer the profile would not have it, more take time and show nothing. */
 #define PROFILE_COARSEST 2
 #define PROFILE_FINEST   1000

@@ -53,9 +53,10 @@ contains
 
   subroutine read_obstacle()
     real(dp), save :: points(100000)
-    real(dp) :: restitution, friction
-    character(4096) :: friction_law
-    namelist /obstacle/ points, restitution, friction, friction_law
+    real(dp) :: resolution, roughness, correlation, restitution, friction
+    integer(selected_int_kind(18)) :: seed
+    character(4096) :: profile, friction_law
+    namelist /obstacle/ points, profile, resolution, roughness, correlation, seed, restitution, friction, friction_law
     read (unit, nml=obstacle, iostat=status, iomsg=message)
   end subroutine
 

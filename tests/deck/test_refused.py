@@ -59,6 +59,7 @@ DISC = edit(BASE, "'rectangle' -> 'disc'", "size = 0.04, 0.05 -> radius = 0.03")
 FILE = without(edit(BASE, "'rectangle' -> 'file'", "size = 0.04, 0.05 -> file = 'part.h5'"),
                "    spacing = 0.01\n", "    material = 'rubber'\n")
 OBSTACLE = "&obstacle\n    points = -0.1, 0, 0.1, 0\n    restitution = 0.5\n/\n"
+ROUGH = "profile = 'rough', roughness = 1e-3, correlation = 0.01"
 REVERSED = ", or reverse the obstacle's points: bodies live on the left of each segment"
 TALL = edit(BASE, "0.04, 0.05 -> 0.04, 0.2") + "".join(
     f"&void shape = 'rectangle', centre = 0, {y}, size = 0.06, 0.02 /\n" for y in (0.03, 0.1, 0.17))
@@ -249,6 +250,48 @@ DECKS = [
       "3 of 5 segments"]),
     ("segment too short", edit(BASE, "-0.1, 0, 0.1, 0 -> 0, 0, 1e-200, 0"),
      ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (0, 0) to (1e-200, 0) m, is too short"]),
+    ("profile unknown", edit(BASE, "restitution = 0.5 -> profile = 'spline'"),
+     ["21:15 'profile' in &obstacle must be 'polyline', 'smooth' or 'rough', got 'spline'"]),
+    ("profile that runs back", edit(BASE, "0.1, 0\n    restitution = 0.5 -> 0.1, 0, 0, 1\n    profile = 'smooth'"),
+     ["20:5 'points' in &obstacle must increase in x for profile 'smooth'; point 3 of obstacle 1 is at 0 m, the one "
+      "before at 0.1 m"]),
+    ("profile that stands upright", edit(BASE, "-0.1, 0, 0.1, 0\n    restitution = 0.5 -> 0, 0, 0, 1\n    " + ROUGH),
+     ["20:5 'points' in &obstacle must increase in x for profile 'rough'; point 2 of obstacle 1 is at 0 m, the one "
+      "before at 0 m"]),
+    ("resolution coarser than the profile", edit(BASE, "restitution = 0.5 -> profile = 'smooth', resolution = 0.3"),
+     ["21:25 'resolution' in &obstacle must not exceed the extent of its points, 0.2 m, got 0.3 m"]),
+    ("too many segments", edit(BASE, "restitution = 0.5 -> profile = 'smooth', resolution = 1e-9"),
+     ["21:25 'resolution' in &obstacle, 1e-09 m, makes 2e+08 segments of obstacle 1; the limit is 100000"]),
+    ("resolution 0", edit(BASE, "restitution = 0.5 -> profile = 'smooth', resolution = 0"),
+     ["21:38 'resolution' in &obstacle must be > 0, got 0"]),
+    ("profile far away",
+     edit(BASE, "-0.1, 0, 0.1, 0 -> 1e8, 0, 100000000.2, 0", "restitution = 0.5 -> profile = 'smooth'"),
+     ["19:1 obstacle 1 has points at x of up to 1e+08 m, so large that rounding blurs its segments of 0.001 m"]),
+    ("resolution coarser than the correlation", edit(BASE, f"restitution = 0.5 -> {ROUGH}, resolution = 0.006"),
+     ["21:62 'resolution' in &obstacle must be 1/500 to 1/2 of 'correlation', 0.01 m, got 0.006 m"]),
+    ("default resolution finer than the correlation", edit(BASE, f"restitution = 0.5 -> {ROUGH[:-4]}2"),
+     ["19:1 'resolution' in &obstacle must be 1/500 to 1/2 of 'correlation', 2 m, got 0.001 m, the default"]),
+    ("roughness negative", edit(BASE, "restitution = 0.5 -> profile = 'rough', roughness = -1, correlation = 0.01"),
+     ["21:36 'roughness' in &obstacle must be >= 0, got -1"]),
+    ("correlation 0", edit(BASE, "restitution = 0.5 -> profile = 'rough', roughness = 1, correlation = 0"),
+     ["21:53 'correlation' in &obstacle must be > 0, got 0"]),
+    ("seed too large for the generator", edit(BASE, f"restitution = 0.5 -> {ROUGH}, seed = 4294967296"),
+     ["21:69 'seed' in &obstacle must be in [0, 4294967295], got 4294967296"]),
+    ("keys missing for a rough profile", edit(BASE, "restitution = 0.5 -> profile = 'rough'"),
+     ["19:1 'roughness' in &obstacle must be given for profile 'rough'",
+      "19:1 'correlation' in &obstacle must be given for profile 'rough'"]),
+    ("keys of a rough profile for a smooth one",
+     edit(BASE, f"restitution = 0.5 -> {ROUGH.replace('rough', 'smooth', 1)}"),
+     ["21:25 'roughness' in &obstacle is not used by profile 'smooth'",
+      "21:43 'correlation' in &obstacle is not used by profile 'smooth'"]),
+    ("keys of profiles for a polyline", edit(BASE, "restitution = 0.5 -> resolution = 0.01, seed = 3"),
+     ["21:5 'resolution' in &obstacle is not used by profile 'polyline'",
+      "21:24 'seed' in &obstacle is not used by profile 'polyline'"]),
+    ("rough profile too high to compute with",
+     edit(BASE, "restitution = 0.5 -> profile = 'rough', roughness = 1e200, correlation = 0.4, resolution = 0.2,\n"
+          "    seed = 5489"),
+     ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (-0.1, -7.20663e+199) to (0.1, -1.90369e+199) m, is "
+      "too long"]),
     ("too many values", edit(BASE, "0, -9.81 -> 0, -9.81, 0"),
      ["3:5 'gravity' in &run expects 2 values, got 3"]),
     ("too few values", edit(BASE, "0.04, 0.05 -> 0.04"),
