@@ -12,6 +12,7 @@
 
 #include "parts.h"
 #include "shape.h"
+#include "uses.h"
 
 enum { MATERIALS_LISTED = 5 };
 
@@ -40,13 +41,7 @@ static bool has_shape(const schema_instance *group, const char *name)
 
 /* ---- checks: keys of a shape ---- */
 
-typedef struct use {
-    const char *key;
-    const char *shapes; /* that use it */
-    bool needed;
-} use;
-
-static const use body_uses[] = {
+static const uses_key body_keys[] = {
     {"size", "rectangle", true},
     {"radius", "disc", true},
     {"spacing", "rectangle, disc", true},
@@ -54,38 +49,15 @@ static const use body_uses[] = {
     {"material", "rectangle, disc", false},
     {"file", "file", true},
 };
+static const uses_key void_keys[] = {{"size", "rectangle", true}, {"radius", "disc", true}};
 
-static const use void_uses[] = {{"size", "rectangle", true}, {"radius", "disc", true}};
-
-static void check_uses(const schema_instance *group, const use *uses, size_t n, namelist_errors *errors)
-{
-    const char *wanted = schema_text(group, "shape"), *name = group->group->name;
-    for (size_t k = 0; k < n && wanted[0] != '\0'; k++) {
-        const bool used = strstr(uses[k].shapes, wanted) != NULL, given = is_given(group, uses[k].key);
-        if (used && uses[k].needed && !given && !schema_value_of(group, uses[k].key)->faulty)
-            namelist_errors_add(errors, group->place, "'%s' in &%s must be given for shape '%s'", uses[k].key, name,
-                                wanted);
-        if (!used && given)
-            namelist_errors_add(errors, place_of(group, uses[k].key), "'%s' in &%s is not used by shape '%s'",
-                                uses[k].key, name, wanted);
-    }
-}
-
-static void drop_unused(schema_instance *group, const use *uses, size_t n)
-{
-    for (size_t k = 0; k < n; k++)
-        if (strstr(uses[k].shapes, schema_text(group, "shape")) == NULL) schema_drop(group, uses[k].key);
-}
+static const uses body_uses = {"body", "shape", sizeof body_keys / sizeof *body_keys, body_keys};
+static const uses void_uses = {"void", "shape", sizeof void_keys / sizeof *void_keys, void_keys};
 
 void body_drop_unused(schema_deck *groups)
 {
-    for (size_t k = 0; k < groups->n_instances; k++) {
-        schema_instance *group = &groups->instances[k];
-        if (strcmp(group->group->name, "body") == 0)
-            drop_unused(group, body_uses, sizeof body_uses / sizeof *body_uses);
-        if (strcmp(group->group->name, "void") == 0)
-            drop_unused(group, void_uses, sizeof void_uses / sizeof *void_uses);
-    }
+    uses_drop(groups, &body_uses);
+    uses_drop(groups, &void_uses);
 }
 
 /* ---- checks: materials ---- */
@@ -345,7 +317,8 @@ static dem_status make_mesh(builder *b)
     const dem_material material = {.youngs_modulus = schema_real(m, "youngs_modulus"),
                                    .density = schema_real(m, "density"),
                                    .thickness = schema_real(m, "thickness"),
-                                   .guard = schema_real(m, "guard")};
+                                   .guard = schema_real(m, "guard"),
+                                   .damping_time = schema_real(m, "damping_time")};
     shape s = {.outline = read_outline(b->body), .spacing = schema_real(b->body, "spacing")};
     dem_status status = add_voids(b, &s);
     for (size_t k = 0; status == DEM_OK && k < schema_count(groups, "pores"); k++) {
@@ -520,14 +493,14 @@ void body_check_all(const schema_deck *groups, namelist_errors *errors)
     check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
-        check_uses(body, body_uses, sizeof body_uses / sizeof *body_uses, errors);
+        uses_check(body, &body_uses, errors);
         check_material(groups, body, errors);
         check_spacing(body, errors);
         check_clearance(groups, body, errors);
         check_file(body, errors);
     }
     for (size_t k = 0; k < schema_count(groups, "void"); k++) {
-        check_uses(schema_get(groups, "void", k), void_uses, sizeof void_uses / sizeof *void_uses, errors);
+        uses_check(schema_get(groups, "void", k), &void_uses, errors);
         check_owner(groups, schema_get(groups, "void", k), errors);
     }
     for (size_t k = 0; k < schema_count(groups, "pores"); k++) {

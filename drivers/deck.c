@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads the file, has its groups checked, and turns them into what the library takes. Bodies are body.c's business. */
+/* Reads the file, has its groups checked, and turns them into what the library takes. Bodies are body.c's business,
+ * profiles profile.c's. */
 #include "deck.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,9 +13,21 @@
 #include <unistd.h>
 
 #include "body.h"
+#include "profile.h"
 #include "schema.h"
+#include "uses.h"
 
 static const double most_frames = 1e7;
+static const double default_segments = 200.0; /* of a profile */
+static const double lost = 1e-6;              /* of a segment: rounding must not hide more */
+
+static const uses_key profile_keys[] = {
+    {"resolution", "smooth, rough", false},
+    {"roughness", "rough", true},
+    {"correlation", "rough", true},
+    {"seed", "rough", false},
+};
+static const uses profile_uses = {"obstacle", "profile", sizeof profile_keys / sizeof *profile_keys, profile_keys};
 
 /* ---- the file ---- */
 
@@ -54,6 +68,11 @@ static deck_status read_text(deck *d, size_t *size, namelist_errors *errors)
 
 /* ---- checks ---- */
 
+static bool has_paper_law(const schema_instance *obstacle)
+{
+    return strcmp(schema_text(obstacle, "friction_law"), "paper") == 0;
+}
+
 /* Squares of lengths must be numbers that can be computed with. */
 static bool is_degenerate(const double *a)
 {
@@ -61,28 +80,125 @@ static bool is_degenerate(const double *a)
     return !isnormal(x * x + y * y);
 }
 
-/* Reports the first degenerate segment, and how many there are. */
-static void check_points(const schema_instance *obstacle, size_t number, namelist_errors *errors)
+/* Reports the first degenerate segment of an obstacle, from 1, and how many there are. */
+static bool check_segments(const double *points, size_t n_points, size_t number, namelist_place place,
+                           namelist_errors *errors)
 {
-    const schema_value *points = schema_value_of(obstacle, "points");
-    const int n_segments = points->count % 2 == 0 ? points->count / 2 - 1 : 0;
-    int first = -1, n = 0;
-    char more[64] = "";
-    if (points->count % 2 != 0)
-        namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
-                            points->count);
-    for (int k = n_segments - 1; k >= 0; k--) {
-        if (!is_degenerate(points->reals + 2 * k)) continue;
+    size_t first = 0, n = 0;
+    char more[80] = "";
+    for (size_t k = n_points; k-- > 1;) {
+        if (!is_degenerate(points + 2 * k - 2)) continue;
         first = k;
         n++;
     }
-    if (n == 0) return;
-    const double *a = points->reals + 2 * first, length = hypot(a[2] - a[0], a[3] - a[1]);
-    if (n > 1) (void)snprintf(more, sizeof more, "; so it is with %d of %d segments", n, n_segments);
-    namelist_errors_add(errors, points->place,
-                        "'points' in &obstacle: segment %d of obstacle %zu, from (%g, %g) to (%g, %g) m, %s%s",
-                        first + 1, number, a[0], a[1], a[2], a[3],
+    if (n == 0) return true;
+    const double *a = points + 2 * first - 2, length = hypot(a[2] - a[0], a[3] - a[1]);
+    if (n > 1) (void)snprintf(more, sizeof more, "; so it is with %zu of %zu segments", n, n_points - 1);
+    namelist_errors_add(errors, place,
+                        "'points' in &obstacle: segment %zu of obstacle %zu, from (%g, %g) to (%g, %g) m, %s%s", first,
+                        number, a[0], a[1], a[2], a[3],
                         length > 1.0 ? "is too long" : (length > 0.0 ? "is too short" : "has no length"), more);
+    return false;
+}
+
+static bool has_profile(const schema_instance *obstacle)
+{
+    return strcmp(schema_text(obstacle, "profile"), "polyline") != 0;
+}
+
+/* m along x. */
+static double extent_of(const schema_value *points)
+{
+    return points->reals[points->count - 2] - points->reals[0];
+}
+
+static double count_segments(const schema_instance *obstacle)
+{
+    const double extent = extent_of(schema_value_of(obstacle, "points")), length = schema_real(obstacle, "resolution");
+    return length > 0.0 ? ceil(extent / length * (1.0 - 1e-12)) : default_segments; /* rounding adds none */
+}
+
+static bool check_increase(const schema_instance *obstacle, size_t number, namelist_errors *errors)
+{
+    const schema_value *points = schema_value_of(obstacle, "points");
+    for (int k = 2; k < points->count; k += 2) {
+        if (points->reals[k] > points->reals[k - 2]) continue;
+        namelist_errors_add(errors, points->place,
+                            "'points' in &obstacle must increase in x for profile '%s'; point %d of obstacle %zu is at "
+                            "%g m, the one before at %g m",
+                            schema_text(obstacle, "profile"), k / 2 + 1, number, points->reals[k],
+                            points->reals[k - 2]);
+        return false;
+    }
+    return true;
+}
+
+static void check_resolution(const schema_instance *obstacle, size_t number, namelist_errors *errors)
+{
+    const schema_value *points = schema_value_of(obstacle, "points");
+    const schema_value *resolution = schema_value_of(obstacle, "resolution");
+    const double extent = extent_of(points), n = count_segments(obstacle), length = extent / n;
+    const double largest = fmax(fabs(points->reals[0]), fabs(points->reals[points->count - 2]));
+    if (resolution->given && schema_real(obstacle, "resolution") > extent)
+        namelist_errors_add(errors, resolution->place,
+                            "'resolution' in &obstacle must not exceed the extent of its points, %g m, got %g m",
+                            extent, schema_real(obstacle, "resolution"));
+    else if (n > PROFILE_MAX)
+        namelist_errors_add(errors, resolution->place,
+                            "'resolution' in &obstacle, %g m, makes %g segments of obstacle %zu; the limit is %d",
+                            schema_real(obstacle, "resolution"), n, number, PROFILE_MAX);
+    else if (largest * DBL_EPSILON > lost * length)
+        namelist_errors_add(errors, resolution->place,
+                            "obstacle %zu has points at x of up to %g m, so large that rounding blurs its segments of "
+                            "%g m",
+                            number, largest, length);
+}
+
+/* Segments may come out half as long as asked for. */
+static void check_correlation(const schema_instance *obstacle, namelist_errors *errors)
+{
+    const schema_value *resolution = schema_value_of(obstacle, "resolution");
+    const double correlation = schema_real(obstacle, "correlation");
+    const double length =
+        resolution->given ? resolution->reals[0] : extent_of(schema_value_of(obstacle, "points")) / default_segments;
+    const int coarsest = PROFILE_COARSEST, finest = PROFILE_FINEST / 2;
+    if (correlation <= 0.0 || (length <= correlation / coarsest && length >= correlation / finest)) return;
+    namelist_errors_add(errors, resolution->place,
+                        "'resolution' in &obstacle must be 1/%d to 1/%d of 'correlation', %g m, got %g m%s", finest,
+                        coarsest, correlation, length, resolution->given ? "" : ", the default");
+}
+
+/* The default, none by Coulomb's law, would stop all sliding by the paper's. */
+static void check_friction(const schema_instance *obstacle, namelist_errors *errors)
+{
+    const schema_value *friction = schema_value_of(obstacle, "friction");
+    if (!has_paper_law(obstacle) || friction->faulty) return;
+    if (!friction->given)
+        namelist_errors_add(errors, obstacle->place,
+                            "'friction' in &obstacle must be given for friction_law 'paper', in [0, 1]: an impact "
+                            "leaves this part of the tangential velocity, and 1 is frictionless");
+    else if (friction->reals[0] > 1.0)
+        namelist_errors_add(errors, friction->place,
+                            "'friction' in &obstacle must be in [0, 1] for friction_law 'paper', got %g",
+                            friction->reals[0]);
+}
+
+static void check_obstacle(const schema_instance *obstacle, size_t number, namelist_errors *errors)
+{
+    const schema_value *points = schema_value_of(obstacle, "points");
+    const bool pairs = points->count % 2 == 0;
+    uses_check(obstacle, &profile_uses, errors);
+    check_friction(obstacle, errors);
+    if (!pairs)
+        namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
+                            points->count);
+    if (!pairs || points->faulty) return;
+    const bool good = check_segments(points->reals, (size_t)points->count / 2, number, points->place, errors);
+    if (!good || !has_profile(obstacle) || !check_increase(obstacle, number, errors)) return;
+    if (schema_value_of(obstacle, "resolution")->faulty) return;
+    const size_t before = errors->n;
+    check_resolution(obstacle, number, errors);
+    if (errors->n == before) check_correlation(obstacle, errors);
 }
 
 static void check_frames(const schema_deck *groups, namelist_errors *errors)
@@ -118,7 +234,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
 {
     body_check_all(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
-        check_points(schema_get(groups, "obstacle", k), k + 1, errors);
+        check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
 }
@@ -153,6 +269,9 @@ static void set_options(dem_options *options, const schema_deck *groups)
     options->skin = schema_real(contact, "skin");
     options->rest_speed = schema_real(contact, "rest_speed");
     options->max_impacts = (dem_index)schema_real(contact, "max_impacts");
+    options->vertices = schema_real(contact, "vertices") != 0.0;
+    options->mass_damping = schema_real(solver, "mass_damping");
+    if (schema_value_of(contact, "window")->given) options->window = schema_real(contact, "window");
 }
 
 static bool set_scalars(deck *d, const schema_deck *groups)
@@ -171,18 +290,42 @@ static bool set_scalars(deck *d, const schema_deck *groups)
 
 /* ---- obstacles, bodies ---- */
 
-static bool set_obstacles(deck *d, const schema_deck *groups)
+/* The points that bodies touch; NULL when memory runs out. */
+static double *make_points(size_t *n_points, const schema_instance *obstacle)
+{
+    const schema_value *from = schema_value_of(obstacle, "points");
+    profile_recipe recipe = {.points = from->reals,
+                             .n_points = (size_t)from->count / 2,
+                             .smooth = strcmp(schema_text(obstacle, "profile"), "smooth") == 0,
+                             .roughness = schema_real(obstacle, "roughness"),
+                             .correlation = schema_real(obstacle, "correlation"),
+                             .seed = (unsigned long)schema_real(obstacle, "seed")};
+    if (has_profile(obstacle)) recipe.n_segments = (size_t)count_segments(obstacle);
+    *n_points = has_profile(obstacle) ? recipe.n_segments + 1 : recipe.n_points;
+    double *points = calloc(2 * *n_points, sizeof *points);
+    if (points == NULL) return NULL;
+    if (!has_profile(obstacle)) return memcpy(points, from->reals, 2 * *n_points * sizeof *points);
+    if (profile_sample(points, &recipe) == DEM_OK) return points;
+    free(points);
+    return NULL;
+}
+
+static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "obstacle");
     d->obstacles = calloc(n + 1, sizeof *d->obstacles);
     for (size_t k = 0; k < n && d->obstacles != NULL; k++) {
         const schema_instance *group = schema_get(groups, "obstacle", k);
-        const schema_value *from = schema_value_of(group, "points");
-        double *points = calloc((size_t)from->count, sizeof *points);
+        size_t n_points;
+        double *points = make_points(&n_points, group);
         if (points == NULL) return false;
-        memcpy(points, from->reals, (size_t)from->count * sizeof *points);
-        d->obstacles[d->n_obstacles++] = (dem_obstacle){
-            .n_points = from->count / 2, .points = points, .restitution = schema_real(group, "restitution")};
+        (void)check_segments(points, n_points, k + 1, schema_value_of(group, "points")->place, errors);
+        d->obstacles[d->n_obstacles++] =
+            (dem_obstacle){.n_points = (dem_index)n_points,
+                           .points = points,
+                           .restitution = schema_real(group, "restitution"),
+                           .friction = schema_real(group, "friction"),
+                           .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
     }
     return d->obstacles != NULL;
 }
@@ -301,9 +444,10 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
 static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *errors)
 {
     char *folder = folder_of(d->path);
-    bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups);
     body_drop_unused(groups);
-    good = good && set_bodies(d, groups, folder, errors);
+    uses_drop(groups, &profile_uses);
+    bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
+    if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);
     if (good && errors->n == 0) good = set_texts(d, groups, folder, errors);
     free(folder);
     if (!good) return DECK_MEMORY;

@@ -26,7 +26,7 @@ typedef struct deck {
     dem_lattice lattice;     /* all bodies, in the order of the deck */
     dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
-    dem_options options;   /* 0 where the library is to choose */
+    dem_options options;   /* 0, of the window < 0, where the library is to choose */
     double frame_interval; /* s */
     int double_precision, deflate, events;
 } deck;

@@ -20,7 +20,7 @@ typedef struct schema_key {
     const char *choices;      /* CHOICE: "a|b|c"; else NULL */
     bool physics;             /* part of what makes two decks the same problem */
     const char *sentence;     /* documentation */
-    const char *example;      /* in the template, as a deck would spell it; NULL: the default, or a comment line */
+    const char *example; /* in the template, as a deck would spell it; NULL: the default; "" or none: a comment line */
 } schema_key;
 
 typedef struct schema_group {

@@ -26,6 +26,8 @@ static const schema_key material_keys[] = {
     {"thickness", SCHEMA_REAL, 1, 1, "m", "1", "> 0", NULL, PHYSICS, "Thickness h of the plate.", NULL},
     {"guard", SCHEMA_REAL, 1, 1, "-", "0.02", ">= 0", NULL, PHYSICS,
      "Strength of the folding guard over E h, which keeps triangles from turning inside out; 0 switches it off.", NULL},
+    {"damping_time", SCHEMA_REAL, 1, 1, "s", "0", ">= 0", NULL, PHYSICS,
+     "Damping of the springs: a rate of strain acts like a strain of damping_time times it; 0 is none.", NULL},
 };
 
 static const schema_key body_keys[] = {
@@ -80,11 +82,31 @@ static const schema_key obstacle_keys[] = {
     {"points", SCHEMA_REAL, 4, 0, "m", REQUIRED, ANY, NULL, PHYSICS,
      "x and y of each point of the polyline; bodies live on its left, and it is closed if the last point is the first.",
      "-0.3, -0.02, -0.05, 0.004, 0.045, 0.01, 0.3, -0.02"},
+    {"profile", SCHEMA_CHOICE, 1, 1, "-", "'polyline'", ANY, "polyline|smooth|rough", PHYSICS,
+     "Straight between points, Steffen's curve through them, or rough; x must increase for the last two.", NULL},
+    {"resolution", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Length along x of the segments of a smooth or rough profile; default: 1/200 of the points' extent.", NULL},
+    {"roughness", SCHEMA_REAL, 1, 1, "m", NONE, ">= 0", NULL, PHYSICS,
+     "Root mean square of the Gaussian heights that a rough profile adds to the polyline.", NULL},
+    {"correlation", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Correlation length of a rough profile: heights d apart correlate by exp(-(d/correlation)^2).", NULL},
+    {"seed", SCHEMA_INTEGER, 1, 1, "-", "1", "[0, 4294967295]", NULL, PHYSICS,
+     "Seed of the heights of a rough profile; the same seed gives the same heights on every machine.", NONE},
     {"restitution", SCHEMA_REAL, 1, 1, "-", "0", "[0, 1]", NULL, PHYSICS,
      "Coefficient of restitution: 0 is perfectly plastic, 1 perfectly elastic.", NULL},
+    {"friction", SCHEMA_REAL, 1, 1, "-", "0", ">= 0", NULL, PHYSICS,
+     "Coefficient of friction; 0 is none. By law 'paper' 1 is none: it must be given there, in [0, 1].", NULL},
+    {"friction_law", SCHEMA_CHOICE, 1, 1, "-", "'coulomb'", ANY, "coulomb|paper", PHYSICS,
+     "Coulomb's dry friction, or the paper's: an impact leaves `friction` of the tangential velocity.", NULL},
 };
 
 static const schema_key contact_keys[] = {
+    {"method", SCHEMA_CHOICE, 1, 1, "-", "'exact'", ANY, "exact", PHYSICS,
+     "How contacts are found: 'exact' stops all bodies at each contact event.", NULL},
+    {"window", SCHEMA_REAL, 1, 1, "s", NONE, ">= 0", NULL, PHYSICS,
+     "Impacts nearer in time than this are taken together, 0: each by itself; default: by docs/method.md.", "0"},
+    {"vertices", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, PHYSICS,
+     "Whether the edges of bodies touch convex vertices of obstacles; if not, only nodes touch.", NULL},
     {"skin", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
      "Depth at which an impact is taken; default: 1e-6 of the spacing.", "1e-8"},
     {"rest_speed", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
@@ -104,6 +126,8 @@ static const schema_key solver_keys[] = {
      "Speed that velocity errors are measured in; default: by the rule of docs/method.md.", "10"},
     {"spacing", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
      "Length that position errors are measured in; default: the shortest spring.", "0.01"},
+    {"mass_damping", SCHEMA_REAL, 1, 1, "1/s", "0", ">= 0", NULL, PHYSICS,
+     "Damping of the masses: each feels -mass_damping m v, so that bodies come to rest; 0 is none.", NULL},
 };
 
 static const schema_key output_keys[] = {
@@ -130,7 +154,7 @@ static const schema_group groups[] = {
     {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},
     {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},
     {"contact", false, false,
-     "Impacts of nodes; an obstacle's point that enters between nodes is seen at the start only.", KEYS(contact_keys)},
+     "How nodes and edges of bodies touch obstacles; free ends of open polylines touch no edges.", KEYS(contact_keys)},
     {"solver", false, false, "Integration in time.", KEYS(solver_keys)},
     {"output", false, false, "Files written.", KEYS(output_keys)},
 };

@@ -22,8 +22,8 @@ contains
 
   subroutine read_material()
     character(4096) :: name
-    real(dp) :: youngs_modulus, density, thickness, guard
-    namelist /material/ name, youngs_modulus, density, thickness, guard
+    real(dp) :: youngs_modulus, density, thickness, guard, damping_time
+    namelist /material/ name, youngs_modulus, density, thickness, guard, damping_time
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 
@@ -53,22 +53,26 @@ contains
 
   subroutine read_obstacle()
     real(dp), save :: points(100000)
-    real(dp) :: restitution
-    namelist /obstacle/ points, restitution
+    real(dp) :: resolution, roughness, correlation, restitution, friction
+    integer(selected_int_kind(18)) :: seed
+    character(4096) :: profile, friction_law
+    namelist /obstacle/ points, profile, resolution, roughness, correlation, seed, restitution, friction, friction_law
     read (unit, nml=obstacle, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_contact()
-    real(dp) :: skin, rest_speed
+    character(4096) :: method
+    real(dp) :: window, skin, rest_speed
+    logical :: vertices
     integer :: max_impacts
-    namelist /contact/ skin, rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, skin, rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_solver()
     character(4096) :: method
-    real(dp) :: rtol, max_step, v_scale, spacing
-    namelist /solver/ method, rtol, max_step, v_scale, spacing
+    real(dp) :: rtol, max_step, v_scale, spacing, mass_damping
+    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping
     read (unit, nml=solver, iostat=status, iomsg=message)
   end subroutine
 

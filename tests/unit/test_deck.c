@@ -132,6 +132,62 @@ static void every_key_finds_its_place(void **state)
     deck_free(&d);
 }
 
+#define BODY "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', clearance = 1 /\n"
+
+static void friction_window_vertices_and_damping_find_their_places(void **state)
+{
+    (void)state;
+    deck d =
+        good_deck(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction = 1.5 /\n"
+                                  "&obstacle points = -9, -1, 9, -1, friction = 0.25, friction_law = 'paper' /\n" FLOOR
+                                  "&contact method = 'exact', window = 2e-6, vertices = .false. /\n"
+                                  "&solver mass_damping = 12.5 /\n");
+    assert_close(d.obstacles[0].friction, 1.5, 0.0);
+    assert_int_equal(d.obstacles[0].friction_law, DEM_FRICTION_COULOMB);
+    assert_close(d.obstacles[1].friction, 0.25, 0.0);
+    assert_int_equal(d.obstacles[1].friction_law, DEM_FRICTION_PAPER);
+    assert_close(d.obstacles[2].friction, 0.0, 0.0);
+    assert_int_equal(d.obstacles[2].friction_law, DEM_FRICTION_COULOMB);
+    assert_close(d.options.window, 2e-6, 0.0);
+    assert_int_equal(d.options.vertices, 0);
+    assert_close(d.options.mass_damping, 12.5, 0.0);
+    deck_free(&d);
+}
+
+/* The window is the library's if it is not given; stated, 0 is 0. */
+static void a_window_of_zero_is_not_the_default(void **state)
+{
+    (void)state;
+    deck chosen = good_deck(RUN RUBBER BODY FLOOR), single = good_deck(RUN RUBBER BODY FLOOR "&contact window = 0 /\n");
+    assert_close(chosen.options.window, dem_options_default().window, 0.0);
+    assert_true(chosen.options.window < 0.0);
+    assert_close(single.options.window, 0.0, 0.0);
+    assert_true(chosen.hash != single.hash);
+    assert_non_null(strstr(chosen.echo, "    ! window = (not given)\n"));
+    assert_non_null(strstr(chosen.echo, "    vertices = .true. ! default\n"));
+    assert_non_null(strstr(chosen.echo, "    friction = 0 ! default\n    friction_law = 'coulomb' ! default\n"));
+    assert_non_null(strstr(chosen.echo, "    mass_damping = 0 ! default\n"));
+    assert_non_null(strstr(chosen.echo, "    damping_time = 0 ! default\n"));
+    assert_non_null(strstr(single.echo, "    window = 0\n"));
+    deck_free(&chosen);
+    deck_free(&single);
+}
+
+static void friction_goes_with_its_law(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction_law = 'paper' /\n"
+                                  "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'paper' /\n"
+                                  "&obstacle points = -9, 0, 9, 0, friction = 'high', friction_law = 'paper' /\n"
+                                  "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'papper' /\n",
+                  "4:1: 'friction' in &obstacle must be given for friction_law 'paper', in [0, 1]: an impact leaves "
+                  "this part of the tangential velocity, and 1 is frictionless\n"
+                  "5:33: 'friction' in &obstacle must be in [0, 1] for friction_law 'paper', got 1.5\n"
+                  "6:44: 'friction' in &obstacle expects a real, got 'high'\n"
+                  "7:64: 'friction_law' in &obstacle must be 'coulomb' or 'paper', got 'papper' (did you mean "
+                  "'paper'?)\n");
+}
+
 static void keys_not_given_are_left_to_the_library(void **state)
 {
     (void)state;
@@ -143,6 +199,8 @@ static void keys_not_given_are_left_to_the_library(void **state)
     assert_close(d.options.spacing + d.options.v_scale + d.options.max_step + d.options.skin + d.options.rest_speed,
                  0.0, 0.0);
     assert_int_equal(d.options.max_impacts, expected.max_impacts);
+    assert_int_equal(d.options.vertices, expected.vertices);
+    assert_close(d.options.mass_damping, expected.mass_damping, 0.0);
     assert_int_equal(d.n_obstacles, 0);
     assert_int_equal(d.double_precision, 0);
     assert_int_equal(d.deflate, 1);
@@ -358,6 +416,135 @@ static void obstacles_must_be_polylines(void **state)
                   "4:11: 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too "
                   "long\n"
                   "5:11: 'points' in &obstacle: segment 1 of obstacle 2, from (0, 0) to (1e-300, 0) m, is too short\n");
+}
+
+/* ---- profiles ---- */
+
+#define LIFTED "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', clearance = 3 /\n"
+
+static void a_polyline_is_taken_as_it_is(void **state)
+{
+    (void)state;
+    deck d = good_deck(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, 9, -1, 8, -1, profile = 'polyline' /\n");
+    const double expected[8] = {-9, 0, 9, 0, 9, -1, 8, -1};
+    assert_int_equal(d.obstacles[0].n_points, 4);
+    assert_memory_equal(d.obstacles[0].points, expected, sizeof expected);
+    assert_non_null(strstr(d.echo, "    profile = 'polyline'\n    ! resolution = (not given)\n"));
+    assert_non_null(strstr(d.echo, "    ! seed = (not given)\n"));
+    assert_null(strstr(d.physics, "seed"));
+    deck_free(&d);
+}
+
+/* By hand: Steffen's slopes are 1, 0, -1; half-way up he is at 1/2 + (1 - 0)/8. */
+static void a_smooth_profile_is_compiled_to_segments(void **state)
+{
+    (void)state;
+    const char *points = "&obstacle points = -1, 0, 0, 1, 1, 0, restitution = 0.25, profile = 'smooth'";
+    char text[600];
+    (void)snprintf(text, sizeof text, "%s%s /\n", RUN RUBBER LIFTED, points);
+    deck d = good_deck(text);
+    assert_int_equal(d.obstacles[0].n_points, 201);
+    assert_close(d.obstacles[0].restitution, 0.25, 0.0);
+    assert_close(d.obstacles[0].points[2 * 50], -0.5, 1e-15);
+    assert_close(d.obstacles[0].points[2 * 50 + 1], 0.625, 1e-15);
+    deck_free(&d);
+    (void)snprintf(text, sizeof text, "%s%s, resolution = 0.3 /\n", RUN RUBBER LIFTED, points);
+    d = good_deck(text);
+    assert_int_equal(d.obstacles[0].n_points, 8); /* 2/0.3 are 6.7 */
+    assert_close(d.obstacles[0].points[14], 1.0, 0.0);
+    deck_free(&d);
+}
+
+/* 18/0.018 is 1000 and a little in floating point: no segment more. */
+static void a_rough_profile_is_compiled_to_segments(void **state)
+{
+    (void)state;
+    const char *deck_text = RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 1.8, profile = 'rough', roughness = 0.1,\n"
+                                              "  correlation = 0.5, resolution = 0.018";
+    uint64_t hash[2];
+    double y[2];
+    for (int k = 0; k < 2; k++) {
+        char text[600];
+        double squares = 0.0;
+        (void)snprintf(text, sizeof text, "%s, seed = %d /\n", deck_text, k + 1);
+        deck d = good_deck(text), again = good_deck(d.echo);
+        const double *points = d.obstacles[0].points;
+        assert_int_equal(d.obstacles[0].n_points, 1001);
+        for (int i = 0; i <= 1000; i++) squares += pow(points[2 * i + 1] - 0.9 - 0.1 * points[2 * i], 2.0) / 1001.0;
+        assert_close(sqrt(squares), 0.1,
+                     0.053); /* of 36 correlation lengths: four times a tenth of sqrt(sqrt(pi/2)/72) */
+        assert_int_equal(again.obstacles[0].n_points, 1001);
+        assert_memory_equal(again.obstacles[0].points, points, 2002 * sizeof *points);
+        assert_true(again.hash == d.hash);
+        hash[k] = d.hash;
+        y[k] = points[1];
+        deck_free(&again);
+        deck_free(&d);
+    }
+    assert_true(hash[0] != hash[1] && y[0] != y[1]);
+}
+
+static void keys_of_another_profile_are_refused(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, resolution = 1, roughness = 1,\n"
+                                    "  correlation = 1, seed = 1 /\n"
+                                    "&obstacle points = -9, 0, 9, 0, profile = 'smooth', roughness = 1,\n"
+                                    "  correlation = 1, seed = 1 /\n"
+                                    "&obstacle points = -9, 0, 9, 0, profile = 'rough' /\n"
+                                    "&obstacle points = -9, 0, 9, 0, profile = 'ruogh', seed = 1 /\n",
+                  "4:33: 'resolution' in &obstacle is not used by profile 'polyline'\n"
+                  "4:49: 'roughness' in &obstacle is not used by profile 'polyline'\n"
+                  "5:3: 'correlation' in &obstacle is not used by profile 'polyline'\n"
+                  "5:20: 'seed' in &obstacle is not used by profile 'polyline'\n"
+                  "6:53: 'roughness' in &obstacle is not used by profile 'smooth'\n"
+                  "7:3: 'correlation' in &obstacle is not used by profile 'smooth'\n"
+                  "7:20: 'seed' in &obstacle is not used by profile 'smooth'\n"
+                  "8:1: 'roughness' in &obstacle must be given for profile 'rough'\n"
+                  "8:1: 'correlation' in &obstacle must be given for profile 'rough'\n"
+                  "9:43: 'profile' in &obstacle must be 'polyline', 'smooth' or 'rough', got 'ruogh' (did you mean "
+                  "'rough'?)\n");
+}
+
+#define SMOOTH "profile = 'smooth'"
+#define ROUGH  "profile = 'rough', roughness = 1e-3, correlation = 0.1"
+
+static void profiles_that_cannot_be_compiled_are_named(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, 0.5, 1, 0.5, 2, " SMOOTH " /\n"
+                                    "&obstacle points = 0, 0, 1, 0, 1, 0, " SMOOTH " /\n"
+                                    "&obstacle points = 0, 0, 1, 0, " SMOOTH ", resolution = 1.5 /\n"
+                                    "&obstacle points = 0, 0, 1, 0, " SMOOTH ", resolution = 1e-6 /\n"
+                                    "&obstacle points = 1e9, 0, 1000000001, 0, " SMOOTH " /\n"
+                                    "&obstacle points = 0, 0, 20.1, 0, " ROUGH " /\n"
+                                    "&obstacle points = 0, 0, 1, 0, " ROUGH ", resolution = 1.9e-4 /\n"
+                                    "&obstacle points = 0, 0, 1, 0, 2, " ROUGH ", resolution = 3 /\n",
+                  "4:11: 'points' in &obstacle must increase in x for profile 'smooth'; point 3 of obstacle 1 is at "
+                  "0.5 m, the one before at 1 m\n"
+                  "5:11: 'points' in &obstacle: segment 2 of obstacle 2, from (1, 0) to (1, 0) m, has no length\n"
+                  "6:52: 'resolution' in &obstacle must not exceed the extent of its points, 1 m, got 1.5 m\n"
+                  "7:52: 'resolution' in &obstacle, 1e-06 m, makes 1e+06 segments of obstacle 4; the limit is 100000\n"
+                  "8:1: obstacle 5 has points at x of up to 1e+09 m, so large that rounding blurs its segments of "
+                  "0.005 m\n"
+                  "9:1: 'resolution' in &obstacle must be 1/500 to 1/2 of 'correlation', 0.1 m, got 0.1005 m, the "
+                  "default\n"
+                  "10:88: 'resolution' in &obstacle must be 1/500 to 1/2 of 'correlation', 0.1 m, got 0.00019 m\n"
+                  "11:11: 'points' in &obstacle must be pairs of x and y, got 5 values\n");
+    expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, " ROUGH ", resolution = 'fine' /\n"
+                                    "&obstacle points = 0, 0, 1, zero, " ROUGH " /\n",
+                  "4:101: 'resolution' in &obstacle expects a real, got 'fine'\n"
+                  "5:29: 'points' in &obstacle expects a real, got 'zero'\n");
+}
+
+/* Heights beyond what can be squared are found when they are there. */
+static void a_profile_of_endless_segments_is_refused(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, profile = 'rough', roughness = 1e200,\n"
+                                    "  correlation = 2, resolution = 1, seed = 5489 /\n",
+                  "4:11: 'points' in &obstacle: segment 1 of obstacle 1, from (0, -7.20663e+199) to (1, "
+                  "-1.90369e+199) m, is too long\n");
 }
 
 static void faults_of_syntax_keys_and_meaning_come_together_sorted(void **state)
@@ -640,6 +827,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_key_finds_its_place),
+        cmocka_unit_test(friction_window_vertices_and_damping_find_their_places),
+        cmocka_unit_test(a_window_of_zero_is_not_the_default),
+        cmocka_unit_test(friction_goes_with_its_law),
         cmocka_unit_test(keys_not_given_are_left_to_the_library),
         cmocka_unit_test(bodies_come_in_their_order_turned_and_placed),
         cmocka_unit_test(clearance_is_the_smallest_gap_and_leaves_x_alone),
@@ -652,6 +842,12 @@ int main(void)
         cmocka_unit_test(voids_and_pores_need_a_body_that_can_have_them),
         cmocka_unit_test(numbers_that_do_not_go_together_are_named),
         cmocka_unit_test(obstacles_must_be_polylines),
+        cmocka_unit_test(a_polyline_is_taken_as_it_is),
+        cmocka_unit_test(a_smooth_profile_is_compiled_to_segments),
+        cmocka_unit_test(a_rough_profile_is_compiled_to_segments),
+        cmocka_unit_test(keys_of_another_profile_are_refused),
+        cmocka_unit_test(profiles_that_cannot_be_compiled_are_named),
+        cmocka_unit_test(a_profile_of_endless_segments_is_refused),
         cmocka_unit_test(faults_of_syntax_keys_and_meaning_come_together_sorted),
         cmocka_unit_test(faults_of_geometry_are_reported_for_all_bodies),
         cmocka_unit_test(bodies_that_start_in_an_obstacle_are_named),
