@@ -295,10 +295,16 @@ static void solve(reactions *r, dem_index group, aim to, const double *x, const 
     }
 }
 
+/* Whether a group is one node. */
+static bool alone(const reactions *r, dem_index group)
+{
+    return r->row[group + 1] - r->row[group] == 1 && !site_is_edge(&r->sites[r->members[r->row[group]]]);
+}
+
 static void hold(reactions *r, dem_index group, const double *x, const double *v, double *a)
 {
     const dem_index k = r->members[r->row[group]];
-    if (r->row[group + 1] - r->row[group] > 1 || site_is_edge(&r->sites[k]))
+    if (!alone(r, group))
         solve(r, group, FORCE, x, v, a);
     else if (r->sites[k].n_closed == 2)
         hold_corner(r, k, a);
@@ -325,9 +331,26 @@ void reactions_solve(reactions *r, dem_index group, const double *x, const doubl
     hold(r, group, x, v, r->a);
 }
 
+/* A node by itself stops exactly. */
+static void stop_node(reactions *r, dem_index k, double *v)
+{
+    const contact_site *site = &r->sites[k];
+    const segment *s = scene_segment(r->scene, site->closed[0].feature);
+    const vec2 vi = vec2_at(v, site->node);
+    const bool rests = site->n_closed == 2 || site->closed[0].sign == 0;
+    const vec2 after = rests ? (vec2){0.0, 0.0} : vec2_along(vi, -vec2_dot(vi, s->normal), s->normal);
+    const vec2 impulse = vec2_scale(r->scene->model->lattice.mass[site->node], vec2_sub(after, vi));
+    r->force[k][0] = (reaction){vec2_dot(impulse, s->normal), vec2_dot(impulse, s->tangent)};
+    r->force[k][1] = (reaction){0.0, 0.0};
+    vec2_put(v, site->node, after);
+}
+
 void reactions_stop(reactions *r, dem_index group, const double *x, double *v)
 {
-    solve(r, group, IMPULSE, x, v, v);
+    if (alone(r, group))
+        stop_node(r, r->members[r->row[group]], v);
+    else
+        solve(r, group, IMPULSE, x, v, v);
 }
 
 const double *reactions_shift(reactions *r, dem_index group, const double *x, const double *v)

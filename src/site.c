@@ -138,11 +138,14 @@ int site_end_passed(const contact_scene *scene, const contact_site *site, int q,
     return end * heading > 0.0 ? end : 0;
 }
 
+/* In units of the skin per step: slower than this is rounding. */
+static const double rest_noise = 1e-9;
+
 bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f)
 {
     const int sign = site->closed[q].sign;
     return sign != 0 && touch_friction(scene, site, site->closed[q].feature) > 0.0 &&
-           sign * vec2_dot(f->velocity, f->tangent) < 0.0;
+           sign * vec2_dot(f->velocity, f->tangent) < -rest_noise * scene->rule.skin / scene->rule.max_step;
 }
 
 double site_grip(const contact_scene *scene, const contact_site *site, int q, const reaction *force)
