@@ -139,7 +139,7 @@ int site_end_passed(const contact_scene *scene, const contact_site *site, int q,
 }
 
 /* In units of the skin per step: slower than this is rounding. */
-static const double rest_noise = 1e-9;
+static const double rest_noise = 1e-16;
 
 bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f)
 {
