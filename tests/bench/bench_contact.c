@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What contact detection costs per accepted step without event, in units of one evaluation of the forces by the plain
+ * loop over CSR: a body of COLUMNS x ROWS nodes comes down on a ground of SEGMENTS segments, and every step without
+ * event counts in which its lower face is in contact. The functions are timed where simulation.c calls them.
+ * `bench_contact [COLUMNS ROWS SEGMENTS SECONDS]` */
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "contact.h"
+
+enum { most = 100000 };
+
+static const double spacing = 1e-3;
+
+static double seconds(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void must(dem_status status)
+{
+    if (status == DEM_OK) return;
+    (void)fprintf(stderr, "bench_contact: %s\n", dem_status_message());
+    exit(1);
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *times, size_t n)
+{
+    qsort(times, n, sizeof *times, by_size);
+    return n > 0 ? times[n / 2] : NAN;
+}
+
+/* Bumps of a thousandth of the spacing, by a fixed generator. */
+static double *make_ground(long segments, double width)
+{
+    double *points = malloc(2 * ((size_t)segments + 1) * sizeof *points);
+    unsigned long long random = 1;
+    for (long k = 0; points != NULL && k <= segments; k++) {
+        random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+        const double bump = (double)(random >> 33) / 2147483648.0;
+        points[2 * k] = width * ((double)k / (double)segments - 0.5);
+        points[2 * k + 1] = 1e-3 * spacing * bump;
+    }
+    return points;
+}
+
+static dem_model *make_model(long columns, long rows, long segments)
+{
+    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.5}, lift[2] = {0.0, 2e-3 * spacing};
+    double *points = make_ground(segments, 1.2 * width);
+    const dem_obstacle ground = {.n_points = segments + 1, .points = points, .friction = 0.3};
+    dem_lattice lattice;
+    dem_model *model;
+    must(dem_lattice_rectangle(&lattice, width, 0.866025403784 * (double)(rows - 1) * spacing, spacing));
+    must(dem_lattice_assemble(&lattice, &rubber));
+    dem_lattice_move(&lattice, 0.0, lift);
+    must(dem_lattice_launch(&lattice, speed));
+    must(dem_model_create(&model, &lattice, &ground, 1));
+    dem_lattice_free(&lattice);
+    free(points);
+    return model;
+}
+
+/* ---- the functions of contact detection, timed ---- */
+
+static double spent; /* s, in this step */
+
+void __real_contact_guards(contact *c, const double *y, double *g);
+bool __real_contact_check(contact *c, path *p, bool rooted, double *state);
+void __real_contact_follow(contact *c, const path *p, const double *y, double *state);
+void __wrap_contact_guards(contact *c, const double *y, double *g);
+bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state);
+void __wrap_contact_follow(contact *c, const path *p, const double *y, double *state);
+
+void __wrap_contact_guards(contact *c, const double *y, double *g)
+{
+    const double start = seconds();
+    __real_contact_guards(c, y, g);
+    spent += seconds() - start;
+}
+
+bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state)
+{
+    const double start = seconds();
+    const bool late = __real_contact_check(c, p, rooted, state);
+    spent += seconds() - start;
+    return late;
+}
+
+void __wrap_contact_follow(contact *c, const path *p, const double *y, double *state)
+{
+    const double start = seconds();
+    __real_contact_follow(c, p, y, state);
+    spent += seconds() - start;
+}
+
+/* ---- the run ---- */
+
+typedef struct tally {
+    const dem_model *model;
+    dem_index columns, events, contacts;
+    double contact[most], force[most], sum;
+    size_t n;
+} tally;
+
+static dem_status after_step(void *context, const dem_simulation *simulation)
+{
+    tally *t = context;
+    dem_state state;
+    const dem_counts counts = dem_simulation_counts(simulation);
+    dem_simulation_state(simulation, &state);
+    const bool quiet = counts.events == t->events;
+    if (quiet && 10 * state.n_contacts >= 8 * t->columns && t->n < most) {
+        const double start = seconds();
+        for (dem_index i = 0; i < t->model->lattice.n_nodes; i++)
+            t->sum += springs_force(&t->model->springs, i, state.x).x;
+        t->force[t->n] = seconds() - start;
+        t->contact[t->n++] = spent;
+        t->contacts = state.n_contacts;
+    }
+    t->events = counts.events;
+    spent = 0.0;
+    return DEM_OK;
+}
+
+int main(int argc, char **argv)
+{
+    const long columns = argc > 1 ? atol(argv[1]) : 447, rows = argc > 2 ? atol(argv[2]) : 224,
+               segments = argc > 3 ? atol(argv[3]) : 10000;
+    static tally t;
+    dem_model *model = make_model(columns, rows, segments);
+    const dem_observer observer = {.step = after_step, .context = &t};
+    const dem_options options = dem_options_default();
+    dem_simulation *simulation;
+    t.model = model;
+    t.columns = columns;
+    must(dem_simulation_create(&simulation, model, &options));
+    must(dem_simulation_observe(simulation, &observer));
+    must(dem_simulation_advance(simulation, argc > 4 ? atof(argv[4]) : 3e-5));
+    const dem_counts counts = dem_simulation_counts(simulation);
+    const double force = median(t.force, t.n), contact_time = median(t.contact, t.n);
+    (void)printf("%lld nodes, %ld segments, %lld contacts on %ld columns, %lld steps, %lld events, %zu steps counted\n",
+                 (long long)model->lattice.n_nodes, segments, (long long)t.contacts, columns, (long long)counts.steps,
+                 (long long)counts.events, t.n);
+    (void)printf("forces %.3f ms, contact %.3f ms, ratio %.4f (sum %g)\n", 1e3 * force, 1e3 * contact_time,
+                 contact_time / force, t.sum);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    return 0;
+}
