@@ -11,7 +11,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"lattice", "sides", "springs", "triangles", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
+    {"lattice", "sides", "springs", "triangles", "box_tree", "obstacle", "path", "hdf5_file", "scan", "namelist", "pores"},
     {"lattice_mesh", "model", "impact", "schema", "shape", "parts", "clearance"},
     {"site", "diagnostics", "integrator", "history", "lattice_file", "schema_table", "schema_print", "body"},
     {"contact", "trajectory", "deck"},
@@ -19,8 +19,8 @@ LAYERS = [
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
-BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("history", "hdf5_file"), ("lattice_mesh", "lattice"), ("shape", "pores"),
-          ("pores", "shape")}
+BESIDE = {("obstacle", "box_tree"), ("lattice", "sides"), ("namelist", "scan"), ("history", "hdf5_file"), ("lattice_mesh", "lattice"),
+          ("shape", "pores"), ("pores", "shape")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
