@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polylines compiled to segments with normals and neighbours; every query goes through all of them. */
+/* Polylines compiled to segments with normals and neighbours. Queries take from a tree of boxes what may matter and
+ * judge it as a loop over all would: ties go to the lowest index whatever the order of visits. */
 #include "obstacle.h"
 
 #include <stdlib.h>
@@ -32,9 +33,15 @@ static bool closed(const dem_obstacle *obstacle)
     return obstacle->n_points > 3 && first.x == last.x && first.y == last.y;
 }
 
-/* Whether segments ab and cd have a point in common. */
+static bool apart(double a, double b, double c, double d)
+{
+    return fmax(a, b) < fmin(c, d) || fmax(c, d) < fmin(a, b);
+}
+
+/* Whether segments ab and cd have a point in common. Of two far apart in one line rounding would say so. */
 static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
 {
+    if (apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) return false;
     const vec2 ab = vec2_sub(b, a), cd = vec2_sub(d, c), ac = vec2_sub(c, a);
     const double turn = vec2_cross(ab, cd), along = vec2_cross(ac, cd), across = vec2_cross(ac, ab);
     if (turn != 0.0) return along / turn >= 0.0 && along / turn <= 1.0 && across / turn >= 0.0 && across / turn <= 1.0;
@@ -43,26 +50,9 @@ static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
     return fmax(u, v) >= 0.0 && fmin(u, v) <= length;
 }
 
-/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. */
-static dem_status check_crossings(const dem_obstacle *obstacle, dem_index o)
+static void compile_segments(obstacle_set *set, dem_index o)
 {
-    const dem_index n = obstacle->n_points - 1;
-    const double *p = obstacle->points;
-    for (dem_index i = 0; i + 1 < n; i++) {
-        const vec2 here = vec2_sub(vec2_at(p, i + 1), vec2_at(p, i)),
-                   next = vec2_sub(vec2_at(p, i + 2), vec2_at(p, i + 1));
-        CHECK(vec2_cross(here, next) != 0.0 || vec2_dot(here, next) > 0.0, DEM_ERROR_MODEL,
-              "obstacle %lld: segment %lld goes back over segment %lld", (long long)o, (long long)(i + 1),
-              (long long)i);
-        for (dem_index k = i + 2; k < n - (i == 0 && closed(obstacle)); k++)
-            CHECK(!meet(vec2_at(p, i), vec2_at(p, i + 1), vec2_at(p, k), vec2_at(p, k + 1)), DEM_ERROR_MODEL,
-                  "obstacle %lld: segments %lld and %lld meet", (long long)o, (long long)i, (long long)k);
-    }
-    return DEM_OK;
-}
-
-static void compile_segments(obstacle_set *set, dem_index o, const dem_obstacle *obstacle)
-{
+    const dem_obstacle *obstacle = &set->list[o];
     const dem_index n = obstacle->n_points - 1, first = set->first[o];
     const bool ring = closed(obstacle);
     segment *s = set->segments;
@@ -95,6 +85,43 @@ static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
     return DEM_OK;
 }
 
+/* All that counts as the segment, but for a margin. */
+static box cover(const segment *s)
+{
+    return box_around(vec2_along(s->start, -s->buried[0], s->tangent), vec2_along(s->end, s->buried[1], s->tangent),
+                      0.0);
+}
+
+static dem_status plant_tree(obstacle_set *set, dem_index o)
+{
+    const dem_index n = set->list[o].n_points - 1;
+    TRY(box_tree_create(&set->trees[o], n));
+    for (dem_index k = 0; k < n; k++) {
+        const box around = cover(&set->segments[set->first[o] + k]);
+        box_tree_cover(&set->trees[o], k, &around);
+    }
+    return DEM_OK;
+}
+
+/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. */
+static dem_status check_crossings(const obstacle_set *set, dem_index o)
+{
+    const segment *s = &set->segments[set->first[o]];
+    const box_tree *tree = &set->trees[o];
+    for (dem_index i = 0; i + 1 < tree->n; i++) {
+        const vec2 here = vec2_sub(s[i].end, s[i].start), next = vec2_sub(s[i + 1].end, s[i + 1].start);
+        CHECK(vec2_cross(here, next) != 0.0 || vec2_dot(here, next) > 0.0, DEM_ERROR_MODEL,
+              "obstacle %lld: segment %lld goes back over segment %lld", (long long)o, (long long)(i + 1),
+              (long long)i);
+        const box around = cover(&s[i]);
+        const dem_index end = i == 0 && s[0].before >= 0 ? tree->n - 1 : tree->n;
+        for (dem_index k = box_tree_seek(tree, i + 2, &around); k < end; k = box_tree_seek(tree, k + 1, &around))
+            CHECK(!meet(s[i].start, s[i].end, s[k].start, s[k].end), DEM_ERROR_MODEL,
+                  "obstacle %lld: segments %lld and %lld meet", (long long)o, (long long)i, (long long)k);
+    }
+    return DEM_OK;
+}
+
 /* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
 static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
 {
@@ -109,28 +136,64 @@ static bool on_segment(const segment *s, double place, double tolerance, double 
     return place >= -(tolerance + before) && place <= s->length + tolerance + after;
 }
 
-/* Takes segment k for the nearest if it is nearer than what was nearest so far. */
+/* Whether what is at this distance is nearer than what was nearest so far. */
+static bool nearer(double distance, dem_index k, const obstacle_gap *nearest)
+{
+    const double so_far = fabs(nearest->distance);
+    return distance < so_far || (distance == so_far && k < nearest->segment);
+}
+
+/* Takes segment k for the nearest if it is. */
 static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, double margin, obstacle_gap *nearest)
 {
     const segment *s = &o->segments[k];
     const double place = segment_place(s, x), height = segment_height(s, x);
     if (on_segment(s, place, 0.0, margin)) {
-        if (fabs(height) < fabs(nearest->distance)) *nearest = (obstacle_gap){height, k, s->normal};
+        if (nearer(fabs(height), k, nearest)) *nearest = (obstacle_gap){height, k, s->normal};
         return;
     }
     const vec2 from = vec2_sub(x, place < 0.0 ? s->start : s->end);
     const double distance = vec2_norm(from);
-    if (distance >= fabs(nearest->distance)) return;
+    if (!nearer(distance, k, nearest)) return;
     const vec2 mean = vertex_normal(o, s, place < 0.0 ? s->before : s->after);
     const double signed_distance = vec2_dot(mean, from) >= 0.0 ? distance : -distance;
     *nearest = (obstacle_gap){signed_distance, k, s->normal};
     if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
 }
 
+/* Twice how far x is outside an interval, 0 in it: without a branch, which would be a coin's throw. */
+static inline double outside_twice(double low, double high, double x)
+{
+    const double below = low - x, above = x - high, most = below > above ? below : above;
+    return most + fabs(most);
+}
+
+/* Square of a distance below which nothing in the box is, even if it is longer by the margin. */
+static inline double clearance(const box *b, vec2 x, double margin)
+{
+    const double dx = outside_twice(b->low.x - margin, b->high.x + margin, x.x),
+                 dy = outside_twice(b->low.y - margin, b->high.y + margin, x.y);
+    return 0.25 * (1.0 - BOX_TREE_ROUNDING) * (dx * dx + dy * dy);
+}
+
 obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
 {
+    const box_tree *tree = &o->trees[obstacle];
+    const double longer = (1.0 + BOX_TREE_ROUNDING) * margin;
+    const dem_index first = o->first[obstacle];
     obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
-    for (dem_index k = o->first[obstacle]; k < o->first[obstacle + 1]; k++) take_nearer(o, k, x, margin, &nearest);
+    box_tree_walk walk;
+    for (dem_index node = box_tree_start(&walk, INFINITY); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, clearance(&children[0], x, longer), clearance(&children[1], x, longer));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            take_nearer(o, first + k, x, margin, &nearest);
+        walk.limit = nearest.distance * nearest.distance;
+        node = box_tree_back(&walk);
+    }
     return nearest;
 }
 
@@ -178,16 +241,26 @@ static void bury_ends(obstacle_set *o)
         const double after = s->after < 0 ? buried_length(o, s, s->end, s->tangent) : 0.0;
         o->segments[k].buried[0] = before;
         o->segments[k].buried[1] = after;
+        const box around = cover(s);
+        box_tree_cover(&o->trees[s->obstacle], s->index, &around);
     }
+}
+
+static bool touches(const segment *s, vec2 x, const obstacle_touch *touch)
+{
+    return fabs(segment_height(s, x)) <= touch->tolerance &&
+           on_segment(s, segment_place(s, x), touch->tolerance, touch->margin);
 }
 
 int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity)
 {
+    const box around = box_around(x, x, 2.0 * touch->tolerance + touch->margin); /* tolerance along and across */
     int n = 0;
-    for (dem_index k = 0; k < o->n_segments && n < capacity; k++) {
-        const segment *s = &o->segments[k];
-        if (s->obstacle == touch->without || fabs(segment_height(s, x)) > touch->tolerance) continue;
-        if (on_segment(s, segment_place(s, x), touch->tolerance, touch->margin)) hits[n++] = k;
+    for (dem_index q = 0; q < o->n; q++) {
+        const box_tree *tree = &o->trees[q];
+        if (q == touch->without) continue;
+        for (dem_index k = -1; n < capacity && (k = box_tree_seek(tree, k + 1, &around)) < tree->n;)
+            if (touches(&o->segments[o->first[q] + k], x, touch)) hits[n++] = o->first[q] + k;
     }
     return n;
 }
@@ -212,23 +285,35 @@ obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards,
     return turn < 0.0 ? OBSTACLE_CONVEX : OBSTACLE_CONCAVE;
 }
 
+static dem_status reserve(obstacle_set *o, dem_index n)
+{
+    o->list = calloc((size_t)n + 1, sizeof *o->list);
+    o->segments = malloc(((size_t)o->n_segments + 1) * sizeof *o->segments);
+    o->first = calloc((size_t)n + 1, sizeof *o->first);
+    o->trees = calloc((size_t)n + 1, sizeof *o->trees);
+    CHECK(o->list && o->segments && o->first && o->trees, DEM_ERROR_MEMORY, "out of memory for obstacles");
+    return DEM_OK;
+}
+
+static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
+{
+    const dem_index o = set->n;
+    TRY(copy_points(&set->list[o], obstacle));
+    set->n++;
+    compile_segments(set, o);
+    TRY(plant_tree(set, o));
+    return check_crossings(set, o);
+}
+
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
 {
     obstacle_set o = {0};
     for (dem_index k = 0; k < n; k++) {
         TRY(check_obstacle(&list[k], k));
-        TRY(check_crossings(&list[k], k));
         o.n_segments += list[k].n_points - 1;
     }
-    o.list = calloc((size_t)n + 1, sizeof *o.list);
-    o.segments = malloc(((size_t)o.n_segments + 1) * sizeof *o.segments);
-    o.first = calloc((size_t)n + 1, sizeof *o.first);
-    dem_status status =
-        o.list && o.segments && o.first ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for obstacles");
-    for (; status == DEM_OK && o.n < n; o.n++) {
-        compile_segments(&o, o.n, &list[o.n]);
-        status = copy_points(&o.list[o.n], &list[o.n]);
-    }
+    dem_status status = reserve(&o, n);
+    for (dem_index k = 0; k < n && status == DEM_OK; k++) status = append(&o, &list[k]);
     if (status == DEM_OK) bury_ends(&o);
     if (status == DEM_OK)
         *out = o;
@@ -239,9 +324,13 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
 
 void obstacles_free(obstacle_set *o)
 {
-    for (dem_index k = 0; k < o->n && o->list; k++) free((void *)(uintptr_t)o->list[k].points);
+    for (dem_index k = 0; k < o->n; k++) {
+        free((void *)(uintptr_t)o->list[k].points);
+        box_tree_free(&o->trees[k]);
+    }
     free(o->list);
     free(o->segments);
     free(o->first);
+    free(o->trees);
     *o = (obstacle_set){0};
 }

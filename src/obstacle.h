@@ -3,9 +3,7 @@
 #ifndef DEM_OBSTACLE_H
 #define DEM_OBSTACLE_H
 
-#include <stdbool.h>
-
-#include "vec2.h"
+#include "box_tree.h"
 
 typedef struct segment {
     vec2 start, end;
@@ -22,6 +20,7 @@ typedef struct obstacle_set {
     dem_obstacle *list; /* [n] with its own copies of the points */
     dem_index *first;   /* [n + 1] segments first[k] .. first[k+1]-1 are of obstacle k */
     segment *segments;  /* [n_segments] obstacle by obstacle, in order */
+    box_tree *trees;    /* [n] of the segments of each */
 } obstacle_set;
 
 /** Nearest feature of the obstacles to a point. */
