@@ -3,6 +3,7 @@
  * judge it as a loop over all would: ties go to the lowest index whatever the order of visits. */
 #include "obstacle.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -285,6 +286,93 @@ obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards,
     return turn < 0.0 ? OBSTACLE_CONVEX : OBSTACLE_CONCAVE;
 }
 
+/* ---- vertices ---- */
+
+/* At most as many as segments. */
+static dem_status find_vertices(obstacle_set *o)
+{
+    o->vertices = malloc(((size_t)o->n_segments + 1) * sizeof *o->vertices);
+    CHECK_MEMORY(o->vertices);
+    for (dem_index k = 0; k < o->n_segments; k++) {
+        dem_index after;
+        if (obstacles_bend(o, k, false, &after) == OBSTACLE_CONVEX)
+            o->vertices[o->n_vertices++] = (obstacle_vertex){o->segments[k].end, k, after};
+    }
+    TRY(box_tree_create(&o->vertex_tree, o->n_vertices));
+    for (dem_index k = 0; k < o->n_vertices; k++) {
+        const box around = box_around(o->vertices[k].at, o->vertices[k].at, 0.0);
+        box_tree_cover(&o->vertex_tree, k, &around);
+    }
+    return DEM_OK;
+}
+
+/* An edge with its directions: what is asked of every box and vertex. */
+typedef struct line {
+    const obstacle_edge *edge;
+    vec2 tangent, normal;
+    double length; /* m */
+} line;
+
+static bool out_of_question(const obstacle_set *o, const obstacle_edge *edge, dem_index k)
+{
+    const dem_index obstacle = o->segments[o->vertices[k].before].obstacle;
+    return k == edge->except[0] || k == edge->except[1] || obstacle == edge->without[0] || obstacle == edge->without[1];
+}
+
+/* Takes vertex k if it is deeper than the deepest so far. */
+static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
+{
+    const obstacle_edge *edge = l->edge;
+    const obstacle_vertex *v = &o->vertices[k];
+    const double distance = vec2_dot(vec2_sub(edge->a, v->at), l->normal);
+    const double place = vec2_dot(vec2_sub(v->at, edge->a), l->tangent);
+    if (!(distance > -edge->depth && distance < edge->reach)) return;
+    if (!(place >= -edge->tolerance && place <= l->length + edge->tolerance)) return;
+    if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
+    const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
+    if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
+    *deepest = (obstacle_poke){distance, k, place / l->length, l->normal};
+}
+
+/* A distance below which no vertex in the box is that could be taken; infinity if none could. */
+static double shallowest(const box *b, const line *l)
+{
+    const obstacle_edge *edge = l->edge;
+    const vec2 half = {0.5 * (b->high.x - b->low.x), 0.5 * (b->high.y - b->low.y)};
+    const vec2 centre = vec2_sub((vec2){0.5 * (b->low.x + b->high.x), 0.5 * (b->low.y + b->high.y)}, edge->a);
+    const double rounding = BOX_TREE_ROUNDING * (fabs(centre.x) + fabs(centre.y) + half.x + half.y);
+    const double tx = fabs(l->tangent.x), ty = fabs(l->tangent.y);
+    const double place = vec2_dot(centre, l->tangent), along = tx * half.x + ty * half.y + rounding;
+    const double distance = -vec2_dot(centre, l->normal), across = ty * half.x + tx * half.y + rounding;
+    const bool beside = place + along < -edge->tolerance || place - along > l->length + edge->tolerance;
+    return beside || distance + across < -edge->depth ? INFINITY : distance - across;
+}
+
+obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const box_tree *tree = &o->vertex_tree;
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const double length = vec2_norm(way);
+    const vec2 tangent = vec2_scale(1.0 / length, way);
+    const line l = {edge, tangent, {-tangent.y, tangent.x}, length};
+    obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
+    box_tree_walk walk;
+    for (dem_index node = box_tree_start(&walk, fmin(edge->reach, DBL_MAX)); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, shallowest(&children[0], &l), shallowest(&children[1], &l));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            take_deeper(o, k, &l, &deepest);
+        if (deepest.vertex >= 0) walk.limit = deepest.distance;
+        node = box_tree_back(&walk);
+    }
+    return deepest;
+}
+
+/* ---- compiling ---- */
+
 static dem_status reserve(obstacle_set *o, dem_index n)
 {
     o->list = calloc((size_t)n + 1, sizeof *o->list);
@@ -314,6 +402,7 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
     }
     dem_status status = reserve(&o, n);
     for (dem_index k = 0; k < n && status == DEM_OK; k++) status = append(&o, &list[k]);
+    if (status == DEM_OK) status = find_vertices(&o);
     if (status == DEM_OK) bury_ends(&o);
     if (status == DEM_OK)
         *out = o;
@@ -332,5 +421,7 @@ void obstacles_free(obstacle_set *o)
     free(o->segments);
     free(o->first);
     free(o->trees);
+    free(o->vertices);
+    box_tree_free(&o->vertex_tree);
     *o = (obstacle_set){0};
 }

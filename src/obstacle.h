@@ -15,12 +15,20 @@ typedef struct segment {
     double buried[2];          /* m, how far it goes on inside another obstacle on which it stands: before, after */
 } segment;
 
+/** Where a polyline bends so that the solid's corner sticks out. */
+typedef struct obstacle_vertex {
+    vec2 at;
+    dem_index before, after; /* segments that end and begin there */
+} obstacle_vertex;
+
 typedef struct obstacle_set {
-    dem_index n, n_segments;
-    dem_obstacle *list; /* [n] with its own copies of the points */
-    dem_index *first;   /* [n + 1] segments first[k] .. first[k+1]-1 are of obstacle k */
-    segment *segments;  /* [n_segments] obstacle by obstacle, in order */
-    box_tree *trees;    /* [n] of the segments of each */
+    dem_index n, n_segments, n_vertices;
+    dem_obstacle *list;        /* [n] with its own copies of the points */
+    dem_index *first;          /* [n + 1] segments first[k] .. first[k+1]-1 are of obstacle k */
+    segment *segments;         /* [n_segments] obstacle by obstacle, in order */
+    obstacle_vertex *vertices; /* [n_vertices] obstacle by obstacle, in the order of the segments that end there */
+    box_tree *trees;           /* [n] of the segments of each */
+    box_tree vertex_tree;
 } obstacle_set;
 
 /** Nearest feature of the obstacles to a point. */
@@ -59,6 +67,28 @@ typedef struct obstacle_touch {
 
 /** Segments that x touches, at most `capacity` of them, into hits; returns their number. */
 int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity);
+
+/** A straight edge of a body, from a to b with the body on its left. */
+typedef struct obstacle_edge {
+    vec2 a, b;
+    double tolerance;     /* m, by which the edge counts as longer at both ends */
+    double depth;         /* m, how far behind the edge a vertex is still looked at */
+    double reach;         /* m, how far in front of it */
+    dem_index without[2]; /* obstacles left out, or -1 */
+    dem_index except[2];  /* vertices left out, or -1 */
+} obstacle_edge;
+
+/** The vertex nearest to entering through the edge. */
+typedef struct obstacle_poke {
+    double distance;  /* m, of the vertex in front of the edge: > 0 outside the body, < 0 inside; infinity: none */
+    dem_index vertex; /* -1: none */
+    double place;     /* of its foot on the edge, 0 at a, 1 at b; outside by the tolerance at most */
+    vec2 normal;      /* unit, left of the edge: into the body, out of the obstacle */
+} obstacle_poke;
+
+/** Of the convex vertices whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and whose
+ *  mean normal points into the body: the one with the smallest distance, the first of equals. */
+obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge);
 
 /** Whether two segments are neighbours, and the vertex that they share. */
 bool obstacles_share(const obstacle_set *o, dem_index s, dem_index other, vec2 *vertex);
