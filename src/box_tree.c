@@ -6,7 +6,7 @@
 
 #include "status.h"
 
-static const dem_index fewest_in_leaf = 2; /* measured: 2 to 3 cost least */
+static const dem_index fewest_in_leaf = 2; /* measured: halves and doubles of it cost more */
 
 box box_around(vec2 a, vec2 b, double reach)
 {

@@ -17,6 +17,10 @@ static dem_status check_obstacle(const dem_obstacle *obstacle, dem_index o)
           "obstacle %lld has %lld points, at least 2 are needed", (long long)o, (long long)obstacle->n_points);
     CHECK(obstacle->restitution >= 0.0 && obstacle->restitution <= 1.0, DEM_ERROR_MODEL,
           "obstacle %lld: restitution must be in [0, 1], got %g", (long long)o, obstacle->restitution);
+    CHECK(isfinite(obstacle->friction) && obstacle->friction >= 0.0, DEM_ERROR_MODEL,
+          "obstacle %lld: friction must be >= 0, got %g", (long long)o, obstacle->friction);
+    CHECK(obstacle->friction_law != DEM_FRICTION_PAPER || obstacle->friction <= 1.0, DEM_ERROR_MODEL,
+          "obstacle %lld: friction of the paper's law must be in [0, 1], got %g", (long long)o, obstacle->friction);
     for (dem_index k = 0; k < 2 * obstacle->n_points; k++)
         CHECK(isfinite(obstacle->points[k]), DEM_ERROR_MODEL, "obstacle %lld: point %lld is not finite", (long long)o,
               (long long)(k / 2));
@@ -34,9 +38,15 @@ static bool closed(const dem_obstacle *obstacle)
     return obstacle->n_points > 3 && first.x == last.x && first.y == last.y;
 }
 
-/* Whether segments ab and cd have a point in common. */
+static bool apart(double a, double b, double c, double d)
+{
+    return fmax(a, b) < fmin(c, d) || fmax(c, d) < fmin(a, b);
+}
+
+/* Whether segments ab and cd have a point in common. Of two far apart in one line rounding would say so. */
 static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
 {
+    if (apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) return false;
     const vec2 ab = vec2_sub(b, a), cd = vec2_sub(d, c), ac = vec2_sub(c, a);
     const double turn = vec2_cross(ab, cd), along = vec2_cross(ac, cd), across = vec2_cross(ac, ab);
     if (turn != 0.0) return along / turn >= 0.0 && along / turn <= 1.0 && across / turn >= 0.0 && across / turn <= 1.0;
@@ -98,8 +108,7 @@ static dem_status plant_tree(obstacle_set *set, dem_index o)
     return DEM_OK;
 }
 
-/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. Those
- * whose boxes are apart are never asked, for which rounding would answer where they lie in line. */
+/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. */
 static dem_status check_crossings(const obstacle_set *set, dem_index o)
 {
     const segment *s = &set->segments[set->first[o]];
