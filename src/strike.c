@@ -11,6 +11,7 @@
 enum { most_sweeps = 200 };
 
 static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
+static const double group_noise = 1e-11;        /* and what is left to the closing of a group */
 
 static impact_surface surface_of(const contact_sites *c, dem_index k, dem_index feature, vec2 normal)
 {
@@ -403,7 +404,7 @@ static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit
     TRY(take_up(c, k, hit));
     const dem_index group = c->reactions.group[k];
     straighten(c, k, now);
-    const double tolerance = noise * prepare(c, group, now);
+    const double tolerance = group_noise * prepare(c, group, now);
     sweep(c, group, tolerance, now);
     judge(c, group, tolerance, now);
     if (take_back(c, group, now)) {
