@@ -388,7 +388,7 @@ static double first_due(contact *c, const path *p, double *state)
 bool contact_check(contact *c, path *p, bool rooted, double *state)
 {
     contact_sites *s = &c->sites;
-    const double last = rooted ? p->end - search_resolution(p) : INFINITY; /* what is due then is the root found */
+    const double last = rooted ? p->end - 4.0 * search_resolution(p) : INFINITY; /* later it is the root found */
     double first = INFINITY;
     const double way = furthest(c, p);
     for (dem_index k = 0; k < s->n; k++) {

@@ -20,6 +20,7 @@ typedef struct contact_touch {
     bool plastic;  /* it does not rebound, for it will last */
     vec2 before;   /* m/s, of the point of the body */
     vec2 impulse;  /* N s, given to the body */
+    vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
     double energy; /* J, taken by it */
 } contact_touch;
 
