@@ -31,7 +31,7 @@ typedef struct contact_site {
     dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
     int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
     contact_touch closed[2];
-    bool stirred;       /* its nodes take part in the impact under way */
+    bool stirred;       /* it takes part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
     bool asleep;        /* it is far from all that it could touch besides, */
     double wake;        /* m, until the bodies may have gone this far since the start */
