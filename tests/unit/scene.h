@@ -67,6 +67,15 @@ static inline void scene_open(scene *s, dem_index n, const double *x, const doub
     memcpy(s->y, x, 2 * (size_t)n * sizeof *x);
 }
 
+/* A triangle of three masses (kg) with its edges; the lower one goes from node 0 at (x, y) to node 1, 2 m along. */
+static inline void scene_open_triangle(scene *s, const double mass[3], double x, double y,
+                                       const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    const double at[6] = {x, y, x + 2.0, y, x + 1.0, y + 1.0};
+    const dem_index corners[3] = {0, 1, 2};
+    scene_open(s, 3, at, mass, 1, corners, obstacles, n_obstacles);
+}
+
 static inline void scene_close(scene *s)
 {
     contact_destroy(&s->c);
@@ -114,16 +123,25 @@ static inline dem_status scene_resolve(scene *s, double t)
     return contact_resolve(&s->c, t, s->y, &listener);
 }
 
-/* A step of all nodes at constant velocity from s->y to y1, of length h; f: its derivative at both ends. */
-static inline path scene_drift(const scene *s, double h, double *y1, double *f)
+/* A step of length h from s->y with the same acceleration of all nodes, which the path's quintic follows exactly. */
+typedef struct scene_flight {
+    double f0[4 * SCENE_NODES], y1[4 * SCENE_NODES], f1[4 * SCENE_NODES], scratch[4 * SCENE_NODES];
+    path path; /* points into this and into the scene */
+} scene_flight;
+
+static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_flight *out)
 {
-    const dem_index n = 2 * s->model->lattice.n_nodes;
-    for (dem_index k = 0; k < n; k++) {
-        f[k] = y1[n + k] = s->y[n + k];
-        f[n + k] = 0.0;
-        y1[k] = s->y[k] + h * s->y[n + k];
+    const dem_index n = s->model->lattice.n_nodes;
+    for (dem_index i = 0; i < n; i++) {
+        const vec2 v = vec2_at(s->y, n + i), v1 = vec2_along(v, h, a);
+        vec2_put(out->y1, i, vec2_along(vec2_at(s->y, i), h, vec2_along(v, 0.5 * h, a)));
+        vec2_put(out->y1, n + i, v1);
+        vec2_put(out->f0, i, v);
+        vec2_put(out->f1, i, v1);
+        vec2_put(out->f0, n + i, a);
+        vec2_put(out->f1, n + i, a);
     }
-    return (path){s->model->lattice.n_nodes, 0.0, h, h, s->y, f, y1, f};
+    out->path = (path){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1};
 }
 
 #endif

@@ -261,18 +261,14 @@ static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(vo
     scene_close(&s);
 }
 
-/* From y(0) to y(h) with accelerations such that y = 1 + 2 t - 30 t^2 + 100 t^3 for node 1, which the path's quintic
- * follows exactly; node 0 slides on at 0.5 m/s below it. */
-static path rise(scene *s, double h, double *y1, double *f0, double *f1)
+/* Node 1 rises as y = 1 + 2 t - 30 t^2 + 100 t^3, which the path's quintic follows exactly, while node 0 slides on. */
+static void rise(scene *s, double h, scene_flight *f)
 {
-    path p = scene_drift(s, h, y1, f0);
-    memcpy(f1, f0, 8 * sizeof *f1);
-    y1[3] = 1.0 + h * (2.0 + h * (-30.0 + h * 100.0));
-    y1[7] = f1[3] = 2.0 + h * (-60.0 + h * 300.0);
-    f0[7] = -60.0;
-    f1[7] = -60.0 + 600.0 * h;
-    p.f1 = f1;
-    return p;
+    scene_fly(s, (vec2){0.0, 0.0}, 0.0, h, f);
+    f->y1[3] = 1.0 + h * (2.0 + h * (-30.0 + h * 100.0));
+    f->y1[7] = f->f1[3] = 2.0 + h * (-60.0 + h * 300.0);
+    f->f0[7] = -60.0;
+    f->f1[7] = -60.0 + 600.0 * h;
 }
 
 /* The reaction is 20 - 100 (y - 1): a cubic in t, which Simpson's rule integrates exactly to
@@ -283,13 +279,14 @@ static void the_reaction_adds_its_impulse_over_a_step(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
-        double y1[8], f0[8], f1[8], scratch[8], end[8];
+        double end[8];
+        scene_flight f;
         open_pair(&s);
-        path p = rise(&s, h, y1, f0, f1);
-        if (k == 1) p.end = cut;
-        path_state(&p, p.end, end);
-        contact_follow(&s.c, &p, end, scratch);
-        const double t = p.end;
+        rise(&s, h, &f);
+        if (k == 1) f.path.end = cut;
+        path_state(&f.path, f.path.end, end);
+        contact_follow(&s.c, &f.path, end, f.scratch);
+        const double t = f.path.end;
         assert_close(s.c.sites.books.impulse[1], t * (20.0 - 100.0 * t * (1.0 - t * (10.0 - 25.0 * t))), 1e-14);
         assert_close(s.c.sites.books.impulse[0], 0.0, 0.0);
         assert_close(s.c.sites.books.friction_impulse[0], 0.0, 0.0);
@@ -521,10 +518,11 @@ static void changes_further_apart_are_no_storm(void **state)
 static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
 {
     scene s;
-    double guards[SITE_GUARDS], y1[4], f[4], scratch[4];
+    double guards[SITE_GUARDS];
+    scene_flight f;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    const path p = scene_drift(&s, 0.01, y1, f);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
     scene_put(&s, 0, -4.0, -0.5, 1.0, 2.0); /* right below the end: from in front to 0.5 m inside */
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.sites.books.counts.behind, 1);
@@ -532,10 +530,10 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
     contact_guards(&s.c, s.y, guards);
     assert_close(guards[0], 1.0 + skin, 0.0);
     scene_put(&s, 0, -3.0, -0.01, 1.0, 2.0);
-    contact_follow(&s.c, &p, s.y, scratch);
+    contact_follow(&s.c, &f.path, s.y, f.scratch);
     assert_int_equal(s.c.sites.books.counts.behind, 1);
     scene_put(&s, 0, -3.0, 0.01, 1.0, 2.0);
-    contact_follow(&s.c, &p, s.y, scratch);
+    contact_follow(&s.c, &f.path, s.y, f.scratch);
     assert_int_equal(s.c.sites.books.counts.behind, 0);
     assert_int_equal(s.c.sites.list[0].behind[0], -1);
     assert_int_equal(s.n_impacts, 0);
@@ -547,15 +545,15 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
 static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
 {
     scene s;
-    double y1[4 * most_nodes], f[4 * most_nodes], scratch[4 * most_nodes];
+    scene_flight f;
     (void)state;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 0.0, 3.0, 0.0, 0.0);
     scene_put(&s, 1, 1.0, 0.3, 0.0, -1.0);
     scene_put(&s, 2, 2.0, 0.2, 0.0, -1.0);
-    path p = scene_drift(&s, 1.0, y1, f);
-    assert_true(contact_check(&s.c, &p, false, scratch));
-    assert_close(p.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
+    assert_true(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_close(f.path.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
     assert_int_equal(s.c.sites.books.counts.late, 1);
     scene_close(&s);
 }
@@ -563,13 +561,13 @@ static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
 static void a_step_without_contacts_is_left_as_it_is(void **state)
 {
     scene s;
-    double y1[4 * most_nodes], f[4 * most_nodes], scratch[4 * most_nodes];
+    scene_flight f;
     (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.0, 1.5, 0.0, -1.0);
-    path p = scene_drift(&s, 1.0, y1, f);
-    assert_false(contact_check(&s.c, &p, false, scratch));
-    assert_close(p.end, 1.0, 0.0);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
+    assert_false(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_close(f.path.end, 1.0, 0.0);
     assert_int_equal(s.c.sites.books.counts.late, 0);
     scene_close(&s);
 }
@@ -577,12 +575,12 @@ static void a_step_without_contacts_is_left_as_it_is(void **state)
 static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
 {
     scene s;
-    double y1[4 * most_nodes], f[4 * most_nodes], scratch[4 * most_nodes];
+    scene_flight f;
     (void)state;
     slide(&s, &half, 3.0, 2.0);
-    path p = scene_drift(&s, 1.0, y1, f);
-    assert_true(contact_check(&s.c, &p, true, scratch)); /* though it ends at the root of another site */
-    assert_close(p.end, 0.5 * (1.0 + skin), 1e-13);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
+    assert_true(contact_check(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another site */
+    assert_close(f.path.end, 0.5 * (1.0 + skin), 1e-13);
     scene_close(&s);
 }
 
