@@ -337,6 +337,297 @@ static void a_held_site_is_due_when_either_reaction_ceases(void **state)
     scene_close(&s);
 }
 
+/* ---- edges ---- */
+
+/* A roof with its ridge in the origin, and one beside it with its ridge at (0.75, -0.25); the former with friction. */
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
+                    beside_points[6] = {0.5, -0.5, 0.75, -0.25, 4.0, -3.5};
+static const dem_obstacle roof = {.n_points = 3, .points = roof_points},
+                          rough_roof = {.n_points = 3,
+                                        .points = roof_points,
+                                        .friction = 0.5,
+                                        .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle roofs[2] = {{.n_points = 3, .points = roof_points}, {.n_points = 3, .points = beside_points}};
+
+static const double masses[3] = {2.0, 2.0, 2.0};
+
+/* The lower edge, from node 0 at (x, y) 2 m along. */
+static contact_site *open_edge(scene *s, double x, double y, const dem_obstacle *obstacles, dem_index n)
+{
+    scene_open_triangle(s, masses, x, y, obstacles, n);
+    set_rule(s);
+    return &s->c.sites.list[scene_edge(s, 0, 1)];
+}
+
+static void check_edge(scene *s, const contact_site *edge, const double expected[SITE_GUARDS])
+{
+    const reaction force[2] = {{20.0, -4.0}, {8.0, 6.0}};
+    double guards[SITE_GUARDS];
+    site_guards(&s->c.sites.scene, edge, force, s->y, scene_velocities(s), guards);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+}
+
+static void move_all(scene *s, double x, double y, double u)
+{
+    scene_put(s, 0, x, y, u, 0.0);
+    scene_put(s, 1, x + 2.0, y, u, 0.0);
+    scene_put(s, 2, x + 1.0, y + 1.0, u, 0.0);
+}
+
+/* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the skin beyond
+ * its ends. */
+static void a_free_edge_watches_the_convex_vertex_below_it(void **state)
+{
+    const double x[9] = {-1.5, -1.5, -1.5, -1.5, 0.99 * skin, 1.01 * skin, -2.0 - 0.99 * skin, -2.0 - 1.01 * skin,
+                         -1.5};
+    const double y[9] = {0.25, 0.0, -skin, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51};
+    const double gap[9] = {0.25, 0.0, -skin, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0};
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    for (int k = 0; k < 9; k++) {
+        move_all(&s, x[k], y[k], 0.0);
+        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+    }
+    scene_close(&s);
+}
+
+/* From (-1.5, 0.5) to (0.1, 1.7), 2 m long at a slope of 3 to 4: the ridge is 0.8 * 1.625 m away and out of reach; once
+ * the edge is 1.125 m lower it is 0.8 * 0.5 m. */
+static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
+    scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
+    const contact_spot spot = site_spot(edge, s.y);
+    const contact_gap gap = site_gap(&s.c.sites.scene, edge, &spot);
+    assert_close(gap.distance, 0.8 * (-0.625 + 0.75 * 1.5), 1e-15);
+    assert_close(gap.place, (0.8 * 1.5 + 0.6 * 0.625) / 2.0, 1e-15);
+    assert_close(gap.normal.x, -0.6, 1e-15);
+    assert_close(gap.normal.y, 0.8, 1e-15);
+    assert_int_equal(gap.feature, 0);
+    assert_int_equal(touch_segment(&s.c.sites.scene, edge, gap.feature), 0);
+    scene_close(&s);
+}
+
+/* On the ridge of the first roof 0.5 m from its end; the second one's is 0.25 m below it. */
+static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
+{
+    scene s, rubbed;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.0, roofs, 2);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    move_all(&s, -1.5, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, 1.0}); /* the second ridge is beyond its end */
+    move_all(&s, -0.25, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, 0.25 + skin, 1.0});
+    move_all(&s, 0.125, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, -0.125 + skin, 1.0});
+    scene_close(&s);
+    edge = open_edge(&rubbed, -1.5, 0.0, &rough_roof, 1);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = -1};
+    move_all(&rubbed, -1.5, 0.0, 0.75);
+    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, -0.75});
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 0, .place = 0.75};
+    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 6.0, 1.0}); /* 0.5 * 20 - 4 */
+    scene_close(&rubbed);
+}
+
+static void an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap(void **state)
+{
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
+    edge->n_closed = 2;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    edge->closed[1] = (contact_touch){.feature = 1, .sign = 1};
+    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.25 + skin, 1.0});
+    move_all(&s, -1.15, 0.0, 0.0); /* the second is 0.1 m from the end, the first 0.85 m */
+    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.1 + skin, 1.0});
+    scene_close(&s);
+}
+
+/* A body that goes right takes its start to the vertex. */
+static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **state)
+{
+    const double x[6] = {1.01 * skin, 1.01 * skin, 0.99 * skin, -2.0 - 1.01 * skin, -2.0 - 1.01 * skin, -1.0};
+    const double u[6] = {1.0, -1.0, 1.0, -1.0, 1.0, 1.0};
+    const int passed[6] = {-1, 0, 0, 1, 0, 0};
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    for (int k = 0; k < 6; k++) {
+        move_all(&s, x[k], 0.0, u[k]);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_velocities(&s)), passed[k]);
+    }
+    s.c.sites.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
+    for (int k = 0; k < 2; k++) {
+        move_all(&s, k == 0 ? 1.01 * skin : -2.0 - 1.01 * skin, 0.0, 0.0);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_velocities(&s)), k == 0 ? -1 : 0);
+    }
+    scene_close(&s);
+}
+
+/* The body's edge from node 1 at (2, 0) to node 2 at (1, 1) falls away by 45 degrees: what is 0.03 m above the lower
+ * edge's line is outside where x + y > 2, and inside the body where it is less. */
+static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **state)
+{
+    const double x[4] = {-1.99, -1.9, -0.01, -0.1}, gap[4] = {1.0, -0.03, 1.0, -0.03};
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    assert_int_equal(edge->next, 2);
+    assert_int_equal(edge->previous, 2);
+    for (int k = 0; k < 4; k++) {
+        move_all(&s, x[k], -0.03, 0.0);
+        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+    }
+    scene_close(&s);
+}
+
+static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(void **state)
+{
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    check_edge(&s, edge, (double[]){0.25 + skin, 1.0, 1.0, 1.0});
+    for (int k = 0; k < 2; k++) {
+        edge->behind[k] = 0;
+        check_edge(&s, edge, (double[]){1.0 + skin, 1.0, 1.0, 1.0});
+        edge->behind[k] = -1;
+    }
+    scene_close(&s);
+}
+
+/* ---- the ball that is clear ---- */
+
+static double uniform(unsigned *seed, double low, double high)
+{
+    *seed = *seed * 1664525u + 1013904223u; /* Numerical Recipes' generator */
+    return low + (high - low) * (*seed >> 8) / 16777216.0;
+}
+
+/* A ragged line of 24 points, 0.3 m apart, with ridges of up to 0.3 m; and a plate that hangs above it. */
+static void open_ragged(scene *s, unsigned *seed, bool triangle)
+{
+    double points[48], plate[6] = {3.0, 1.5, 1.5, uniform(seed, 0.9, 1.5), 0.0, 1.5};
+    for (int k = 0; k < 24; k++) {
+        points[2 * k] = 0.3 * k - 3.0;
+        points[2 * k + 1] = uniform(seed, -0.15, 0.15);
+    }
+    const dem_obstacle ragged[2] = {{.n_points = 24, .points = points}, {.n_points = 3, .points = plate}};
+    if (triangle)
+        scene_open_triangle(s, masses, 0.0, 1.0, ragged, 2);
+    else
+        scene_open(s, 1, (double[]){0.0, 1.0}, masses, 0, NULL, ragged, 2);
+    set_rule(s);
+}
+
+/* What a node is told within the ball is never more than what a search without it finds, but for the margin of ten
+ * skins by which free ends count as longer; and the ball is of use: half of what is near is told by it. */
+static void nothing_that_a_node_nears_is_overlooked_in_its_ball(void **state)
+{
+    unsigned seed = 7;
+    int inside = 0;
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        scene s;
+        dem_index feature;
+        open_ragged(&s, &seed, false);
+        const contact_scene *world = &s.c.sites.scene;
+        contact_site site = free_site();
+        const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
+        site_clear(world, &site, x, &feature);
+        for (int q = 0; q < 50; q++) {
+            const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
+            const double to[2] = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
+            const contact_spot spot = site_spot(&site, to);
+            const contact_gap gap = site_gap(world, &site, &spot);
+            assert_true(gap.distance <= obstacles_gap(&world->model->obstacles, spot.a, 0.0, -1, -1).distance + 1e-15);
+            inside += gap.feature < 0;
+        }
+        scene_close(&s);
+    }
+    assert_true(inside > 2000);
+}
+
+/* The same of an edge that turns and stretches: its ends go different ways. The ridges are steeper than it gets. */
+static void nothing_that_an_edge_nears_is_overlooked_in_its_ball(void **state)
+{
+    unsigned seed = 11;
+    int inside = 0;
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        scene s;
+        dem_index feature;
+        open_ragged(&s, &seed, true);
+        const contact_scene *world = &s.c.sites.scene;
+        contact_site edge = s.c.sites.list[scene_edge(&s, 0, 1)];
+        const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
+        double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
+        site_clear(world, &edge, at, &feature);
+        for (int q = 0; q < 50; q++) {
+            double to[6] = {0.0};
+            for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
+            contact_site bare = edge;
+            bare.clear = 0.0;
+            const contact_spot spot = site_spot(&edge, to);
+            const contact_gap gap = site_gap(world, &edge, &spot), all = site_gap(world, &bare, &spot);
+            assert_true(gap.distance <= all.distance + 1e-15);
+            inside += gap.feature < 0 && gap.distance < 0.5 * length;
+        }
+        scene_close(&s);
+    }
+    assert_true(inside > 2000);
+}
+
+/* A ball is kept until half of it is used up. A node that has not left its ball cannot have touched: if it is inside,
+ * then round a free end. One that has left it may. */
+static void the_ball_is_renewed_when_half_of_it_is_used_up(void **state)
+{
+    scene s;
+    dem_index feature = -1;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 1);
+    contact_site site = free_site();
+    const double clear = 1.0 - 20.0 * skin;
+    const double up[2] = {1.0, 1.0}, near[2] = {1.0, 1.0 - 0.49 * clear}, far[2] = {1.0, 1.0 - 0.51 * clear};
+    assert_false(site_clear(world, &site, up, &feature));
+    assert_close(site.clear, clear, 1e-15);
+    assert_false(site_clear(world, &site, near, &feature));
+    assert_close(site.clear, clear, 1e-15);
+    assert_close(site.clear_at[0].y, 1.0, 0.0);
+    assert_false(site_clear(world, &site, far, &feature));
+    assert_close(site.clear, far[1] - 20.0 * skin, 1e-15);
+    assert_close(site.clear_at[0].y, far[1], 0.0);
+    scene_close(&s);
+}
+
+static void a_node_that_is_inside_within_its_ball_has_come_round_an_end(void **state)
+{
+    scene s;
+    dem_index feature = -1;
+    const double right[2] = {-0.6, 0.0}, inside[2] = {0.1, -0.5}, beyond[2] = {0.3, -0.5};
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 1);
+    contact_site site = free_site();
+    site.clear = 1.0;
+    site.clear_at[0] = vec2_at(right, 0);
+    assert_true(site_clear(world, &site, inside, &feature)); /* sqrt(0.49 + 0.25) m on the way */
+    assert_int_equal(feature, 0);
+    assert_close(site.clear, 0.0, 0.0);
+    site.clear = 1.0;
+    site.clear_at[0] = vec2_at(right, 0);
+    assert_false(site_clear(world, &site, beyond, &feature)); /* sqrt(0.81 + 0.25) m */
+    scene_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -355,6 +646,17 @@ int main(void)
         cmocka_unit_test(a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle),
         cmocka_unit_test(with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip),
         cmocka_unit_test(a_held_site_is_due_when_either_reaction_ceases),
+        cmocka_unit_test(a_free_edge_watches_the_convex_vertex_below_it),
+        cmocka_unit_test(the_gap_of_a_sloping_edge_is_along_its_normal),
+        cmocka_unit_test(a_closed_edge_watches_force_end_and_other_vertices),
+        cmocka_unit_test(an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap),
+        cmocka_unit_test(a_vertex_passes_an_edges_end_against_the_motion_of_the_body),
+        cmocka_unit_test(a_vertex_round_a_convex_corner_of_the_body_is_not_inside),
+        cmocka_unit_test(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices),
+        cmocka_unit_test(nothing_that_a_node_nears_is_overlooked_in_its_ball),
+        cmocka_unit_test(nothing_that_an_edge_nears_is_overlooked_in_its_ball),
+        cmocka_unit_test(the_ball_is_renewed_when_half_of_it_is_used_up),
+        cmocka_unit_test(a_node_that_is_inside_within_its_ball_has_come_round_an_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
