@@ -82,7 +82,7 @@ static inline void scene_close(scene *s)
     dem_model_destroy(s->model);
 }
 
-static inline double *scene_velocities(scene *s)
+static inline double *scene_v(scene *s)
 {
     return s->y + 2 * s->model->lattice.n_nodes;
 }
@@ -90,12 +90,12 @@ static inline double *scene_velocities(scene *s)
 static inline void scene_put(scene *s, dem_index i, double x, double y, double u, double v)
 {
     vec2_put(s->y, i, (vec2){x, y});
-    vec2_put(scene_velocities(s), i, (vec2){u, v});
+    vec2_put(scene_v(s), i, (vec2){u, v});
 }
 
 static inline void scene_check(scene *s, dem_index i, double x, double y, double u, double v)
 {
-    const vec2 at = vec2_at(s->y, i), velocity = vec2_at(scene_velocities(s), i);
+    const vec2 at = vec2_at(s->y, i), velocity = vec2_at(scene_v(s), i);
     assert_close(at.x, x, 1e-14);
     assert_close(at.y, y, 1e-14);
     assert_close(velocity.x, u, 1e-14);

@@ -166,7 +166,7 @@ static void a_dip_of_an_edge_within_the_step_is_found(void **state)
     scene_flight f;
     (void)state;
     const dem_index k = open_edge(&s, -depth + 0.5 * a * bottom * bottom);
-    for (dem_index i = 0; i < 3; i++) vec2_put(scene_velocities(&s), i, (vec2){0.0, -a * bottom});
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
     assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
     assert_close(crossing(&s, k, &f.path), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
@@ -216,7 +216,7 @@ static void a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end(void **s
     scene_flight f;
     (void)state;
     const dem_index k = open_edge(&s, 0.0);
-    for (dem_index i = 0; i < 3; i++) vec2_put(scene_velocities(&s), i, (vec2){-2.0, 0.0});
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-2.0, 0.0});
     close_contact(&s, k, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.4, &f);
     assert_close(first_due(&s, k, &f), 1.0 + 0.5 * (0.5 + skin), 200.0 * DBL_EPSILON * 1.8);
@@ -232,7 +232,7 @@ static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **
     (void)state;
     scene_open_triangle(&s, masses, -1.5, 0.0, roof_and_ledge, 2);
     s.c.sites.scene.rule.skin = skin;
-    for (dem_index i = 0; i < 3; i++) vec2_put(scene_velocities(&s), i, (vec2){2.0, 0.0});
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, 0.0});
     const dem_index k = scene_edge(&s, 0, 1);
     close_contact(&s, 0, 2, 1);
     close_contact(&s, k, 0, 1);

@@ -3,7 +3,7 @@
  * tolerances of 1e-15 to 1e-13 are rounding. */
 #include "scene.h"
 
-static const double skin = 1e-3;
+static const double skin = 1e-3, grip_noise = 2e-9; /* a grip is longer by 1e-10 of the limit, 10 N */
 
 /* A floor of 4 m and, 3 m above its end, a ceiling; bodies live between them. */
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {6.0, 3.0, 3.0, 3.0};
@@ -64,7 +64,7 @@ static void check_guards(const contact_scene *world, const contact_site *site, c
 {
     double guards[SITE_GUARDS] = {77.0, 77.0, 77.0, 77.0};
     site_guards(world, site, s->force, s->x, s->v, guards);
-    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], k == 2 ? grip_noise : 1e-13);
 }
 
 /* ---- guards of a node ---- */
@@ -189,7 +189,7 @@ static void only_what_sticks_by_friction_has_a_grip(void **state)
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1), held = held_site();
-    assert_close(site_grip(world, &sticks, 0, &force), 6.0, 1e-14);
+    assert_close(site_grip(world, &sticks, 0, &force), 6.0, grip_noise);
     assert_true(isinf(site_grip(world, &slides, 0, &force)) != 0);
     assert_true(isinf(site_grip(world, &held, 0, &force)) != 0);
     scene_close(&s);
@@ -363,8 +363,8 @@ static void check_edge(scene *s, const contact_site *edge, const double expected
 {
     const reaction force[2] = {{20.0, -4.0}, {8.0, 6.0}};
     double guards[SITE_GUARDS];
-    site_guards(&s->c.sites.scene, edge, force, s->y, scene_velocities(s), guards);
-    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+    site_guards(&s->c.sites.scene, edge, force, s->y, scene_v(s), guards);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], k == 2 ? grip_noise : 1e-13);
 }
 
 static void move_all(scene *s, double x, double y, double u)
@@ -464,12 +464,12 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
     edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
     for (int k = 0; k < 6; k++) {
         move_all(&s, x[k], 0.0, u[k]);
-        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_velocities(&s)), passed[k]);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), passed[k]);
     }
     s.c.sites.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
     for (int k = 0; k < 2; k++) {
         move_all(&s, k == 0 ? 1.01 * skin : -2.0 - 1.01 * skin, 0.0, 0.0);
-        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_velocities(&s)), k == 0 ? -1 : 0);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
     }
     scene_close(&s);
 }

