@@ -87,10 +87,12 @@ static inline double *scene_v(scene *s)
     return s->y + 2 * s->model->lattice.n_nodes;
 }
 
+/* Puts a node elsewhere; after that no site sleeps. */
 static inline void scene_put(scene *s, dem_index i, double x, double y, double u, double v)
 {
     vec2_put(s->y, i, (vec2){x, y});
     vec2_put(scene_v(s), i, (vec2){u, v});
+    for (dem_index k = 0; k < s->c.sites.n; k++) s->c.sites.list[k].asleep = false;
 }
 
 static inline void scene_check(scene *s, dem_index i, double x, double y, double u, double v)

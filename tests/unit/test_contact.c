@@ -270,11 +270,13 @@ static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
 {
     scene s;
     double a[4] = {0.0, -g, 0.0, -g}, rate[6] = {0.0};
+    scene_flight f;
     (void)state;
     open_pair(&s);
     scene_put(&s, 1, 0.0, 1.19, 0.5, 2.0);
     a[1] += 19.0 / 2.0;
-    contact_follow(&s.c, s.y);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
+    contact_follow(&s.c, &f.path, s.y);
     assert_close(s.c.sites.list[0].closed[0].force, 1.0, 1e-13);
     contact_constrain(&s.c, s.y, a);
     contact_account(&s.c, s.y, rate);
@@ -460,6 +462,340 @@ static void another_obstacle_stops_a_sliding_node(void **state)
     scene_close(&s);
 }
 
+/* ---- slip and stick ---- */
+
+static const dem_obstacle rough = {
+    .n_points = 2, .points = floor_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
+
+static void check_event(const scene *s, int k, dem_event_kind kind, dem_contact_state state)
+{
+    assert_true(k < s->n_events);
+    assert_int_equal(s->events[k].kind, kind);
+    assert_int_equal(s->events[k].state, state);
+}
+
+/* On the rough floor with speed u. */
+static void rub(scene *s, double u)
+{
+    open_scene(s, 1, &rough, 1);
+    scene_put(s, 0, 0.5, 0.0, u, 0.0);
+    assert_ok(scene_take_up(s));
+    assert_int_equal(s->c.sites.list[0].n_closed, 1);
+    check_event(s, 0, DEM_EVENT_CLOSE, u == 0.0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
+    assert_int_equal(s->c.sites.list[0].closed[0].sign, (u > 0.0) - (u < 0.0));
+}
+
+static void set_wind(scene *s, double a)
+{
+    s->c.sites.scene.rule.load.gravity[0] = a;
+}
+
+/* mu = 1/2 holds a wind of up to g/2. */
+static void a_sliding_node_stops_and_starts_again_when_it_is_driven(void **state)
+{
+    scene s;
+    (void)state;
+    rub(&s, 0.5);
+    assert_close(s.c.sites.list[0].closed[0].friction, -10.0, 1e-14);
+    assert_ok(scene_resolve(&s, 0.1));
+    assert_int_equal(s.n_events, 1);
+    scene_put(&s, 0, 0.5, 0.0, -1e-6, 0.0);
+    assert_ok(scene_resolve(&s, 0.2));
+    assert_int_equal(s.n_events, 2);
+    check_event(&s, 1, DEM_EVENT_STICK, DEM_CONTACT_STICK);
+    scene_check(&s, 0, 0.5, 0.0, 0.0, 0.0);
+    set_wind(&s, -0.49 * g);
+    assert_ok(scene_resolve(&s, 0.3));
+    assert_int_equal(s.n_events, 2);
+    assert_close(s.c.sites.list[0].closed[0].friction, 0.98 * g, 1e-14);
+    set_wind(&s, -0.51 * g);
+    assert_ok(scene_resolve(&s, 0.4));
+    assert_int_equal(s.n_events, 3);
+    check_event(&s, 2, DEM_EVENT_SLIP, DEM_CONTACT_SLIP);
+    assert_int_equal(s.c.sites.list[0].closed[0].sign, -1);
+    assert_close(s.c.sites.list[0].closed[0].friction, 10.0, 1e-14);
+    assert_int_equal(s.c.sites.books.counts.sticks, 1);
+    assert_int_equal(s.c.sites.books.counts.slips, 1);
+    scene_close(&s);
+}
+
+/* A wind of 0.6 g brings it back: it stops and goes on the other way at once. */
+static void a_sliding_node_turns_back_where_friction_cannot_hold_it(void **state)
+{
+    (void)state;
+    for (int k = -1; k <= 1; k += 2) {
+        scene s;
+        rub(&s, 0.5 * k);
+        set_wind(&s, -0.6 * g * k);
+        scene_put(&s, 0, 0.5, 0.0, -1e-6 * k, 0.0);
+        assert_ok(scene_resolve(&s, 0.2));
+        assert_int_equal(s.n_events, 2);
+        check_event(&s, 1, DEM_EVENT_STICK, DEM_CONTACT_SLIP);
+        scene_check(&s, 0, 0.5, 0.0, 0.0, 0.0);
+        assert_int_equal(s.c.sites.list[0].closed[0].sign, -k);
+        assert_close(s.c.sites.list[0].closed[0].friction, 10.0 * k, 1e-14);
+        scene_close(&s);
+    }
+}
+
+/* What is not pressed any more goes, whatever else is due: no stick, no slip, and the velocity stays as it is. */
+static void release_comes_before_stick_and_slip(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        rub(&s, k == 0 ? 0.5 : 0.0);
+        set_wind(&s, 2.0 * g);
+        s.c.sites.scene.rule.load.gravity[1] = 0.1;
+        scene_put(&s, 0, 0.5, 0.0, k == 0 ? -0.25 : 0.0, 0.0);
+        assert_ok(scene_resolve(&s, 0.2));
+        assert_int_equal(s.n_events, 2);
+        check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+        scene_check(&s, 0, 0.5, 0.0, k == 0 ? -0.25 : 0.0, 0.0);
+        scene_close(&s);
+    }
+}
+
+static void a_sticking_node_does_not_move_in_any_wind_it_withstands(void **state)
+{
+    scene s;
+    double a[2] = {0.3 * g, -g};
+    (void)state;
+    rub(&s, 0.0);
+    contact_constrain(&s.c, s.y, a);
+    assert_close(a[0], 0.0, 0.0);
+    assert_close(a[1], 0.0, 0.0);
+    scene_close(&s);
+    a[0] = 0.3 * g;
+    a[1] = -g;
+    rub(&s, 1.0);
+    contact_constrain(&s.c, s.y, a);
+    assert_close(a[0], 0.3 * g - 0.5 * g, 1e-14);
+    assert_close(a[1], 0.0, 0.0);
+    scene_close(&s);
+}
+
+/* N = 20 N and 10 N of friction, which take 10 W from 1 m/s, and nothing where it sticks. */
+static void forces_and_friction_power_are_told_as_rates(void **state)
+{
+    const double u[3] = {1.0, -1.0, 0.0}, wind[3] = {0.0, 0.0, 0.3 * g}, T[3] = {-10.0, 10.0, -6.0};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        scene s;
+        double a[2] = {wind[k], -g}, rate[6] = {100.0, 100.0, 100.0, 100.0, 100.0, 100.0};
+        rub(&s, u[k]);
+        contact_constrain(&s.c, s.y, a);
+        contact_account(&s.c, s.y, rate);
+        const double expected[6] = {T[k], 20.0, T[k], 0.0, fabs(10.0 * u[k]), 0.0};
+        for (int q = 0; q < 6; q++) assert_close(rate[q] - 100.0, expected[q], 1e-13);
+        scene_close(&s);
+    }
+}
+
+/* ---- edges on vertices ---- */
+
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}; /* its ridge is in the origin */
+static const dem_obstacle roof = {.n_points = 3, .points = roof_points, .restitution = 0.0};
+static const dem_obstacle rough_roof = {
+    .n_points = 3, .points = roof_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
+
+/* A side of nodes 0, 1, 2, whose ends are 1 m from node 1 at (x, y) and higher by `bend`; node 3 above. */
+static void open_side(scene *s, const dem_obstacle *obstacle, double x, double y, double bend)
+{
+    const double at[8] = {x - 1.0, y + bend, x, y, x + 1.0, y + bend, x, y + 1.0}, mass[4] = {1.0, 3.0, 2.0, 2.0};
+    const dem_index corners[6] = {0, 1, 3, 1, 2, 3};
+    scene_open(s, 4, at, mass, 2, corners, obstacle, 1);
+}
+
+static void launch(scene *s, double u, double v)
+{
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) vec2_put(scene_v(s), i, (vec2){u, v});
+}
+
+static void an_edge_may_touch_a_vertex_but_not_start_with_it_inside(void **state)
+{
+    scene s;
+    (void)state;
+    open_side(&s, &roof, 0.25, -0.9 * skin, 0.0);
+    assert_ok(contact_admissible(&s.c, s.y));
+    scene_close(&s);
+    open_side(&s, &roof, 0.25, -0.125, 0.0);
+    assert_int_equal(contact_admissible(&s.c, s.y), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 starts 0.125 m inside the body, "
+                                              "deeper than the skin of 1e-06 m");
+    scene_close(&s);
+}
+
+/* At rest, sliding and falling on the ridge; and a nanometre above it. */
+static void at_the_start_a_touching_edge_is_in_contact(void **state)
+{
+    const double u[4] = {0.0, 0.5, -0.5, 0.5}, v[4] = {0.0, 0.0, -1.0, 0.0}, y[4] = {0.0, 0.0, 0.0, 1e-9};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        scene s;
+        open_side(&s, &rough_roof, 0.25, y[k], 0.0);
+        launch(&s, u[k], v[k]);
+        assert_ok(scene_take_up(&s));
+        const contact_site *edge = &s.c.sites.list[scene_edge(&s, 0, 1)];
+        assert_int_equal(edge->n_closed, k < 3);
+        assert_int_equal(s.n_events, k < 3);
+        if (k < 3)
+            check_event(&s, 0, k < 2 ? DEM_EVENT_CLOSE : DEM_EVENT_IMPACT,
+                        k == 1 ? DEM_CONTACT_SLIP : DEM_CONTACT_STICK);
+        if (k == 1) assert_int_equal(edge->closed[0].sign, 1);
+        scene_close(&s);
+    }
+}
+
+/* The ridge under 3/4 of edge 0-1, of masses 1 and 3: W = 1/16 + 9/48 = 1/4, so that N = 40 N; mu = 1/2. A wind of
+ * 0.6 g drives the point against friction with 0.6 g/W = 24 N. */
+static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
+{
+    scene s;
+    double rate[6] = {0.0};
+    (void)state;
+    open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
+    launch(&s, 0.5, 0.0);
+    assert_ok(scene_take_up(&s));
+    const contact_touch *touch = &s.c.sites.list[scene_edge(&s, 0, 1)].closed[0];
+    assert_close(touch->force, 40.0, 1e-13);
+    assert_close(touch->friction, -20.0, 1e-13);
+    contact_account(&s.c, s.y, rate);
+    const double expected[6] = {-20.0, 40.0, -20.0, 0.0, 10.0, 0.0};
+    for (int q = 0; q < 6; q++) assert_close(rate[q], expected[q], 1e-13);
+    launch(&s, -1e-6, 0.0);
+    assert_ok(scene_resolve(&s, 0.1));
+    check_event(&s, 1, DEM_EVENT_STICK, DEM_CONTACT_STICK);
+    assert_close(touch->place, 0.75, 1e-15);
+    assert_close(0.25 * s.y[8] + 0.75 * s.y[10], 0.0, 1e-21); /* 1e-15 of 1e-6 m/s */
+    set_wind(&s, 0.49 * g);
+    assert_ok(scene_resolve(&s, 0.2));
+    assert_int_equal(s.n_events, 2);
+    assert_close(touch->friction, -19.6, 1e-12);
+    set_wind(&s, 0.6 * g);
+    assert_ok(scene_resolve(&s, 0.3));
+    assert_int_equal(s.n_events, 3);
+    check_event(&s, 2, DEM_EVENT_SLIP, DEM_CONTACT_SLIP);
+    assert_int_equal(touch->sign, 1);
+    s.c.sites.scene.rule.load.gravity[1] = 0.1;
+    assert_ok(scene_resolve(&s, 0.4));
+    check_event(&s, 3, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+    assert_int_equal(s.n_events, 4);
+    scene_close(&s);
+}
+
+/* The body goes right along edge 1-2 with u: the ridge, closed with that, comes over node 1 to edge 0-1. */
+static void slide_on(scene *s, double bend, double u)
+{
+    open_side(s, &roof, 1.01 * skin, 1.01 * skin * bend, bend);
+    launch(s, u, u * bend);
+    assert_ok(sites_close(&s->c.sites, scene_edge(s, 1, 2), (contact_touch){.feature = 0, .sign = 1}));
+}
+
+static void a_vertex_glides_from_edge_to_edge_of_a_flat_side(void **state)
+{
+    scene s;
+    (void)state;
+    slide_on(&s, 0.0, 0.5);
+    const contact_site *from = &s.c.sites.list[scene_edge(&s, 1, 2)], *to = &s.c.sites.list[scene_edge(&s, 0, 1)];
+    assert_ok(scene_resolve(&s, 0.1));
+    assert_int_equal(from->n_closed, 0);
+    assert_int_equal(to->n_closed, 1);
+    assert_int_equal(to->closed[0].sign, 1);
+    scene_check(&s, 1, 0.0, 0.0, 0.5, 0.0);
+    assert_int_equal(s.n_impacts, 0);
+    assert_int_equal(s.n_events, 3);
+    check_event(&s, 0, DEM_EVENT_PASS, DEM_CONTACT_SLIP);
+    check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+    check_event(&s, 2, DEM_EVENT_CLOSE, DEM_CONTACT_SLIP);
+    assert_int_equal(s.events[0].node, 1);
+    assert_int_equal(s.events[2].node, 0);
+    assert_close(s.events[2].weight, 1.0, 1e-15);
+    scene_close(&s);
+}
+
+/* The next edge falls away by 1/4 to the other side: nothing holds. */
+static void a_vertex_leaves_a_convex_corner_of_the_body(void **state)
+{
+    scene s;
+    (void)state;
+    slide_on(&s, 0.25, 0.5);
+    assert_ok(scene_resolve(&s, 0.1));
+    assert_int_equal(s.n_events, 2);
+    check_event(&s, 0, DEM_EVENT_PASS, DEM_CONTACT_SLIP);
+    check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+    scene_check(&s, 1, 0.0, 0.0, 0.5, 0.125);
+    for (dem_index k = 4; k < s.c.sites.n; k++) assert_int_equal(s.c.sites.list[k].n_closed, 0);
+    scene_close(&s);
+}
+
+/* The next edge, of normal n = (-1/4, 1)/L, stands in the way: the plastic impact takes v.n = -1/4/L from node 1, where
+ * the vertex is, and the contact goes on with that edge. */
+static void a_vertex_strikes_the_next_edge_where_the_body_bends_in(void **state)
+{
+    const double L = sqrt(1.0625), n[2] = {-0.25 / L, 1.0 / L}, vn = -0.25 / L;
+    scene s;
+    (void)state;
+    slide_on(&s, -0.25, 0.5);
+    assert_ok(scene_resolve(&s, 0.1));
+    assert_int_equal(s.n_events, 3);
+    check_event(&s, 0, DEM_EVENT_PASS, DEM_CONTACT_SLIP);
+    check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+    check_event(&s, 2, DEM_EVENT_IMPACT, DEM_CONTACT_SLIP);
+    const vec2 after = vec2_at(scene_v(&s), 1);
+    assert_close(s.events[2].impulse[0], -3.0 * vn * n[0], 1e-6); /* it is put on the ridge: a skin in 1 m of slope */
+    assert_close(s.events[2].impulse[1], -3.0 * vn * n[1], 1e-6);
+    assert_close(after.x, 0.5 - vn * n[0], 1e-6);
+    assert_close(after.y, -0.125 - vn * n[1], 1e-6);
+    assert_int_equal(s.c.sites.list[scene_edge(&s, 0, 1)].n_closed, 1);
+    assert_int_equal(s.c.sites.list[scene_edge(&s, 1, 2)].n_closed, 0);
+    scene_close(&s);
+}
+
+/* Too slow to rise above the position error: both edges hold the vertex, each with half the weight of node 1 over its
+ * normal's cosine 1/L; and on, when that is pulled up. */
+static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
+{
+    const double L = sqrt(1.0625);
+    scene s;
+    (void)state;
+    slide_on(&s, -0.25, 1e-5);
+    assert_ok(scene_resolve(&s, 0.1));
+    const contact_site *left = &s.c.sites.list[scene_edge(&s, 0, 1)], *right = &s.c.sites.list[scene_edge(&s, 1, 2)];
+    assert_true(left->n_closed == 1 && left->closed[0].held);
+    assert_true(right->n_closed == 1 && right->closed[0].held);
+    scene_check(&s, 1, 0.0, 0.0, 0.0, 0.0);
+    assert_close(left->closed[0].force, 15.0 * L, 3e-5); /* a skin in 1 m of slope, of 15 N */
+    assert_close(right->closed[0].force, 15.0 * L, 3e-5);
+    s.c.sites.scene.rule.load.gravity[1] = 0.1;
+    assert_ok(scene_resolve(&s, 0.2));
+    assert_int_equal(left->n_closed, 0);
+    assert_int_equal(right->n_closed, 0);
+    assert_int_equal(s.c.sites.books.counts.releases, 2);
+    scene_close(&s);
+}
+
+/* The node strikes first, but it is the side that has come down on the ridge. */
+static void a_flat_side_comes_down_on_an_apex_with_its_own_normal(void **state)
+{
+    const dem_obstacle springy = {.n_points = 3, .points = roof_points, .restitution = 0.5};
+    const double x[3] = {0.0, 0.3 * skin, -0.3 * skin};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        scene s;
+        open_side(&s, &springy, x[k], -1.2 * skin, 0.0);
+        launch(&s, 0.25, -1.0);
+        assert_ok(scene_resolve(&s, 0.1));
+        assert_int_equal(s.n_impacts, 1);
+        assert_true(s.impacts[0].other >= 0);
+        assert_close(s.impacts[0].normal[0], 0.0, 3e-6); /* its nodes are lifted on to the ridge, one by it */
+        assert_close(s.impacts[0].impulse[1], 4.5, 1e-5);
+        assert_close(s.y[8 + 2], 0.25, 1e-5);
+        assert_close(s.y[8 + 3], 0.5, 1e-5);
+        scene_close(&s);
+    }
+}
+
 /* ---- what must not happen ---- */
 
 static void a_node_found_deep_inside_is_an_error(void **state)
@@ -501,12 +837,100 @@ static void changes_further_apart_are_no_storm(void **state)
     scene_close(&s);
 }
 
+static void a_vertex_found_deep_inside_a_body_is_an_error(void **state)
+{
+    scene s;
+    (void)state;
+    open_side(&s, &roof, 0.25, -0.125, 0.0);
+    assert_int_equal(scene_resolve(&s, 0.25), DEM_ERROR_CONTACT);
+    assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 is 0.125 m inside the body, behind "
+                                              "the edge from node 0 to 1, at t = 0.25 s");
+    scene_close(&s);
+}
+
+static void too_many_changes_of_one_edge_in_a_short_time_are_a_storm(void **state)
+{
+    scene s;
+    (void)state;
+    open_side(&s, &roof, 0.5, 0.0, 0.0);
+    s.c.sites.scene.rule.max_impacts = 2;
+    for (int k = 0; k < 3; k++) {
+        const dem_index edge = scene_edge(&s, 0, 1);
+        if (s.c.sites.list[edge].n_closed > 0) assert_ok(sites_open(&s.c.sites, edge, 0));
+        scene_put(&s, 0, -0.5, -skin, 0.0, -1.0);
+        scene_put(&s, 1, 0.5, -skin, 0.0, -1.0);
+        assert_int_equal(scene_resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
+    }
+    assert_non_null(strstr(dem_status_message(), "the edge from node 0 at (-0.5, "));
+    assert_non_null(strstr(dem_status_message(), "had more than 2 contact events within 0.5 s, at t = 0.3 s"));
+    scene_close(&s);
+}
+
+static void events_that_change_nothing_end_the_run_after_a_while(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    s.c.sites.scene.rule.max_impacts = 2;
+    assert_ok(scene_resolve(&s, 0.1));
+    scene_put(&s, 0, 0.5, -skin, 0.0, -1.0); /* this one does */
+    assert_ok(scene_resolve(&s, 0.2));
+    assert_ok(scene_resolve(&s, 0.3));
+    assert_ok(scene_resolve(&s, 0.4));
+    assert_int_equal(scene_resolve(&s, 0.5), DEM_ERROR_CONTACT);
+    assert_string_equal(dem_status_message(), "more than 2 contact events in a row changed nothing, at t = 0.5 s");
+    scene_close(&s);
+}
+
+/* ---- the window ---- */
+
+/* After an impact what would arrive within 0.1 s is reflected where it is; what comes later, or goes away, is not.
+ * Without an impact nothing is. */
+static void what_arrives_within_the_window_of_an_impact_is_reflected_with_it(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        open_scene(&s, 3, &half, 1);
+        s.c.sites.scene.rule.window = 0.1;
+        scene_put(&s, 0, 0.0, k == 0 ? -skin : 1.0, 0.0, -8.0);
+        scene_put(&s, 1, 1.0, 0.099, 0.5, -1.0);
+        scene_put(&s, 2, 2.0, 0.101, 0.5, -1.0);
+        assert_ok(scene_resolve(&s, 0.25));
+        scene_check(&s, 1, 1.0, 0.099, 0.5, k == 0 ? 0.5 : -1.0);
+        scene_check(&s, 2, 2.0, 0.101, 0.5, -1.0);
+        assert_int_equal(s.n_impacts, k == 0 ? 2 : 0);
+        assert_int_equal(s.c.sites.books.counts.early, k == 0 ? 1 : 0);
+        scene_close(&s);
+    }
+}
+
+static void an_edge_is_reflected_early_too(void **state)
+{
+    const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
+                                 {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
+    const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - skin}, mass[4] = {2.0, 2.0, 2.0, 2.0};
+    scene s;
+    (void)state;
+    scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 2);
+    s.c.sites.scene.rule.window = 0.1;
+    launch(&s, 0.0, -1.0);
+    assert_ok(scene_resolve(&s, 0.25));
+    const double J = 1.5 / (0.5 * (0.625 * 0.625 + 0.375 * 0.375));
+    scene_check(&s, 0, -0.75, 0.099, 0.0, -1.0 + 0.625 * J / 2.0);
+    scene_check(&s, 1, 1.25, 0.099, 0.0, -1.0 + 0.375 * J / 2.0);
+    assert_int_equal(s.c.sites.books.counts.early, 1);
+    assert_int_equal(s.c.sites.books.counts.vertex_impacts, 1);
+    scene_close(&s);
+}
+
 /* ---- behind a free end ---- */
 
 static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
 {
     scene s;
     double guards[SITE_GUARDS];
+    scene_flight f;
     (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, -4.0, -0.5, 1.0, 2.0); /* right below the end: from in front to 0.5 m inside */
@@ -514,12 +938,14 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
     assert_int_equal(s.c.sites.books.counts.behind, 1);
     assert_int_equal(s.c.sites.list[0].behind[0], 0);
     contact_guards(&s.c, s.y, guards);
-    assert_close(guards[0], 1.0 + skin, 0.0);
+    assert_close(guards[0], 1.0, 0.0); /* it sleeps */
     scene_put(&s, 0, -3.0, -0.01, 1.0, 2.0);
-    contact_follow(&s.c, s.y);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
+    contact_follow(&s.c, &f.path, s.y);
     assert_int_equal(s.c.sites.books.counts.behind, 1);
     scene_put(&s, 0, -3.0, 0.01, 1.0, 2.0);
-    contact_follow(&s.c, s.y);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
+    contact_follow(&s.c, &f.path, s.y);
     assert_int_equal(s.c.sites.books.counts.behind, 0);
     assert_int_equal(s.c.sites.list[0].behind[0], -1);
     assert_int_equal(s.n_impacts, 0);
@@ -541,6 +967,27 @@ static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
     assert_true(contact_check(&s.c, &f.path, false, f.scratch));
     assert_close(f.path.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
     assert_int_equal(s.c.sites.books.counts.late, 1);
+    scene_close(&s);
+}
+
+/* To the resolution of times: it is that of the root. */
+static void a_contact_at_the_root_that_ends_a_step_is_no_other(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_scene(&s, 1, &half, 1);
+    scene_put(&s, 0, 1.0, 0.2, 0.0, -1.0);
+    scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
+    f.path.end = (0.2 + skin) * (1.0 + 1e-14);
+    const double end = f.path.end;
+    assert_false(contact_check(&s.c, &f.path, true, f.scratch));
+    assert_close(f.path.end, end, 0.0);
+    assert_true(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_close(f.path.end, 0.2 + skin, 1e-13);
+    f.path.end = 0.21;
+    assert_true(contact_check(&s.c, &f.path, true, f.scratch)); /* well before a root */
+    assert_close(f.path.end, 0.2 + skin, 1e-13);
     scene_close(&s);
 }
 
@@ -570,20 +1017,21 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     scene_close(&s);
 }
 
-/* Of the free one it is a lower bound, less by twice the margin of ten skins. */
+/* The first may reach the floor in a step of 0.01 s, the third is asleep. */
 static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
 {
     scene s;
-    double guards[2 * SITE_GUARDS];
+    double guards[3 * SITE_GUARDS];
     (void)state;
-    open_scene(&s, 2, &half, 1);
-    scene_put(&s, 0, 1.0, 0.25, 0.0, 0.0);
+    open_scene(&s, 3, &half, 1);
+    scene_put(&s, 0, 1.0, 0.25, 0.0, -20.0);
     scene_put(&s, 1, 3.5, 0.0, 0.0, 0.0);
+    scene_put(&s, 2, 1.0, 0.75, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
     contact_guards(&s.c, s.y, guards);
-    const double expected[2 * SITE_GUARDS] = {
-        0.25 - 20.0 * skin + skin, 1.0, 1.0, 1.0, 1.0 + skin, 2.0 * g, 0.5 + skin, 1.0};
-    for (int k = 0; k < 2 * SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-15);
+    const double expected[3 * SITE_GUARDS] = {0.25 + skin, 1.0, 1.0, 1.0, 1.0 + skin, 2.0 * g,
+                                              0.5 + skin,  1.0, 1.0, 1.0, 1.0,        1.0};
+    for (int k = 0; k < 3 * SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-15);
     scene_close(&s);
 }
 
@@ -626,11 +1074,30 @@ int main(void)
         cmocka_unit_test(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end),
         cmocka_unit_test(a_sliding_node_takes_its_impact_at_a_concave_bend),
         cmocka_unit_test(another_obstacle_stops_a_sliding_node),
+        cmocka_unit_test(a_sliding_node_stops_and_starts_again_when_it_is_driven),
+        cmocka_unit_test(a_sliding_node_turns_back_where_friction_cannot_hold_it),
+        cmocka_unit_test(release_comes_before_stick_and_slip),
+        cmocka_unit_test(a_sticking_node_does_not_move_in_any_wind_it_withstands),
+        cmocka_unit_test(forces_and_friction_power_are_told_as_rates),
+        cmocka_unit_test(an_edge_may_touch_a_vertex_but_not_start_with_it_inside),
+        cmocka_unit_test(at_the_start_a_touching_edge_is_in_contact),
+        cmocka_unit_test(an_edge_slides_stops_and_slides_on_a_vertex),
+        cmocka_unit_test(a_vertex_glides_from_edge_to_edge_of_a_flat_side),
+        cmocka_unit_test(a_vertex_leaves_a_convex_corner_of_the_body),
+        cmocka_unit_test(a_vertex_strikes_the_next_edge_where_the_body_bends_in),
+        cmocka_unit_test(a_vertex_comes_to_rest_where_the_body_bends_in),
+        cmocka_unit_test(a_flat_side_comes_down_on_an_apex_with_its_own_normal),
         cmocka_unit_test(a_node_found_deep_inside_is_an_error),
         cmocka_unit_test(too_many_changes_of_one_node_in_a_short_time_are_a_storm),
         cmocka_unit_test(changes_further_apart_are_no_storm),
+        cmocka_unit_test(a_vertex_found_deep_inside_a_body_is_an_error),
+        cmocka_unit_test(too_many_changes_of_one_edge_in_a_short_time_are_a_storm),
+        cmocka_unit_test(events_that_change_nothing_end_the_run_after_a_while),
+        cmocka_unit_test(what_arrives_within_the_window_of_an_impact_is_reflected_with_it),
+        cmocka_unit_test(an_edge_is_reflected_early_too),
         cmocka_unit_test(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front),
         cmocka_unit_test(a_step_is_cut_at_the_first_contact_that_was_overlooked),
+        cmocka_unit_test(a_contact_at_the_root_that_ends_a_step_is_no_other),
         cmocka_unit_test(a_step_without_contacts_is_left_as_it_is),
         cmocka_unit_test(a_closed_contact_that_should_have_ended_cuts_the_step),
         cmocka_unit_test(the_guards_of_all_sites_stand_one_after_the_other),

@@ -505,7 +505,7 @@ static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(v
     scene_close(&s);
 }
 
-/* ---- the ball that is clear ---- */
+/* ---- what is clear ---- */
 
 static double uniform(unsigned *seed, double low, double high)
 {
@@ -529,28 +529,29 @@ static void open_ragged(scene *s, unsigned *seed, bool triangle)
     set_rule(s);
 }
 
-/* What a node is told within the ball is never more than what a search without it finds, but for the margin of ten
- * skins by which free ends count as longer; and the ball is of use: half of what is near is told by it. */
-static void nothing_that_a_node_nears_is_overlooked_in_its_ball(void **state)
+/* The clearance less the way gone is never more than what is there, but for the margin of ten skins by which free ends
+ * count as longer; and it is of use: most of what is looked at is told by it. */
+static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
 {
     unsigned seed = 7;
     int inside = 0;
     (void)state;
     for (int k = 0; k < 200; k++) {
         scene s;
-        dem_index feature;
+        dem_index nearest;
         open_ragged(&s, &seed, false);
         const contact_scene *world = &s.c.sites.scene;
-        contact_site site = free_site();
+        const contact_site site = free_site();
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
-        site_clear(world, &site, x, &feature);
+        const contact_spot here = site_spot(&site, x);
+        const double clear = site_clearance(world, &site, &here, &nearest) - 10.0 * skin;
+        assert_int_equal(nearest, obstacles_gap(&world->model->obstacles, here.a, 10.0 * skin, -1, -1).segment);
         for (int q = 0; q < 50; q++) {
             const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
-            const double to[2] = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
-            const contact_spot spot = site_spot(&site, to);
-            const contact_gap gap = site_gap(world, &site, &spot);
-            assert_true(gap.distance <= obstacles_gap(&world->model->obstacles, spot.a, 0.0, -1, -1).distance + 1e-15);
-            inside += gap.feature < 0;
+            const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
+            const contact_spot there = {to, to, to, to};
+            assert_true(site_gap(world, &site, &there).distance >= clear - way - 1e-15 || clear < way);
+            inside += way < clear;
         }
         scene_close(&s);
     }
@@ -558,73 +559,61 @@ static void nothing_that_a_node_nears_is_overlooked_in_its_ball(void **state)
 }
 
 /* The same of an edge that turns and stretches: its ends go different ways. The ridges are steeper than it gets. */
-static void nothing_that_an_edge_nears_is_overlooked_in_its_ball(void **state)
+static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
 {
     unsigned seed = 11;
     int inside = 0;
     (void)state;
     for (int k = 0; k < 200; k++) {
         scene s;
-        dem_index feature;
+        dem_index nearest;
         open_ragged(&s, &seed, true);
         const contact_scene *world = &s.c.sites.scene;
-        contact_site edge = s.c.sites.list[scene_edge(&s, 0, 1)];
+        const contact_site edge = s.c.sites.list[scene_edge(&s, 0, 1)];
         const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
-        double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
-        site_clear(world, &edge, at, &feature);
+        const double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
+        const contact_spot here = site_spot(&edge, at);
+        const double clear = site_clearance(world, &edge, &here, &nearest);
         for (int q = 0; q < 50; q++) {
-            double to[6] = {0.0};
+            double to[6], way = 0.0;
             for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
-            contact_site bare = edge;
-            bare.clear = 0.0;
-            const contact_spot spot = site_spot(&edge, to);
-            const contact_gap gap = site_gap(world, &edge, &spot), all = site_gap(world, &bare, &spot);
-            assert_true(gap.distance <= all.distance + 1e-15);
-            inside += gap.feature < 0 && gap.distance < 0.5 * length;
+            for (int i = 0; i < 2; i++) way = fmax(way, vec2_norm(vec2_sub(vec2_at(to, i), vec2_at(at, i))));
+            const contact_spot there = site_spot(&edge, to);
+            assert_true(site_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
+            inside += way < clear;
         }
         scene_close(&s);
     }
     assert_true(inside > 2000);
 }
 
-/* A ball is kept until half of it is used up. A node that has not left its ball cannot have touched: if it is inside,
- * then round a free end. One that has left it may. */
-static void the_ball_is_renewed_when_half_of_it_is_used_up(void **state)
+/* Half the edge's length, 1 m, is as far as is looked; beyond that the distance of its node less its length counts. */
+static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(void **state)
 {
+    const double y[4] = {0.25, 0.9, 1.1, 5.0}, clear[4] = {0.25, 0.9, 1.0, sqrt(27.25) - 2.0};
     scene s;
-    dem_index feature = -1;
+    dem_index nearest;
     (void)state;
-    const contact_scene *world = open_node(&s, room, 1);
-    contact_site site = free_site();
-    const double clear = 1.0 - 20.0 * skin;
-    const double up[2] = {1.0, 1.0}, near[2] = {1.0, 1.0 - 0.49 * clear}, far[2] = {1.0, 1.0 - 0.51 * clear};
-    assert_false(site_clear(world, &site, up, &feature));
-    assert_close(site.clear, clear, 1e-15);
-    assert_false(site_clear(world, &site, near, &feature));
-    assert_close(site.clear, clear, 1e-15);
-    assert_close(site.clear_at[0].y, 1.0, 0.0);
-    assert_false(site_clear(world, &site, far, &feature));
-    assert_close(site.clear, far[1] - 20.0 * skin, 1e-15);
-    assert_close(site.clear_at[0].y, far[1], 0.0);
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    for (int k = 0; k < 4; k++) {
+        move_all(&s, -1.5, y[k], 0.0);
+        const contact_spot spot = site_spot(edge, s.y);
+        assert_close(site_clearance(&s.c.sites.scene, edge, &spot, &nearest), clear[k], 1e-14);
+    }
     scene_close(&s);
 }
 
-static void a_node_that_is_inside_within_its_ball_has_come_round_an_end(void **state)
+/* The ridge is 0.3 m beyond the end of the edge, and 0.4 m below it. */
+static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
 {
     scene s;
-    dem_index feature = -1;
-    const double right[2] = {-0.6, 0.0}, inside[2] = {0.1, -0.5}, beyond[2] = {0.3, -0.5};
     (void)state;
-    const contact_scene *world = open_node(&s, room, 1);
-    contact_site site = free_site();
-    site.clear = 1.0;
-    site.clear_at[0] = vec2_at(right, 0);
-    assert_true(site_clear(world, &site, inside, &feature)); /* sqrt(0.49 + 0.25) m on the way */
-    assert_int_equal(feature, 0);
-    assert_close(site.clear, 0.0, 0.0);
-    site.clear = 1.0;
-    site.clear_at[0] = vec2_at(right, 0);
-    assert_false(site_clear(world, &site, beyond, &feature)); /* sqrt(0.81 + 0.25) m */
+    const contact_site *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
+    const contact_spot spot = site_spot(edge, s.y);
+    assert_int_equal(site_gap(&s.c.sites.scene, edge, &spot).feature, -1);
+    assert_true(site_near(&s.c.sites.scene, edge, &spot, 0.5));
+    assert_false(site_near(&s.c.sites.scene, edge, &spot, 0.29));
+    assert_false(site_near(&s.c.sites.scene, edge, &spot, 0.39));
     scene_close(&s);
 }
 
@@ -653,10 +642,10 @@ int main(void)
         cmocka_unit_test(a_vertex_passes_an_edges_end_against_the_motion_of_the_body),
         cmocka_unit_test(a_vertex_round_a_convex_corner_of_the_body_is_not_inside),
         cmocka_unit_test(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices),
-        cmocka_unit_test(nothing_that_a_node_nears_is_overlooked_in_its_ball),
-        cmocka_unit_test(nothing_that_an_edge_nears_is_overlooked_in_its_ball),
-        cmocka_unit_test(the_ball_is_renewed_when_half_of_it_is_used_up),
-        cmocka_unit_test(a_node_that_is_inside_within_its_ball_has_come_round_an_end),
+        cmocka_unit_test(nothing_is_nearer_to_a_node_than_its_clearance),
+        cmocka_unit_test(no_vertex_is_nearer_to_an_edge_than_its_clearance),
+        cmocka_unit_test(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it),
+        cmocka_unit_test(a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,9 +103,9 @@ static void closing_appends_and_opening_keeps_the_other(void **state)
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     contact_site *edge = &s.c.sites.list[k];
-    edge->clear = 1.0;
+    edge->asleep = true;
     close_contact(&s, k, 0, 1);
-    assert_close(edge->clear, 0.0, 0.0);
+    assert_false(edge->asleep);
     close_contact(&s, k, 1, -1);
     assert_int_equal(edge->n_closed, 2);
     assert_int_equal(s.c.sites.reactions.n_groups, 1);
@@ -224,7 +224,7 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     open_square(&s, roofs, 2);
     contact_site *list = s.c.sites.list;
     const dem_index before = scene_edge(&s, 0, 1), after = scene_edge(&s, 1, 2), far = scene_edge(&s, 2, 3);
-    for (dem_index k = 0; k < s.c.sites.n; k++) list[k].clear = 1.0;
+    for (dem_index k = 0; k < s.c.sites.n; k++) list[k].asleep = true;
     sites_go_behind(&s.c.sites, 1, 1);
     assert_int_equal(s.c.sites.books.counts.behind, 1);
     assert_int_equal(list[1].behind[0], 1);
@@ -234,8 +234,8 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     assert_int_equal(list[after].behind[1], -1);
     assert_int_equal(list[far].behind[0], -1);
     assert_int_equal(list[far].behind[1], -1);
-    assert_close(list[1].clear + list[before].clear + list[after].clear, 0.0, 0.0);
-    assert_close(list[far].clear, 1.0, 0.0);
+    assert_false(list[1].asleep || list[before].asleep || list[after].asleep);
+    assert_true(list[far].asleep);
     sites_go_behind(&s.c.sites, 1, -1);
     assert_int_equal(s.c.sites.books.counts.behind, 0);
     assert_int_equal(list[before].behind[1], -1);
