@@ -115,6 +115,37 @@ static void a_plastic_impact_closes_a_contact_that_slides_or_sticks(void **state
     }
 }
 
+/* A rebound of 2 m/s that counts as rest is none: the floor gives 2 * 4 N s, and friction a quarter of that. */
+static void what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given(void **state)
+{
+    const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
+    scene s;
+    (void)state;
+    open_node(&s, &rough, 1, 3.0, -4.0);
+    s.c.sites.scene.rule.rest_speed = 10.0;
+    hit(&s, 0, 1, 0, 0);
+    scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
+    assert_int_equal(s.c.sites.list[0].n_closed, 1);
+    check_vec(vec2_at(s.c.sites.books.impulse, 0), -2.0, 8.0, 1e-14);
+    scene_close(&s);
+}
+
+/* A window of 1 ms takes hops of up to 2 ms for rest, which start with g times that. */
+static void a_hop_of_less_than_twice_the_window_is_rest(void **state)
+{
+    const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        open_node(&s, &smooth, 1, 0.0, k == 0 ? -0.0198 : -0.0202);
+        s.c.sites.scene.rule.window = 1e-3;
+        hit(&s, 0, 1, 0, 0);
+        scene_check(&s, 0, 0.25, 0.0, 0.0, k == 0 ? 0.0 : 0.0101);
+        assert_int_equal(s.c.sites.list[0].n_closed, k == 0);
+        scene_close(&s);
+    }
+}
+
 /* At rest on the floor nothing is struck: the contact closes without an impact. */
 static void a_node_that_is_laid_down_closes_without_an_impact(void **state)
 {
@@ -338,6 +369,44 @@ static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
     }
 }
 
+/* As for a node: J = 1/W without the rebound, and 1/4 of it along. */
+static void what_closes_on_a_vertex_has_not_rebounded(void **state)
+{
+    const double q = 0.25, J = 1.0 / mobility(q);
+    const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.25);
+    scene s;
+    (void)state;
+    const dem_index edge = open_edge(&s, &roof, q, 0.0);
+    s.c.sites.scene.rule.rest_speed = 10.0;
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
+    const double before = kinetic(&s);
+    hit(&s, edge, 1, 0, 0);
+    check_vec(velocity(&s, 0), 2.0 - 0.75 * 0.25 * J, -1.0 + 0.75 * J, 1e-13);
+    check_vec(velocity(&s, 1), 2.0 - 0.25 * 0.25 * J / 3.0, -1.0 + 0.25 * J / 3.0, 1e-13);
+    check_vec(vec2_at(s.c.sites.books.impulse, 0), -0.25 * J, J, 1e-13);
+    assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-13);
+    assert_int_equal(s.c.sites.list[edge].n_closed, 1);
+    assert_int_equal(s.n_impacts, 1);
+    scene_close(&s);
+}
+
+/* Nothing presses but the edge's own turning: stopped at the ridge it turns with omega < 0, and sliding with v_t < 0
+ * it would have to be accelerated by 2 omega v_t > 0 to keep its distance: it stays. The other way it leaves. */
+static void a_turning_edge_that_slides_towards_the_vertex_stays_on_it(void **state)
+{
+    const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
+        s.c.sites.scene.rule.load.gravity[1] = 0.0;
+        for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){k == 0 ? -0.9 : 0.9, -1.0});
+        hit(&s, edge, 1, 0, 0);
+        assert_int_equal(s.c.sites.list[edge].n_closed, k == 0);
+        scene_close(&s);
+    }
+}
+
 /* ---- groups ---- */
 
 /* Node 0 at rest under a plate; the ridge is under s of edge 0-1, whose other end falls with 1 m/s. No weight. */
@@ -470,6 +539,23 @@ static void an_early_reflection_leaves_a_node_where_it_is(void **state)
     scene_close(&s);
 }
 
+/* Near a vertex the gap's normal is no segment's: 5 m/s down are 4 m/s along (0.6, 0.8), and 6 n more turn that. */
+static void an_early_reflection_goes_along_the_normal_of_the_gap(void **state)
+{
+    const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
+    const contact_gap gap = {0.1, 0, 0.0, {0.6, 0.8}};
+    contact_listener listener;
+    scene s;
+    (void)state;
+    open_node(&s, &smooth, 1, 0.0, -5.0);
+    contact_moment now = moment(&s, &listener);
+    strike_early(&s.c.sites, 0, &gap, &now);
+    check_vec(velocity(&s, 0), 3.6, -0.2, 1e-14);
+    check_vec(vec2_at(s.impacts[0].normal, 0), 0.6, 0.8, 0.0);
+    check_vec(vec2_at(s.c.sites.books.friction_impulse, 0), 0.0, 0.0, 1e-14);
+    scene_close(&s);
+}
+
 static void an_early_reflection_of_an_edge_shares_its_impulse_too(void **state)
 {
     const double q = 0.25, J = 1.5 / mobility(q);
@@ -587,6 +673,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coulomb_friction_takes_at_most_its_share_of_the_normal_impulse),
         cmocka_unit_test(a_plastic_impact_closes_a_contact_that_slides_or_sticks),
+        cmocka_unit_test(what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given),
+        cmocka_unit_test(a_hop_of_less_than_twice_the_window_is_rest),
         cmocka_unit_test(a_node_that_is_laid_down_closes_without_an_impact),
         cmocka_unit_test(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it),
         cmocka_unit_test(what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a_corner_with_it),
@@ -596,11 +684,14 @@ int main(void)
         cmocka_unit_test(friction_on_a_vertex_has_coulombs_limit),
         cmocka_unit_test(the_papers_friction_on_a_vertex_leaves_its_share),
         cmocka_unit_test(a_plastic_impact_leaves_an_edge_closed_on_the_vertex),
+        cmocka_unit_test(what_closes_on_a_vertex_has_not_rebounded),
+        cmocka_unit_test(a_turning_edge_that_slides_towards_the_vertex_stays_on_it),
         cmocka_unit_test(a_plastic_group_stops_what_approaches),
         cmocka_unit_test(an_elastic_group_keeps_its_energy_and_leaves_no_approach),
         cmocka_unit_test(a_group_with_friction_books_what_it_loses),
         cmocka_unit_test(a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it),
         cmocka_unit_test(an_early_reflection_leaves_a_node_where_it_is),
+        cmocka_unit_test(an_early_reflection_goes_along_the_normal_of_the_gap),
         cmocka_unit_test(an_early_reflection_of_an_edge_shares_its_impulse_too),
         cmocka_unit_test(a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side),
         cmocka_unit_test(a_sharp_corner_of_the_body_on_an_apex_is_a_node),

@@ -37,10 +37,10 @@ static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
     scene_close(&s);
 }
 
-/* With 10 m/s two steps' way is 0.2 m; the margins of free ends, twenty skins, go off what is clear. */
-static void a_site_sleeps_that_is_further_than_two_steps_go(void **state)
+/* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty skins, go off what is clear. */
+static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **state)
 {
-    const double far = 0.2 + 20.0 * skin, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
+    const double far = 0.125 + 20.0 * skin, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
     scene s;
     (void)state;
     open_nodes(&s, 3, x);
@@ -125,7 +125,7 @@ static void edges_sleep_too(void **state)
     scene_close(&s);
 }
 
-/* From rest, or slowly, a step may take a node further than two steps at the speed of its start would: the crossing is
+/* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the crossing is
  * found all the same, and the node strikes. */
 static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(void **state)
 {
@@ -181,7 +181,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fastest_of_the_nodes_that_may_touch_counts),
-        cmocka_unit_test(a_site_sleeps_that_is_further_than_two_steps_go),
+        cmocka_unit_test(a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes),
         cmocka_unit_test(what_is_closed_never_sleeps),
         cmocka_unit_test(a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough),
         cmocka_unit_test(a_step_counts_as_twice_what_the_fastest_goes),
