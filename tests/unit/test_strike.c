@@ -422,11 +422,11 @@ static dem_index open_clamp(scene *s, double fraction, double eta, double mu)
     return scene_edge(s, 0, 1);
 }
 
-/* Each of the sweeps leaves (1 - s)^2/m_0/W of what was before: 0.82 and less, nothing after 200 of them. Nothing moves
- * on: the ridge gives J = m_1/s so that node 1 stops, the plate (1 - s) J down on node 0. */
+/* Each of the sweeps leaves (1 - s)^2/m_0/W of what was before, at s = 1/4 0.964: they do not come to an end. Nothing
+ * moves on: the ridge gives J = m_1/s so that node 1 stops, the plate (1 - s) J down on node 0. */
 static void a_plastic_group_stops_what_approaches(void **state)
 {
-    const double fraction[3] = {0.75, 0.5, 0.45};
+    const double fraction[3] = {0.75, 0.5, 0.25};
     (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
