@@ -137,7 +137,7 @@ static dem_status stop(contact_sites *c, dem_index k, int q, contact_moment *now
     const touch_frame f = touch_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
     touch->sign = 0;
     touch->place = f.place;
-    reactions_stop(&c->reactions, c->reactions.group[k], now->x, now->v);
+    strike_stop(c, c->reactions.group[k], now);
     sites_weigh(c, k, now->x, now->v);
     const reaction force = {touch->force, touch->friction};
     if (site_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0) touch->sign = force.tangent > 0.0 ? -1 : 1;
@@ -388,7 +388,7 @@ static double first_due(contact *c, const path *p, double *state)
 bool contact_check(contact *c, path *p, bool rooted, double *state)
 {
     contact_sites *s = &c->sites;
-    const double last = rooted ? p->end - search_resolution(p) : INFINITY; /* what is due then is the root found */
+    const double last = rooted ? p->end - 4.0 * search_resolution(p) : INFINITY; /* later it is the root found */
     double first = INFINITY;
     const double way = furthest(c, p);
     for (dem_index k = 0; k < s->n; k++) {

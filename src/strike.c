@@ -183,27 +183,6 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
 
 /* ---- contacts that share nodes ---- */
 
-static void stir(contact_sites *c, dem_index k)
-{
-    contact_site *site = &c->list[k];
-    const dem_index first = c->of_node[site->node], second = site_is_edge(site) ? c->of_node[site->other] : -1;
-    site->stirred = true;
-    if (first >= 0) c->list[first].stirred = true;
-    if (second >= 0) c->list[second].stirred = true;
-}
-
-/* Kinetic energy of the nodes that take part, J. */
-static double stirred_energy(const contact_sites *c, const double *v)
-{
-    double energy = 0.0;
-    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
-        const dem_index i = c->list[k].node;
-        const vec2 vi = vec2_at(v, i);
-        if (c->list[k].stirred) energy += 0.5 * c->scene.model->lattice.mass[i] * vec2_dot(vi, vi);
-    }
-    return energy;
-}
-
 /* Puts the contacts of the site's group on their surfaces. */
 static void straighten(contact_sites *c, dem_index k, contact_moment *now)
 {
@@ -227,7 +206,7 @@ static double prepare(contact_sites *c, dem_index group, const contact_moment *n
     double scale = 0.0;
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         contact_site *site = &c->list[r->members[p]];
-        stir(c, r->members[p]);
+        site->stirred = true;
         site->n_struck = site->n_closed;
         for (int q = 0; q < site->n_closed; q++) {
             const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
@@ -271,11 +250,14 @@ static bool strike_once(contact_sites *c, dem_index k, int q, double tolerance, 
     return true;
 }
 
-/* Returns false if they have not come to an end. */
-static bool sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
+/* The contacts of a group strike in turn, those of site k first. Returns false if that has not come to an end. */
+static bool sweep(contact_sites *c, dem_index k, double tolerance, contact_moment *now)
 {
     const reactions *r = &c->reactions;
+    const dem_index group = r->group[k];
     bool struck = true;
+    for (int q = 0; q < c->list[k].n_closed; q++)
+        (void)strike_once(c, k, q, tolerance, false, now); /* it is the first */
     for (int s = 0; s < most_sweeps && struck; s++) {
         struck = false;
         for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
@@ -354,25 +336,49 @@ static void part(contact_site *site)
     while (site->n_closed > 0 && site->closed[site->n_closed - 1].opens) site->n_closed--;
 }
 
-/* Closed contacts neither open nor slide where they stick: what the sweeps have left of that goes. */
-static void settle_velocities(contact_sites *c, contact_moment *now)
+void strike_stop(contact_sites *c, dem_index group, contact_moment *now)
 {
-    reactions *r = &c->reactions;
-    const double before = stirred_energy(c, now->v);
-    for (dem_index g = 0; g < r->n_groups; g++) {
-        if (!c->list[r->members[r->row[g]]].stirred) continue;
-        reactions_stop(r, g, now->x, now->v);
-        for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
-            contact_site *site = &c->list[r->members[p]];
-            for (int q = 0; q < site->n_closed; q++) {
-                const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
-                const reaction got = r->force[r->members[p]][q];
-                site->closed[q].impulse = vec2_add(
-                    site->closed[q].impulse, vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent));
-            }
+    const reactions *r = &c->reactions;
+    c->books.impact += sites_stop(c, group, now->x, now->v);
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &c->list[r->members[p]];
+        for (int q = 0; q < site->n_closed; q++) {
+            const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
+            const dem_obstacle *on = touch_obstacle(&c->scene, site, site->closed[q].feature);
+            book_impulse(c, on - c->scene.model->obstacles.list, site->closed[q].stop, f.normal);
         }
     }
-    c->books.impact += before - stirred_energy(c, now->v);
+}
+
+/* Stops the groups that have a node in common with a site: what the integrator's error has left them of velocity is no
+ * approach. */
+static void stop_around(contact_sites *c, dem_index k, contact_moment *now)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
+    for (int e = 0; e < (site_is_edge(&c->list[k]) ? 2 : 1); e++) {
+        const dem_index own = c->of_node[nodes[e]];
+        if (own >= 0 && c->list[own].n_closed > 0) strike_stop(c, c->reactions.group[own], now);
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_sites; p++) {
+            const dem_index edge = sites_of_edge(c, s->at[p]);
+            if (c->list[edge].n_closed > 0) strike_stop(c, c->reactions.group[edge], now);
+        }
+    }
+}
+
+/* What the sweeps have left of velocities that closed contacts do not allow goes. */
+static void settle_velocities(contact_sites *c, contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    for (dem_index g = 0; g < r->n_groups; g++) {
+        if (!c->list[r->members[r->row[g]]].stirred) continue;
+        c->books.impact += sites_stop(c, g, now->x, now->v);
+        for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
+            contact_site *site = &c->list[r->members[p]];
+            for (int q = 0; q < site->n_closed; q++)
+                site->closed[q].impulse = vec2_add(site->closed[q].impulse, site->closed[q].stop);
+        }
+    }
 }
 
 /* Books and tells what the contacts of a site got. */
@@ -415,14 +421,15 @@ static dem_status take_up(contact_sites *c, dem_index k, contact_hit hit)
 /* The contacts of the group strike one another in turn until none approaches any more. */
 static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit, contact_moment *now)
 {
+    stop_around(c, k, now);
     TRY(take_up(c, k, hit));
     const dem_index group = c->reactions.group[k];
     straighten(c, k, now);
     const double tolerance = group_noise * prepare(c, group, now);
-    bool done = sweep(c, group, tolerance, now);
+    bool done = sweep(c, k, tolerance, now);
     judge(c, group, tolerance, now);
     if (take_back(c, group, now)) {
-        done = sweep(c, group, tolerance, now);
+        done = sweep(c, k, tolerance, now);
         judge(c, group, tolerance, now);
     }
     if (!done) keep_struck(c, group);
