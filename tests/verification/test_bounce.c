@@ -190,8 +190,7 @@ static double linear_estimate(bool pair, double root, int steps)
     return steps * step + step * d1 / (d1 - d2);
 }
 
-/* Its error is -a_n dt^2/(8 v_n) with the root in the middle of the step; less than 1 % is left to the next order at
- * the shortest steps. */
+/* Its error is -a_n dt^2/(8 v_n) with the root in the middle of the step; the next terms are of the order dt^2 of it. */
 static void check_estimates(bool pair, double root, double acceleration, double v)
 {
     double error[4];
@@ -199,8 +198,8 @@ static void check_estimates(bool pair, double root, double acceleration, double 
         const int steps = 100 << k;
         const double step = root / (steps + 0.5);
         error[k] = linear_estimate(pair, root, steps) - root;
-        assert_close(error[k] / (-0.125 * acceleration * step * step / v), 1.0, 0.08 / (1 << k));
-        if (k > 0) assert_close(log2(error[k - 1] / error[k]) / log2((steps + 0.5) / (steps / 2 + 0.5)), 2.0, 0.06);
+        assert_close(error[k] / (-0.125 * acceleration * step * step / v), 1.0, 2e-4 / (1 << 2 * k));
+        if (k > 0) assert_close(log2(error[k - 1] / error[k]) / log2((steps + 0.5) / (steps / 2 + 0.5)), 2.0, 1e-3);
     }
 }
 
