@@ -15,7 +15,7 @@ typedef struct slide {
     support_run run;
     double normal[2], tangent[2];
     double mu, v0[2], last;     /* last: m, place along the incline at the last step */
-    double way, sliding;        /* m, all of it and that in a lasting contact */
+    double sliding;             /* m, way in lasting contacts till then */
     double balance, work;       /* worst of m (v - v0) - m g t - impulse, N s, and of friction energy - mu N way, J */
     double ledger, drift, turn; /* J: at the start, worst of it less that; N s, normal part of the friction impulse */
     bool lasted;                /* a contact lasted at the last step */
@@ -37,27 +37,40 @@ static dem_status note_event(void *context, const dem_simulation *simulation, co
     return DEM_OK;
 }
 
+/* The books in a state that is seen, `way` after the last step along the incline. */
+static void look(slide *s, const dem_simulation *simulation, const dem_state *state, double way)
+{
+    const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
+    const dem_options options = dem_simulation_options(simulation);
+    const double *gravity = options.gravity, pressure = -mass * dot(gravity, s->normal);
+    for (int d = 0; d < 2; d++)
+        s->balance = fmax(s->balance, fabs(mass * (state->v[d] - s->v0[d] - gravity[d] * state->t) - load.impulse[d]));
+    if (!s->lasted) way = 0.0;
+    s->work = fmax(s->work, fabs(state->energy.friction - s->mu * pressure * (s->sliding + way)));
+    s->turn = fmax(s->turn, fabs(dot(load.friction_impulse, s->normal)));
+    s->turn = fmax(s->turn, fabs(dot(load.friction_impulse, s->tangent) - dot(load.impulse, s->tangent)));
+    s->drift = fmax(s->drift, fabs(dem_energy_ledger(state->energy) - s->ledger));
+}
+
 static dem_status note_step(void *context, const dem_simulation *simulation)
 {
     slide *s = context;
-    const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
-    const double *gravity = dem_simulation_options(simulation).gravity;
     dem_state state;
     dem_simulation_state(simulation, &state);
-    for (int d = 0; d < 2; d++)
-        s->balance = fmax(s->balance, fabs(mass * (state.v[d] - s->v0[d] - gravity[d] * state.t) - load.impulse[d]));
+    if (state.t == 0.0) s->ledger = dem_energy_ledger(state.energy);
     const double place = dot(state.x, s->tangent), step = fabs(place - s->last);
-    s->way += step;
+    look(s, simulation, &state, step);
     if (s->lasted) s->sliding += step;
     s->last = place;
-    const double pressure = -mass * dot(gravity, s->normal);
-    s->work = fmax(s->work, fabs(state.energy.friction - s->mu * pressure * s->sliding));
-    s->turn = fmax(s->turn, fabs(dot(load.friction_impulse, s->normal)));
-    s->turn = fmax(s->turn, fabs(dot(load.friction_impulse, s->tangent) - dot(load.impulse, s->tangent)));
-    if (state.t == 0.0) s->ledger = dem_energy_ledger(state.energy);
-    s->drift = fmax(s->drift, fabs(dem_energy_ledger(state.energy) - s->ledger));
     s->lasted = state.n_contacts > 0;
     return DEM_OK;
+}
+
+static dem_state slide_at(slide *s, double t)
+{
+    const dem_state state = support_at(&s->run, t);
+    look(s, s->run.simulation, &state, fabs(dot(state.x, s->tangent) - s->last));
+    return state;
 }
 
 /* From height h0 over a straight obstacle with normal (sin a, cos a), v0 = (along, across); `points` 20 m each way. */
@@ -107,7 +120,7 @@ static void check_books(const slide *s)
 
 static void check_place(slide *s, double t, double way, double speed, double tolerance)
 {
-    const dem_state state = support_at(&s->run, t);
+    const dem_state state = slide_at(s, t);
     assert_close(dot(state.x, s->tangent), way, tolerance);
     assert_close(dot(state.v, s->tangent), speed, tolerance);
     assert_close(dot(state.x, s->normal), 0.0, 1e-12);
@@ -123,7 +136,7 @@ static void a_block_above_the_friction_angle_slides_down_from_rest_with_the_exac
         const double a = acceleration(mu[k]);
         open_incline(&s, mu[k], 0.0);
         for (double t = 0.25; t < 1.9; t += 0.25) check_place(&s, t, 0.5 * a * t * t, a * t, 1e-11);
-        const dem_state state = support_at(&s.run, 2.0);
+        const dem_state state = slide_at(&s, 2.0);
         assert_int_equal(state.n_contacts, 1);
         assert_int_equal(state.contacts[0].state, DEM_CONTACT_SLIP);
         assert_close(state.contacts[0].force, mass * g * cos(M_PI / 6.0), 1e-12);
@@ -144,10 +157,10 @@ static void a_block_below_the_friction_angle_sticks_from_the_start(void **unused
     (void)unused;
     for (int k = 0; k < 2; k++) {
         open_incline(&s, mu[k], 0.0);
-        dem_state state = support_at(&s.run, 0.0);
+        dem_state state = slide_at(&s, 0.0);
         const double x = state.x[0], y = state.x[1];
         assert_close(hypot(x, y), 0.0, 1e-14); /* the surface through points 20 m away */
-        state = support_at(&s.run, 10.0);
+        state = slide_at(&s, 10.0);
         assert_close(state.x[0], x, 0.0);
         assert_close(state.x[1], y, 0.0);
         assert_int_equal(state.n_contacts, 1);
@@ -174,9 +187,9 @@ static void a_sliding_block_stops_after_the_exact_way_and_sticks_for_ever(void *
     assert_int_equal(last.kind, DEM_EVENT_STICK);
     assert_int_equal(last.state, DEM_CONTACT_STICK);
     assert_close(last.t, 2.8790885097250483, 1e-8);
-    const dem_state at_stop = support_at(&s.run, 3.0);
+    const dem_state at_stop = slide_at(&s, 3.0);
     const double x = at_stop.x[0], y = at_stop.x[1];
-    const dem_state state = support_at(&s.run, 60.0);
+    const dem_state state = slide_at(&s, 60.0);
     assert_close(state.x[0], x, 0.0);
     assert_close(state.x[1], y, 0.0);
     assert_close(state.v[0], 0.0, 0.0);
@@ -235,7 +248,7 @@ static void a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_
     (void)unused;
     for (int k = 0; k < 5; k++) {
         open_slide(&s, M_PI / 6.0, &(dem_obstacle){.friction = 0.2, .restitution = eta[k]}, 0.05, v0, g);
-        const dem_state state = support_at(&s.run, 1.5);
+        const dem_state state = slide_at(&s, 1.5);
         assert_int_equal(state.n_contacts, 1);
         assert_close(dot(state.v, s.tangent), 5.808787237, 1e-7);
         assert_close(dot(state.v, s.tangent), 1.0 + 1.5 * acceleration(0.2), 1e-7);
@@ -264,7 +277,7 @@ static void check_oblique(const oblique *row, double angle, double side)
     const dem_obstacle law = {.friction = row->mu, .restitution = row->eta, .friction_law = row->law};
     const double v0[2] = {3.0 * side, -2.0};
     open_slide(&s, angle, &law, 0.5, v0, 0.0);
-    const dem_state state = support_at(&s.run, 0.5);
+    const dem_state state = slide_at(&s, 0.5);
     assert_int_equal(s.run.n_impacts, 1);
     const dem_event *e = &s.run.impacts[0];
     assert_close(e->t, 0.25, 1e-12);
@@ -300,7 +313,7 @@ static void the_law_of_the_paper_has_no_sustained_friction(void **unused)
     open_slide(&s, 0.0, &(dem_obstacle){.friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.2, v0, g);
     check_place(&s, fall + 1.0, 3.0 * fall + 0.9, 0.9, 1e-10);
     check_place(&s, fall + 5.0, 3.0 * fall + 4.5, 0.9, 1e-10);
-    const dem_state state = support_at(&s.run, 6.0);
+    const dem_state state = slide_at(&s, 6.0);
     assert_int_equal(s.run.n_impacts, 1);
     assert_int_equal(state.contacts[0].state, DEM_CONTACT_SLIP);
     assert_close(state.contacts[0].friction, 0.0, 0.0);
