@@ -5,8 +5,8 @@
  *   u_i(t) = sum over j = 1 .. N of A_j sin(phi_j i) sin(omega_j t),  phi_j = (2j - 1) pi/(2N),
  *   omega_j = 2 sqrt(k/m) sin(phi_j/2),  A_j omega_j = -v cot(phi_j/2)/N,
  *
- * since sum of w_i sin^2(phi_j i) = N/2 and sum of w_i sin(phi_j i) = cot(phi_j/2)/2 with w_N = 1/2, else 1. The contact
- * ends where the first spring begins to pull, u_1 = 0; the impulse of the wall till then gives the rebound. */
+ * since sum of w_i sin^2(phi_j i) = N/2 and sum of w_i sin(phi_j i) = cot(phi_j/2)/2 with w_N = 1/2, else 1. The
+ * contact ends where the first spring begins to pull, u_1 = 0; the impulse of the wall till then gives the rebound. */
 #include <stdbool.h>
 
 #include "support.h"

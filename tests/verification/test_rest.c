@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A block at rest for a second: on a floor, in a groove, on an incline; and one that slides down an incline.
  *
- * The block has 4 cells across and 4 rows of 0.1 m, rho = 1000 kg/m^3 and E = 4.9 MPa, so that c = 70 m/s and the highest frequency is
- * some 2000 rad/s: a second is a few thousand steps, and its weight strains it by 1e-3 only. */
+ * The block has 4 cells across and 4 rows of 0.1 m, rho = 1000 kg/m^3 and E = 4.9 MPa, so that c = 70 m/s and
+ * the highest frequency is 2100 rad/s: a second is a few thousand steps, and its weight strains it by 1e-3 only. */
 #include <stdbool.h>
 #include <stdlib.h>
 
@@ -208,7 +208,7 @@ static void a_block_on_two_pegs_rests(void **unused)
     check_rest(&(scene){.obstacle = {.n_points = 5, .points = pegs, .friction = 0.3}, .mass_damping = 400.0}, 2);
 }
 
-/* Damped by its springs alone, as it does not matter to a block at rest whether friction or they have taken the energy. */
+/* The springs and friction alone take the energy. */
 static void a_dropped_block_comes_to_rest_by_the_damping_of_its_springs(void **unused)
 {
     static const double eta[2] = {0.0, 0.5};
