@@ -127,7 +127,7 @@ static double *settle(const scene *s, double t_end, dem_index lasting)
 /* From its equilibrium, undamped, the block stays where it is for a second. */
 static void check_rest(const scene *s, dem_index lasting)
 {
-    double *position = settle(s, 0.5, lasting);
+    double *position = settle(s, 0.7, lasting);
     block b;
     open_block(&b, s, position, false);
     const dem_index n = 2 * dem_model_sizes(b.model).n_nodes;
@@ -146,6 +146,7 @@ static void check_rest(const scene *s, dem_index lasting)
     const dem_counts counts = dem_simulation_counts(b.simulation);
     assert_int_equal(counts.impacts, 0);
     assert_int_equal(counts.releases, 0);
+    assert_true(counts.events <= 4); /* one at the start for each that rounding lets slip, no chatter */
     assert_close(b.drift, 0.0, 1e-6 * weight * 3.5 * spacing);
     free(position);
     close_block(&b);
@@ -174,29 +175,24 @@ static void a_block_in_a_groove_rests(void **unused)
     check_rest(&s, 8);
 }
 
-static void a_block_on_an_incline_below_the_friction_angle_rests(void **unused)
-{
-    static const double degrees[3] = {5.0, 15.0, 20.0};
-    static const dem_index lasting[3] = {5, 5, 4}; /* at the last the upper corner is lifted */
-    (void)unused;
-    for (int k = 0; k < 3; k++) {
-        const double a = degrees[k] * M_PI / 180.0;
-        const double points[4] = {-9.0 * cos(a), 9.0 * sin(a), 9.0 * cos(a), -9.0 * sin(a)};
-        check_rest(&(scene){.angle = -a, .obstacle = straight(points, 0.5), .mass_damping = 400.0}, lasting[k]);
-    }
-}
+typedef struct incline {
+    double degrees, mu, hardness;
+    dem_index lasting; /* the upper corner may be lifted */
+} incline;
 
 /* Nodes that have slid to where they rest stay at the limit of friction, where rounding decides whether they stick. */
-static void blocks_come_to_rest_on_inclines_of_many_angles_soft_and_hard(void **unused)
+static void a_block_below_the_friction_angle_rests_be_it_soft_or_hard(void **unused)
 {
-    static const double degrees[6] = {8.0, 12.0, 17.0, 17.0, 25.0, 25.0}, mu[6] = {0.3, 0.4, 0.8, 0.5, 0.5, 1.2};
+    static const incline rows[9] = {{5.0, 0.5, 1.0, 5},  {15.0, 0.5, 1.0, 5}, {20.0, 0.5, 1.0, 4},
+                                    {17.0, 0.8, 1.0, 5}, {25.0, 1.2, 1.0, 4}, {8.0, 0.3, 1e4, 5},
+                                    {12.0, 0.4, 1e4, 5}, {17.0, 0.5, 1e4, 5}, {25.0, 0.5, 1e4, 4}};
     (void)unused;
-    for (int k = 0; k < 12; k++) {
-        const double a = degrees[k / 2] * M_PI / 180.0;
+    for (int k = 0; k < 9; k++) {
+        const double a = rows[k].degrees * M_PI / 180.0;
         const double points[4] = {-9.0 * cos(a), 9.0 * sin(a), 9.0 * cos(a), -9.0 * sin(a)};
-        scene s = {.angle = -a, .obstacle = straight(points, mu[k / 2]), .mass_damping = 400.0};
-        s.hardness = k % 2 == 0 ? 1.0 : 1e4; /* rubber and metal */
-        free(settle(&s, 1.5, 3));
+        scene s = {.angle = -a, .obstacle = straight(points, rows[k].mu), .mass_damping = 400.0};
+        s.hardness = rows[k].hardness;
+        check_rest(&s, rows[k].lasting);
     }
 }
 
@@ -253,8 +249,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_block_on_a_floor_rests),
         cmocka_unit_test(a_block_in_a_groove_rests),
-        cmocka_unit_test(a_block_on_an_incline_below_the_friction_angle_rests),
-        cmocka_unit_test(blocks_come_to_rest_on_inclines_of_many_angles_soft_and_hard),
+        cmocka_unit_test(a_block_below_the_friction_angle_rests_be_it_soft_or_hard),
         cmocka_unit_test(a_block_on_two_pegs_rests),
         cmocka_unit_test(a_dropped_block_comes_to_rest_by_the_damping_of_its_springs),
         cmocka_unit_test(a_block_above_the_friction_angle_slides_down_with_the_exact_acceleration),
