@@ -753,19 +753,16 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
         if (k == edge->except[0] || k == edge->except[1]) continue;
         if (before->obstacle == edge->without[0] || before->obstacle == edge->without[1]) continue;
         if (distance <= -edge->depth || distance >= edge->reach || distance >= first.distance) continue;
-        const bool behind_next = vec2_cross(vec2_sub(edge->next, edge->b), vec2_sub(o->vertices[k].at, edge->b)) > 0.0,
-                   behind_previous =
-                       vec2_cross(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
-        const bool notch_b = vec2_cross(way, vec2_sub(edge->next, edge->b)) < 0.0 && behind_next && place > length &&
-                             vec2_dot(vec2_sub(edge->next, edge->b), vec2_sub(o->vertices[k].at, edge->b)) <= 0.0 &&
-                             place - length <= edge->depth && distance < 0.0;
-        const bool notch_a = vec2_cross(vec2_sub(edge->a, edge->previous), way) < 0.0 && behind_previous &&
-                             vec2_dot(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) >= 0.0 &&
-                             place < 0.0 && -place <= edge->depth && distance < 0.0;
+        const vec2 next = vec2_sub(edge->next, edge->b), previous = vec2_sub(edge->a, edge->previous);
+        const bool notch_b = vec2_cross(way, next) < 0.0 && place > length && place - length <= edge->depth &&
+                             distance < 0.0 && vec2_dot(next, vec2_sub(o->vertices[k].at, edge->b)) < 0.0;
+        const bool notch_a = vec2_cross(previous, way) < 0.0 && place < 0.0 && -place <= edge->depth &&
+                             distance < 0.0 && vec2_dot(previous, vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
         if ((place < -edge->tolerance && !notch_a) || (place > length + edge->tolerance && !notch_b)) continue;
         if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
-        const double turn_a = vec2_cross(vec2_sub(edge->a, edge->previous), way),
-                     turn_b = vec2_cross(way, vec2_sub(edge->next, edge->b));
+        const vec2 mean = vec2_add(before->normal, after->normal);
+        const double turn_a = vec2_cross(previous, mean) > 0.0 ? vec2_cross(previous, way) : 0.0,
+                     turn_b = vec2_cross(next, mean) > 0.0 ? vec2_cross(way, next) : 0.0;
         if (distance < 0.0 && (beside_neighbour(edge->previous, edge->a, o->vertices[k].at, turn_a, distance) ||
                                beside_neighbour(edge->b, edge->next, o->vertices[k].at, turn_b, distance)))
             continue;
