@@ -732,12 +732,13 @@ static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void *
 }
 
 /* Whether x, `distance` in front of an edge, is further in front of its neighbour pq, on which its foot is, where the
- * boundary turns left from one to the other. */
-static bool beside_neighbour(vec2 p, vec2 q, vec2 x, double turn, double distance)
+ * boundary turns left from one to the other, and outside the body there or pointing into it. */
+static bool beside_neighbour(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
 {
     const vec2 way = vec2_sub(q, p);
     const double along = vec2_dot(vec2_sub(x, p), way), height = -vec2_cross(way, vec2_sub(x, p));
-    return turn > 0.0 && along >= 0.0 && along <= vec2_dot(way, way) && height / vec2_norm(way) > distance;
+    if (along < 0.0 || along > vec2_dot(way, way) || height / vec2_norm(way) <= distance) return false;
+    return height >= 0.0 || vec2_cross(way, mean) > 0.0;
 }
 
 static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
@@ -761,10 +762,11 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
         if ((place < -edge->tolerance && !notch_a) || (place > length + edge->tolerance && !notch_b)) continue;
         if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
         const vec2 mean = vec2_add(before->normal, after->normal);
-        const double turn_a = vec2_cross(previous, mean) > 0.0 ? vec2_cross(previous, way) : 0.0,
-                     turn_b = vec2_cross(next, mean) > 0.0 ? vec2_cross(way, next) : 0.0;
-        if (distance < 0.0 && (beside_neighbour(edge->previous, edge->a, o->vertices[k].at, turn_a, distance) ||
-                               beside_neighbour(edge->b, edge->next, o->vertices[k].at, turn_b, distance)))
+        if (distance < 0.0 && vec2_cross(previous, way) > 0.0 &&
+            beside_neighbour(edge->previous, edge->a, o->vertices[k].at, mean, distance))
+            continue;
+        if (distance < 0.0 && vec2_cross(way, next) > 0.0 &&
+            beside_neighbour(edge->b, edge->next, o->vertices[k].at, mean, distance))
             continue;
         first = (obstacle_poke){distance, k, fmin(fmax(place / length, 0.0), 1.0), normal};
     }
