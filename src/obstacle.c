@@ -324,22 +324,23 @@ static bool out_of_question(const obstacle_set *o, const obstacle_edge *edge, de
 }
 
 /* Takes vertex k if it is deeper than the deepest so far. */
-/* Whether x is in front of the edge from p to q, or on it. */
-static bool in_front(vec2 p, vec2 q, vec2 x, double tolerance)
+/* Signed distance of x in front of the edge from p to q, if its foot is on it; else -infinity. */
+static double distance_beside(vec2 p, vec2 q, vec2 x)
 {
     const vec2 way = vec2_sub(q, p), from = vec2_sub(x, p);
     const double square = vec2_dot(way, way), along = vec2_dot(from, way);
-    return along >= 0.0 && along <= square && vec2_cross(way, from) < 2.0 * tolerance * sqrt(square);
+    return along >= 0.0 && along <= square && square > 0.0 ? -vec2_cross(way, from) / sqrt(square) : -INFINITY;
 }
 
-/* Whether x, behind the edge, is outside the body round one of its corners. */
-static bool round_corner(const obstacle_edge *edge, vec2 x)
+/* Whether x, behind the edge by -distance, is nearer to a neighbour round a convex corner of the body: it is outside
+ * the body there, or has come in there. */
+static bool round_corner(const obstacle_edge *edge, vec2 x, double distance)
 {
     const vec2 way = vec2_sub(edge->b, edge->a);
     const bool turns_before = vec2_cross(vec2_sub(edge->a, edge->previous), way) > 0.0;
     const bool turns_after = vec2_cross(way, vec2_sub(edge->next, edge->b)) > 0.0;
-    return (turns_before && in_front(edge->previous, edge->a, x, edge->tolerance)) ||
-           (turns_after && in_front(edge->b, edge->next, x, edge->tolerance));
+    return (turns_before && distance_beside(edge->previous, edge->a, x) > distance) ||
+           (turns_after && distance_beside(edge->b, edge->next, x) > distance);
 }
 
 static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
@@ -353,7 +354,7 @@ static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obsta
     if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
     const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
     if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
-    if (distance < 0.0 && round_corner(edge, v->at)) return;
+    if (distance < 0.0 && round_corner(edge, v->at, distance)) return;
     *deepest = (obstacle_poke){distance, k, place / l->length, l->normal};
 }
 

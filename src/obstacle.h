@@ -89,7 +89,7 @@ typedef struct obstacle_poke {
 
 /** Of the convex vertices whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and whose
  *  mean normal points into the body: the one with the smallest distance, the first of equals. One behind the edge that
- *  is outside the body round a convex corner, in front of the neighbouring edge, is not meant. */
+ *  is nearer to a neighbouring edge, round a convex corner of the body, is not meant. */
 obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge);
 
 /** Whether two segments are neighbours, and the vertex that they share. */

@@ -26,15 +26,18 @@ static int sign_of(const contact_sites *c, dem_index k, dem_index feature, doubl
 }
 
 /* Speed at or below which what an acceleration `back` returns is at rest: the hop would be lower than the position
- * tolerance, or than what rounding leaves of the coordinates, or shorter than twice the window. Nothing is at rest (-1)
- * that does not return. */
-static double resting_speed(const contact_sites *c, vec2 x, double back)
+ * tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of the skin
+ * keep up, of height skin eta^2/(1 - eta^2); or it would be shorter than twice the window. Nothing is at rest (-1) that
+ * does not return. */
+static double resting_speed(const contact_sites *c, vec2 x, double back, double restitution)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     if (rule->rest_speed > 0.0) return rule->rest_speed;
-    const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
-    return fmax(sqrt(2.0 * back * fmax(rule->position_error, rounding)), back * rule->window);
+    const double rounding = noise * fmax(fabs(x.x), fabs(x.y)), square = restitution * restitution;
+    const double kept_up = 2.0 * rule->skin * square / fmax(1.0 - square, 0.02);
+    const double height = fmax(fmax(rule->position_error, rounding), restitution < 1.0 ? kept_up : 0.0);
+    return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
 
 static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
@@ -78,13 +81,16 @@ static contact_hit lasting(const contact_sites *c, dem_index k, contact_hit hit,
     }
     const int holding = impact_holding(wall, hit.n, a, push);
     const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
-    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= resting_speed(c, at, back)))) {
+    if (speed == 0.0 ||
+        (holding == 3 &&
+         (back <= 0.0 ||
+          speed <= resting_speed(c, at, back, fmax(wall[0].restitution, wall[hit.n - 1].restitution))))) {
         for (int q = 0; q < hit.n; q++)
             if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
         return held;
     }
     const int along = hit.n == 2 && away[1] < away[0] ? 1 : 0;
-    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal)))
+    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal), wall[along].restitution))
         held = (contact_hit){1, {hit.feature[along]}};
     return held;
 }
@@ -147,7 +153,10 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
     vec2 after = impact_rebound(wall, hit.n, before, kick);
     if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
     const contact_hit held = lasting(c, k, hit, after, now);
-    after = without_normals(c, held, after);
+    if (held.n > 0) { /* what stays has not rebounded, and friction goes with the impulse given */
+        for (int q = 0; q < hit.n; q++) wall[q].restitution = 0.0;
+        after = without_normals(c, held, impact_rebound(wall, hit.n, before, kick));
+    }
     vec2_put(now->v, i, after);
     TRY(hold_on(c, k, held, now));
     const bool struck = after.x != before.x || after.y != before.y;
@@ -223,11 +232,19 @@ static double prepare(contact_sites *c, dem_index group, const contact_moment *n
             touch->before = f.velocity;
             touch->impulse = (vec2){0.0, 0.0};
             touch->energy = 0.0;
-            touch->opens = touch->held = touch->struck = false;
+            touch->opens = touch->held = touch->struck = touch->plastic = false;
             scale = fmax(scale, vec2_norm(f.velocity));
         }
     }
     return scale;
+}
+
+static void push(const contact_sites *c, const touch_frame *f, vec2 impulse, contact_moment *now)
+{
+    for (int p = 0; p < f->n; p++)
+        vec2_put(
+            now->v, f->node[p],
+            vec2_along(vec2_at(now->v, f->node[p]), f->weight[p] * c->scene.model->inverse_mass[f->node[p]], impulse));
 }
 
 /* One contact of the group by itself: whether it strikes. */
@@ -273,17 +290,42 @@ static void judge(contact_sites *c, dem_index group, double tolerance, const con
             contact_touch *touch = &c->list[k].closed[q];
             const touch_frame f = touch_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
             const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
-            double back = 0.0;
+            double back = f.turning;
             for (int e = 0; e < f.n; e++)
                 back -= f.weight[e] * vec2_dot(f.normal, model_acceleration(c->scene.model, &c->scene.rule.load,
                                                                             f.node[e], now->x, now->v));
-            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back);
+            const double restitution = touch_obstacle(&c->scene, &c->list[k], touch->feature)->restitution;
+            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, restitution);
             touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
             const int sign = sign_of(c, k, touch->feature, fabs(speed) <= tolerance ? 0.0 : speed);
             if (sign == 0 && (touch->fresh || touch->sign != 0)) touch->place = fmin(fmax(f.place, 0.0), 1.0);
             touch->sign = sign;
         }
     }
+}
+
+/* If contacts last that have rebounded, takes all impulses back, to be given again with those plastic: what stays has
+ * not rebounded, and friction goes with the impulse given. */
+static bool take_back(contact_sites *c, dem_index group, contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    bool any = false;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
+            contact_touch *touch = &c->list[r->members[p]].closed[q];
+            touch->plastic = touch->struck && !touch->opens;
+            any |= touch->plastic;
+        }
+    for (dem_index p = r->row[group]; p < r->row[group + 1] && any; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
+            contact_touch *touch = &c->list[r->members[p]].closed[q];
+            const touch_frame f = touch_frame_at(&c->scene, &c->list[r->members[p]], q, now->x, now->v);
+            push(c, &f, vec2_scale(-1.0, touch->impulse), now);
+            touch->impulse = (vec2){0.0, 0.0};
+            touch->energy = 0.0;
+            touch->struck = false;
+        }
+    return any;
 }
 
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
@@ -364,6 +406,10 @@ static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit
     const double tolerance = noise * prepare(c, group, now);
     sweep(c, group, tolerance, now);
     judge(c, group, tolerance, now);
+    if (take_back(c, group, now)) {
+        sweep(c, group, tolerance, now);
+        judge(c, group, tolerance, now);
+    }
     for (dem_index m = 0; m < c->n; m++)
         if (c->list[m].stirred) part(&c->list[m]);
     TRY(sites_regroup(c));
@@ -389,6 +435,7 @@ static vec2 edge_normal(const contact_site *edge, const double *x)
 bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const contact_moment *now)
 {
     const contact_site *here = &c->list[edge], *there = &c->list[next];
+    const double restitution = touch_obstacle(&c->scene, here, here->closed[0].feature)->restitution;
     const dem_index node = here->node == there->other ? here->node : here->other;
     const vec2 v = vec2_at(now->v, node), at = vec2_at(now->x, node);
     const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
@@ -396,7 +443,7 @@ bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const 
     const double speed = vec2_norm(v), back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0;
     double push[2];
     if (impact_holding(sides, 2, a, push) != 3) return false;
-    return speed == 0.0 || back <= 0.0 || speed <= resting_speed(c, at, back);
+    return speed == 0.0 || back <= 0.0 || speed <= resting_speed(c, at, back, restitution);
 }
 
 void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now)

@@ -58,7 +58,8 @@ static touch_frame edge_frame(const contact_scene *scene, const contact_site *si
     f.gap = vec2_dot(off, n);
     f.place = place;
     const double vn = vec2_dot(f.velocity, n), vt = vec2_dot(f.velocity, t);
-    f.keep[0] = (touch->sign == 0 ? 0.0 : 2.0 * turn * vt) - beta * (2.0 * vn + beta * f.gap);
+    f.turning = touch->sign == 0 ? 0.0 : 2.0 * turn * vt;
+    f.keep[0] = f.turning - beta * (2.0 * vn + beta * f.gap);
     f.keep[1] = -beta * (2.0 * vt + beta * vec2_dot(off, t));
     f.mobility = wa * wa * inverse_mass[site->node] + wb * wb * inverse_mass[site->other];
     return f;

@@ -19,6 +19,7 @@ typedef struct contact_touch {
     bool fresh;    /* the contact was not closed before */
     bool opens;    /* and will not be after */
     bool struck;   /* it approached */
+    bool plastic;  /* it does not rebound, for it will last */
     vec2 before;   /* m/s, of the point of the body */
     vec2 impulse;  /* N s, given to the body */
     double energy; /* J, taken by it */
@@ -66,8 +67,9 @@ typedef struct touch_frame {
     vec2 velocity;        /* m/s, of the point */
     double gap;           /* m, along the normal */
     double place;         /* m along a segment from its start; fraction of an edge from its start */
-    double keep[2];       /* m/s^2, acceleration of the point along normal and tangent that keeps it touching, and
-                             stuck: of a turning edge the former is 2 omega v_t */
+    double turning;       /* m/s^2, acceleration of the point along the normal that keeps it touching: 2 omega v_t */
+    double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
+                             what the integrator's error has opened */
     double mobility;      /* 1/kg, sum of weight^2/m */
 } touch_frame;
 

@@ -731,14 +731,13 @@ static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void *
     obstacles_free(&o);
 }
 
-/* Whether x, behind the edge ab, lies beside the neighbouring edge pq, in front of it or no further behind than twice
- * the tolerance, where the boundary turns left from one to the other. */
-static bool beside_neighbour(vec2 p, vec2 q, vec2 x, double turn, double tolerance)
+/* Whether x, `distance` in front of an edge, is further in front of its neighbour pq, on which its foot is, where the
+ * boundary turns left from one to the other. */
+static bool beside_neighbour(vec2 p, vec2 q, vec2 x, double turn, double distance)
 {
     const vec2 way = vec2_sub(q, p);
-    const double along = vec2_dot(vec2_sub(x, p), way), height = vec2_cross(way, vec2_sub(x, p));
-    return turn > 0.0 && along >= 0.0 && along <= vec2_dot(way, way) &&
-           height < 2.0 * tolerance * sqrt(vec2_dot(way, way));
+    const double along = vec2_dot(vec2_sub(x, p), way), height = -vec2_cross(way, vec2_sub(x, p));
+    return turn > 0.0 && along >= 0.0 && along <= vec2_dot(way, way) && height / vec2_norm(way) > distance;
 }
 
 static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
@@ -758,8 +757,8 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
         if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
         const double turn_a = vec2_cross(vec2_sub(edge->a, edge->previous), way),
                      turn_b = vec2_cross(way, vec2_sub(edge->next, edge->b));
-        if (distance < 0.0 && (beside_neighbour(edge->previous, edge->a, o->vertices[k].at, turn_a, edge->tolerance) ||
-                               beside_neighbour(edge->b, edge->next, o->vertices[k].at, turn_b, edge->tolerance)))
+        if (distance < 0.0 && (beside_neighbour(edge->previous, edge->a, o->vertices[k].at, turn_a, distance) ||
+                               beside_neighbour(edge->b, edge->next, o->vertices[k].at, turn_b, distance)))
             continue;
         first = (obstacle_poke){distance, k, place / length, normal};
     }
