@@ -6,9 +6,9 @@
 #include "touch.h"
 
 typedef struct contact_books {
-    double impact, friction, projection; /* J, taken by impacts and friction, put in by projection */
-    double *impulse, *friction_impulse;  /* [n_obstacles][2] N s, given to the bodies */
-    dem_counts counts;                   /* those of contacts */
+    double impact, projection;          /* J, taken by impacts, put in by projection */
+    double *impulse, *friction_impulse; /* [n_obstacles][2] N s, given to the bodies by impacts */
+    dem_counts counts;                  /* those of contacts */
 } contact_books;
 
 /** Who is told of events. */

@@ -14,7 +14,7 @@ static const double touch_share =
 
 static const double *velocities(const contact *c, const double *y)
 {
-    return y + 2 * c->sites.scene.model->lattice.n_nodes;
+    return y + scene_velocities(&c->sites.scene);
 }
 
 /* A node deeper inside than an impact can be has passed round the free end that it is at; else something is wrong. */
@@ -219,7 +219,7 @@ static void weigh_all(contact_sites *c, const double *x, const double *v)
     for (dem_index g = 0; g < c->reactions.n_groups; g++) {
         reactions_solve(&c->reactions, g, x, v);
         for (dem_index p = c->reactions.row[g]; p < c->reactions.row[g + 1]; p++)
-            sites_store(c, c->reactions.members[p], x, v);
+            sites_store(c, c->reactions.members[p]);
     }
 }
 
@@ -295,7 +295,7 @@ void contact_destroy(contact *c)
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener)
 {
     contact_sites *s = &c->sites;
-    contact_moment now = {t, y, y + 2 * s->scene.model->lattice.n_nodes, listener, DEM_OK};
+    contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
     const dem_index impacts = s->books.counts.impacts;
     bool changed = true;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
@@ -332,15 +332,21 @@ dem_status contact_admissible(const contact *c, const double *x)
     return DEM_OK;
 }
 
+/* Largest coordinate that a gap is made of, m. */
+static double extent(const contact_sites *c, dem_index k, dem_index feature, vec2 x)
+{
+    const segment *s = scene_segment(&c->scene, touch_segment(&c->scene, &c->list[k], feature));
+    return fmax(vec2_norm(x), fmax(vec2_norm(s->start), vec2_norm(s->end)));
+}
+
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener)
 {
     contact_sites *s = &c->sites;
-    contact_moment now = {t, y, y + 2 * s->scene.model->lattice.n_nodes, listener, DEM_OK};
+    contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
     for (dem_index k = 0; k < s->n; k++) {
         const contact_spot spot = site_spot(&s->list[k], now.x);
         const contact_gap gap = site_gap(&s->scene, &s->list[k], &spot);
-        const double rounding = 64.0 * DBL_EPSILON * fmax(fabs(spot.a.x), fabs(spot.a.y));
-        if (gap.feature < 0 || gap.distance > rounding) continue;
+        if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) continue;
         TRY(site_is_edge(&s->list[k]) ? touch_edge(s, k, &gap, &now) : touch_node(s, k, &gap, &now));
     }
     const dem_status status = contact_resolve(c, t, y, listener);
@@ -372,33 +378,31 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     return true;
 }
 
-/* Adds what the forces stored in the closed contacts do within `h`. */
-static void add_work(contact_sites *c, double h)
-{
-    for (dem_index m = 0; m < c->reactions.row[c->reactions.n_groups]; m++) {
-        const contact_site *site = &c->list[c->reactions.members[m]];
-        for (int q = 0; q < site->n_closed; q++) {
-            const contact_touch *touch = &site->closed[q];
-            const dem_index obstacle = touch_obstacle(&c->scene, site, touch->feature) - c->scene.model->obstacles.list;
-            const vec2 n = touch->normal, t = {n.y, -n.x}, along = vec2_scale(h * touch->friction, t);
-            books_add_impulse(&c->books, obstacle, vec2_along(along, h * touch->force, n), along);
-            c->books.friction += h * touch->power;
-        }
-    }
-}
-
-void contact_follow(contact *c, const path *p, const double *y, double *state)
+void contact_follow(contact *c, const double *y)
 {
     contact_sites *s = &c->sites;
-    const double h = p->end - p->t0;
-    add_work(s, h / 6.0);
-    for (dem_index g = 0; g < s->reactions.n_groups; g++)
-        search_state(&s->reactions, g, p, 0.5 * (p->t0 + p->end), state);
-    weigh_all(s, state, velocities(c, state));
-    add_work(s, 4.0 * h / 6.0);
     weigh_all(s, y, velocities(c, y));
-    add_work(s, h / 6.0);
     for (dem_index k = 0; k < s->n; k++) refresh_place(s, k, y);
+}
+
+void contact_account(const contact *c, const double *y, double *rate)
+{
+    const contact_sites *s = &c->sites;
+    double *friction = rate + 2 * s->scene.model->obstacles.n, *power = rate + 4 * s->scene.model->obstacles.n;
+    for (dem_index m = 0; m < s->reactions.row[s->reactions.n_groups]; m++) {
+        const dem_index k = s->reactions.members[m];
+        const contact_site *site = &s->list[k];
+        for (int q = 0; q < site->n_closed; q++) {
+            const reaction *force = &s->reactions.force[k][q];
+            const touch_frame f = touch_frame_at(&s->scene, site, q, y, velocities(c, y));
+            const dem_index o =
+                touch_obstacle(&s->scene, site, site->closed[q].feature) - s->scene.model->obstacles.list;
+            const vec2 along = vec2_scale(force->tangent, f.tangent);
+            vec2_put(rate, o, vec2_add(vec2_at(rate, o), vec2_along(along, force->normal, f.normal)));
+            vec2_put(friction, o, vec2_add(vec2_at(friction, o), along));
+            if (site->closed[q].sign != 0) *power -= force->tangent * vec2_dot(f.velocity, f.tangent);
+        }
+    }
 }
 
 dem_index contact_list(const contact *c, const double *x, dem_contact *list)

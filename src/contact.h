@@ -34,10 +34,13 @@ void contact_constrain(contact *c, const double *y, double *a);
  *  returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
-/** Follows an accepted step that ends at y: adds the reactions' impulses and the work of friction over it (Simpson's
- *  rule), refreshes the forces, and notes which nodes have come round the end of an obstacle.
- *  \param[out] state  [4 n] scratch */
-void contact_follow(contact *c, const path *p, const double *y, double *state);
+/** Follows an accepted step that ends at y: refreshes the forces, and notes which nodes have come round the end of an
+ *  obstacle. */
+void contact_follow(contact *c, const double *y);
+
+/** Adds to the rates [2 n_obstacles + 1][2], after contact_constrain() in the same state: the force of each obstacle's
+ *  closed contacts, N; the part of it that is friction; and in the last place the power that friction takes, W. */
+void contact_account(const contact *c, const double *y, double *rate);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.

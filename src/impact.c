@@ -53,6 +53,12 @@ vec2 impact_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
     return after;
 }
 
+double impact_kept_up(const impact_surface *surface)
+{
+    const double square = surface->restitution * surface->restitution;
+    return square < 1.0 ? fmin(square / (1.0 - square), 50.0) : 0.0;
+}
+
 int impact_holding(const impact_surface *surface, int n, vec2 force, double *reaction)
 {
     double p[2];

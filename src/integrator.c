@@ -14,6 +14,8 @@
 
 enum { max_retries = 10 };
 
+static const double no_weight = 1e-100;
+
 struct integrator {
     integrator_problem problem;
     SUNContext sundials;
@@ -101,11 +103,13 @@ static int call_guards(realtype t, N_Vector y, realtype *g, void *user)
 static int call_weights(N_Vector y, N_Vector weights, void *user)
 {
     const integrator *I = user;
-    const dem_index n = 2 * I->problem.n_nodes;
+    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_books;
+    const double share = sqrt((double)n / (double)n_real); /* the norm is a mean over all */
     double *w = N_VGetArrayPointer(weights);
     (void)y;
-    for (dem_index k = 0; k < n; k++) w[k] = 1.0 / I->problem.position_error;
-    for (dem_index k = n; k < 2 * n; k++) w[k] = 1.0 / I->problem.velocity_error;
+    for (dem_index k = 0; k < 4 * n; k++) w[k] = no_weight;
+    for (dem_index k = 0; k < 2 * n_real; k++) w[k] = share / I->problem.position_error;
+    for (dem_index k = 2 * n; k < 2 * (n + n_real); k++) w[k] = share / I->problem.velocity_error;
     return 0;
 }
 

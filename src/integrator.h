@@ -12,6 +12,7 @@ typedef struct integrator integrator;
 
 typedef struct integrator_problem {
     dem_index n_nodes;  /* y has 4 n_nodes entries */
+    dem_index n_books;  /* the last of these nodes are integrated along, and have no part in the error */
     dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
     /** Derivative f of y at t; returns 0, or 1 if it is not finite. */
     int (*derivative)(double t, const double *y, double *f, void *context);

@@ -343,6 +343,17 @@ static bool round_corner(const obstacle_edge *edge, vec2 x, double distance)
            (turns_after && distance_beside(edge->b, edge->next, x) > distance);
 }
 
+/* Whether x, behind the edge with its foot beyond an end of it, is behind the neighbour there too, where the boundary
+ * turns in: it is inside the body then, between the two. */
+static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
+{
+    const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
+               previous = vec2_sub(edge->a, edge->previous);
+    if (fabs(beyond) > edge->depth) return false;
+    if (beyond > 0.0) return vec2_cross(way, next) < 0.0 && vec2_cross(next, vec2_sub(x, edge->b)) > 0.0;
+    return vec2_cross(previous, way) < 0.0 && vec2_cross(previous, vec2_sub(x, edge->a)) > 0.0;
+}
+
 static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
 {
     const obstacle_edge *edge = l->edge;
@@ -350,12 +361,13 @@ static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obsta
     const double distance = vec2_dot(vec2_sub(edge->a, v->at), l->normal);
     const double place = vec2_dot(vec2_sub(v->at, edge->a), l->tangent);
     if (!(distance > -edge->depth && distance < edge->reach)) return;
-    if (!(place >= -edge->tolerance && place <= l->length + edge->tolerance)) return;
+    const double beyond = place - fmin(fmax(place, 0.0), l->length);
+    if (fabs(beyond) > edge->tolerance && !(distance < 0.0 && in_notch(edge, v->at, beyond))) return;
     if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
     const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
     if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
     if (distance < 0.0 && round_corner(edge, v->at, distance)) return;
-    *deepest = (obstacle_poke){distance, k, place / l->length, l->normal};
+    *deepest = (obstacle_poke){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
 }
 
 /* A distance below which no vertex in the box is that could be taken; infinity if none could. */
@@ -368,7 +380,8 @@ static double shallowest(const box *b, const line *l)
     const double tx = fabs(l->tangent.x), ty = fabs(l->tangent.y);
     const double place = vec2_dot(centre, l->tangent), along = tx * half.x + ty * half.y + rounding;
     const double distance = -vec2_dot(centre, l->normal), across = ty * half.x + tx * half.y + rounding;
-    const bool beside = place + along < -edge->tolerance || place - along > l->length + edge->tolerance;
+    const double longer = fmax(edge->tolerance, edge->depth);
+    const bool beside = place + along < -longer || place - along > l->length + longer;
     return beside || distance + across < -edge->depth ? INFINITY : distance - across;
 }
 

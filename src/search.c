@@ -74,13 +74,23 @@ static double fastest(const path *p, double t, const contact_site *site)
     return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
 }
 
+/* Whether a site that moves by no more than `reach` in the step meets nothing in it. */
+static bool out_of_reach(const contact_scene *scene, const contact_site *site, const path *p, double reach)
+{
+    const contact_spot spot = site_spot_on(site, p, p->end);
+    const contact_gap gap = site_gap(scene, site, &spot);
+    if (gap.distance + scene->rule.skin <= reach) return false;
+    const bool bound = gap.feature < 0 && isfinite(gap.distance); /* a vertex beside the edge is no part of its gap */
+    return !site_is_edge(site) || bound || !site_near(scene, site, &spot, reach + scene->rule.skin);
+}
+
 double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
 {
     enum { n = 8 };
     const double h = p->end - p->t0;
-    const sample last = sample_at(scene, site, p, p->end);
     const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
-    if (last.guard > reach) return INFINITY;
+    if (out_of_reach(scene, site, p, reach)) return INFINITY;
+    const sample last = sample_at(scene, site, p, p->end);
     sample s = sample_at(scene, site, p, p->t0);
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);

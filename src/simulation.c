@@ -45,15 +45,29 @@ struct dem_simulation {
     dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
     dem_index n_contacts;
     measures *measures;
-    double damping_energy; /* J, taken so far */
+    bool damped; /* whether springs or masses are */
     dem_index events;
     watcher watchers[max_observers];
     int n_watchers;
 };
 
+/* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
+ * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
+ * the energies that friction and damping take. */
+static dem_index n_books(const dem_model *model)
+{
+    return 2 * model->obstacles.n + 1;
+}
+
 static dem_index unknowns(const dem_model *model)
 {
-    return 2 * model->lattice.n_nodes; /* of positions, and as many of velocities */
+    return 2 * (model->lattice.n_nodes + n_books(model)); /* of positions, and as many of velocities */
+}
+
+/* The books in a state. */
+static const double *books_of(const dem_simulation *s, const double *y)
+{
+    return y + unknowns(s->model) + 2 * s->model->lattice.n_nodes;
 }
 
 /* ---- what the integrator asks ---- */
@@ -83,6 +97,10 @@ static int derivative(double t, const double *y, double *f, void *context)
         vec2_put(a, i, ai);
     }
     contact_constrain(&s->contact, y, a);
+    double *rate = a + 2 * s->model->lattice.n_nodes;
+    for (dem_index k = 0; k < 2 * n_books(s->model); k++) rate[k] = 0.0;
+    contact_account(&s->contact, y, rate);
+    if (s->damped) rate[4 * s->model->obstacles.n + 1] = diagnostics_damping_power(s->model, load, y, y + n);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, f);
     return 1;
@@ -184,26 +202,12 @@ static dem_status go_on(dem_simulation *s, dem_status status)
     return status == DEM_ERROR_CONTACT ? status : first_of(status, tell_step(s));
 }
 
-/* What damping takes in the step in hand, whose end is in y: Simpson's rule. */
-static void follow_damping(dem_simulation *s)
-{
-    const model_load *load = &s->contact.sites.scene.rule.load;
-    const path *p = &s->path;
-    if (s->model->springs.viscosity == NULL && load->mass_damping == 0.0) return;
-    path_state(p, 0.5 * (p->t0 + p->end), s->frame);
-    const double start = diagnostics_damping_power(s->model, load, p->y0, p->y0 + unknowns(s->model)),
-                 middle = diagnostics_damping_power(s->model, load, s->frame, s->frame + unknowns(s->model)),
-                 end = diagnostics_damping_power(s->model, load, s->y, s->y + unknowns(s->model));
-    s->damping_energy += (p->end - p->t0) / 6.0 * (start + 4.0 * middle + end);
-}
-
 static dem_status commit_step(dem_simulation *s)
 {
     const contact_listener listener = {tell_event, s};
     const path *p = &s->path;
     path_state(p, p->end, s->y);
-    follow_damping(s);
-    contact_follow(&s->contact, p, s->y, s->frame);
+    contact_follow(&s->contact, s->y);
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
@@ -295,7 +299,7 @@ static dem_status fill_options(dem_simulation *s)
 static dem_status allocate(dem_simulation *s)
 {
     const size_t n = 2 * (size_t)unknowns(s->model);
-    s->y = malloc(n * sizeof *s->y);
+    s->y = calloc(n, sizeof *s->y);
     s->frame = malloc(n * sizeof *s->frame);
     s->contacts = calloc(2 * (size_t)(s->model->n_sites + s->model->surface.n_edges) + 1, sizeof *s->contacts);
     s->measures = calloc(1, sizeof *s->measures);
@@ -307,7 +311,7 @@ static dem_status allocate(dem_simulation *s)
 static dem_status set_up(dem_simulation *s)
 {
     const dem_model *model = s->model;
-    const size_t block = (size_t)unknowns(model) * sizeof *s->y;
+    const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
     TRY(fill_options(s));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
@@ -321,10 +325,13 @@ static dem_status set_up(dem_simulation *s)
                                .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                                .max_impacts = o->max_impacts,
                                .vertices = o->vertices != 0,
+                               .n_books = n_books(model),
                                .load = {{o->gravity[0], o->gravity[1]}, o->mass_damping}};
+    s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
-    const integrator_problem problem = {.n_nodes = model->lattice.n_nodes,
+    const integrator_problem problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
+                                        .n_books = n_books(model),
                                         .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * s->contact.sites.n : 0,
                                         .derivative = derivative,
                                         .guards = guards,
@@ -400,8 +407,8 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
         m->energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
     m->has_energy = true;
     m->energy.impact = s->contact.sites.books.impact;
-    m->energy.friction = s->contact.sites.books.friction;
-    m->energy.damping = s->damping_energy;
+    m->energy.friction = books_of(s, s->seen)[4 * s->model->obstacles.n];
+    m->energy.damping = books_of(s, s->seen)[4 * s->model->obstacles.n + 1];
     m->energy.projection = s->contact.sites.books.projection;
     return m->energy;
 }
@@ -439,10 +446,11 @@ dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
     const contact_books *books = &s->contact.sites.books;
+    const double *lasting = books_of(s, s->seen), *rubbing = lasting + 2 * s->model->obstacles.n;
     dem_obstacle_load load = diagnostics_reaction(s->contacts, s->n_contacts, obstacle);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = books->impulse[2 * obstacle + k];
-        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k];
+        load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[2 * obstacle + k];
+        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[2 * obstacle + k];
     }
     return load;
 }

@@ -84,6 +84,15 @@ static double edge_clearance(const contact_scene *scene, const contact_site *sit
     return poke.vertex < 0 ? edge.reach : poke.distance;
 }
 
+bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach)
+{
+    obstacle_edge edge = edge_query(scene, site, spot);
+    edge.tolerance = edge.depth = edge.reach = reach;
+    edge.previous = edge.a;
+    edge.next = edge.b;
+    return obstacles_poke(&scene->model->obstacles, &edge).vertex >= 0;
+}
+
 bool site_clear(const contact_scene *scene, contact_site *site, const double *x, dem_index *feature)
 {
     const contact_spot spot = site_spot(site, x);
@@ -131,7 +140,8 @@ int site_end_passed(const contact_scene *scene, const contact_site *site, int q,
     if (sticks(site, q) || end_guard(scene, site, q, x, &end) > 0.0) return 0;
     const touch_frame f = touch_frame_at(scene, site, q, x, v);
     double speed = vec2_dot(f.velocity, f.tangent);
-    for (int p = 0; p < f.n && speed == 0.0; p++) /* at rest it heads where it is driven */
+    const bool rests = speed == 0.0;
+    for (int p = 0; p < f.n && rests; p++) /* then it heads where it is driven */
         speed +=
             f.weight[p] * vec2_dot(model_acceleration(scene->model, &scene->rule.load, f.node[p], x, v), f.tangent);
     const double heading = site_is_edge(site) ? -speed : speed; /* a vertex moves along the edge against the body */
@@ -145,13 +155,18 @@ bool site_turns(const contact_scene *scene, const contact_site *site, int q, con
 {
     const int sign = site->closed[q].sign;
     return sign != 0 && touch_friction(scene, site, site->closed[q].feature) > 0.0 &&
-           sign * vec2_dot(f->velocity, f->tangent) < -rest_noise * scene->rule.skin / scene->rule.max_step;
+           sign * vec2_dot(f->velocity, f->tangent) <
+               -fmax(f->noise, rest_noise * scene->rule.skin / scene->rule.max_step);
 }
+
+/* By so much a friction at its limit may seem to be beyond it. */
+static const double limit_noise = 1e-10;
 
 double site_grip(const contact_scene *scene, const contact_site *site, int q, const reaction *force)
 {
     if (!sticks(site, q)) return INFINITY;
-    return touch_friction(scene, site, site->closed[q].feature) * force->normal - fabs(force->tangent);
+    const double limit = touch_friction(scene, site, site->closed[q].feature) * force->normal;
+    return limit * (1.0 + limit_noise) - fabs(force->tangent);
 }
 
 /* The gap as a guard: finite where there is nothing. */

@@ -30,6 +30,9 @@ contact_spot site_spot_on(const contact_site *site, const path *p, double t);
  *  are guarded by themselves; of an edge its vertex. */
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
 
+/** Whether a vertex is within reach (m) of an edge, anywhere. */
+bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
+
 /** Notes how far from everything the site is: nearer than that nothing is looked for until it has moved as far.
  *  Returns true if a node that cannot have touched anything is inside: it has come round the end of `feature`. */
 bool site_clear(const contact_scene *scene, contact_site *site, const double *x, dem_index *feature);

@@ -150,23 +150,18 @@ void sites_move(contact_sites *c, dem_index i, vec2 shift, double *x)
     c->books.projection += model_node_energy(c->scene.model, gravity, i, x) - before;
 }
 
-void sites_store(contact_sites *c, dem_index k, const double *x, const double *v)
+void sites_store(contact_sites *c, dem_index k)
 {
-    contact_site *site = &c->list[k];
-    for (int q = 0; q < site->n_closed; q++) {
-        const reaction force = c->reactions.force[k][q];
-        const touch_frame f = touch_frame_at(&c->scene, site, q, x, v);
-        site->closed[q].force = force.normal;
-        site->closed[q].friction = force.tangent;
-        site->closed[q].normal = f.normal;
-        site->closed[q].power = -force.tangent * vec2_dot(f.velocity, f.tangent);
+    for (int q = 0; q < c->list[k].n_closed; q++) {
+        c->list[k].closed[q].force = c->reactions.force[k][q].normal;
+        c->list[k].closed[q].friction = c->reactions.force[k][q].tangent;
     }
 }
 
 void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v)
 {
     reactions_solve(&c->reactions, c->reactions.group[k], x, v);
-    sites_store(c, k, x, v);
+    sites_store(c, k);
 }
 
 dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,

@@ -42,7 +42,7 @@ dem_status sites_open(contact_sites *c, dem_index k, int q);
 void sites_move(contact_sites *c, dem_index i, vec2 shift, double *x);
 
 /** Stores the forces of a site's contacts as last solved for. */
-void sites_store(contact_sites *c, dem_index k, const double *x, const double *v);
+void sites_store(contact_sites *c, dem_index k);
 
 /** Solves for the forces of the site's group and stores them in the site's contacts. */
 void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v);

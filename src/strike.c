@@ -11,6 +11,7 @@
 enum { most_sweeps = 200 };
 
 static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
+static const double group_noise = 1e-11;        /* and what is left to the closing of a group */
 
 static impact_surface surface_of(const contact_sites *c, dem_index k, dem_index feature, vec2 normal)
 {
@@ -25,18 +26,16 @@ static int sign_of(const contact_sites *c, dem_index k, dem_index feature, doubl
     return speed < 0.0 ? -1 : 1;
 }
 
-/* Speed at or below which what an acceleration `back` returns is at rest: the hop would be lower than the position
- * tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of the skin
- * keep up, of height skin eta^2/(1 - eta^2); or it would be shorter than twice the window. Nothing is at rest (-1) that
- * does not return. */
-static double resting_speed(const contact_sites *c, vec2 x, double back, double restitution)
+/* Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
+ * position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
+ * the skin keep up; or it would be shorter than twice the window. Nothing is at rest (-1) that does not return. */
+static double resting_speed(const contact_sites *c, vec2 x, double back, const impact_surface *on)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     if (rule->rest_speed > 0.0) return rule->rest_speed;
-    const double rounding = noise * fmax(fabs(x.x), fabs(x.y)), square = restitution * restitution;
-    const double kept_up = 2.0 * rule->skin * square / fmax(1.0 - square, 0.02);
-    const double height = fmax(fmax(rule->position_error, rounding), restitution < 1.0 ? kept_up : 0.0);
+    const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
+    const double height = fmax(fmax(rule->position_error, rounding), 2.0 * impact_kept_up(on) * rule->skin);
     return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
 
@@ -81,16 +80,13 @@ static contact_hit lasting(const contact_sites *c, dem_index k, contact_hit hit,
     }
     const int holding = impact_holding(wall, hit.n, a, push);
     const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
-    if (speed == 0.0 ||
-        (holding == 3 &&
-         (back <= 0.0 ||
-          speed <= resting_speed(c, at, back, fmax(wall[0].restitution, wall[hit.n - 1].restitution))))) {
+    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= resting_speed(c, at, back, &wall[0])))) {
         for (int q = 0; q < hit.n; q++)
             if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
         return held;
     }
     const int along = hit.n == 2 && away[1] < away[0] ? 1 : 0;
-    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal), wall[along].restitution))
+    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal), &wall[along]))
         held = (contact_hit){1, {hit.feature[along]}};
     return held;
 }
@@ -294,8 +290,8 @@ static void judge(contact_sites *c, dem_index group, double tolerance, const con
             for (int e = 0; e < f.n; e++)
                 back -= f.weight[e] * vec2_dot(f.normal, model_acceleration(c->scene.model, &c->scene.rule.load,
                                                                             f.node[e], now->x, now->v));
-            const double restitution = touch_obstacle(&c->scene, &c->list[k], touch->feature)->restitution;
-            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, restitution);
+            const impact_surface wall = surface_of(c, k, touch->feature, f.normal);
+            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, &wall);
             touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
             const int sign = sign_of(c, k, touch->feature, fabs(speed) <= tolerance ? 0.0 : speed);
             if (sign == 0 && (touch->fresh || touch->sign != 0)) touch->place = fmin(fmax(f.place, 0.0), 1.0);
@@ -403,7 +399,7 @@ static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit
     TRY(take_up(c, k, hit));
     const dem_index group = c->reactions.group[k];
     straighten(c, k, now);
-    const double tolerance = noise * prepare(c, group, now);
+    const double tolerance = group_noise * prepare(c, group, now);
     sweep(c, group, tolerance, now);
     judge(c, group, tolerance, now);
     if (take_back(c, group, now)) {
@@ -435,15 +431,16 @@ static vec2 edge_normal(const contact_site *edge, const double *x)
 bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const contact_moment *now)
 {
     const contact_site *here = &c->list[edge], *there = &c->list[next];
-    const double restitution = touch_obstacle(&c->scene, here, here->closed[0].feature)->restitution;
-    const dem_index node = here->node == there->other ? here->node : here->other;
-    const vec2 v = vec2_at(now->v, node), at = vec2_at(now->x, node);
+    const dem_index node = here->node == there->other ? here->node : here->other, feature = here->closed[0].feature;
     const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
-    const impact_surface sides[2] = {{.normal = edge_normal(here, now->x)}, {.normal = edge_normal(there, now->x)}};
-    const double speed = vec2_norm(v), back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0;
-    double push[2];
-    if (impact_holding(sides, 2, a, push) != 3) return false;
-    return speed == 0.0 || back <= 0.0 || speed <= resting_speed(c, at, back, restitution);
+    const impact_surface sides[2] = {surface_of(c, edge, feature, edge_normal(here, now->x)),
+                                     surface_of(c, edge, feature, edge_normal(there, now->x))};
+    double push_on[2];
+    vec2 kick;
+    if (impact_holding(sides, 2, a, push_on) != 3) return false;
+    const vec2 after = impact_rebound(&sides[1], 1, vec2_at(now->v, node), &kick);
+    const double speed = vec2_norm(after), back = speed > 0.0 ? -vec2_dot(a, after) / speed : 0.0;
+    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, &sides[0]);
 }
 
 void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now)

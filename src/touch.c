@@ -2,6 +2,8 @@
 /* Frames of closed contacts. */
 #include "touch.h"
 
+#include <float.h>
+
 /* How fast a closed vertex contact that the integrator's error has opened is drawn back, in units of 1/max_step. */
 static const double draw_back = 0.1;
 
@@ -61,6 +63,7 @@ static touch_frame edge_frame(const contact_scene *scene, const contact_site *si
     f.turning = touch->sign == 0 ? 0.0 : 2.0 * turn * vt;
     f.keep[0] = f.turning - beta * (2.0 * vn + beta * f.gap);
     f.keep[1] = -beta * (2.0 * vt + beta * vec2_dot(off, t));
+    f.noise = 64.0 * DBL_EPSILON * (fabs(wa) * vec2_norm(va) + fabs(wb) * vec2_norm(vb));
     f.mobility = wa * wa * inverse_mass[site->node] + wb * wb * inverse_mass[site->other];
     return f;
 }

@@ -13,8 +13,6 @@ typedef struct contact_touch {
     bool held;              /* one of two that hold a node at rest in a corner; there is no friction then */
     double place;           /* of a vertex on the edge where it sticks, 0 at its start, 1 at its end */
     double force, friction; /* N, along normal and tangent, at the last accepted step */
-    vec2 normal;            /* then */
-    double power;           /* W, taken by friction then */
     /* of the impact under way: */
     bool fresh;    /* the contact was not closed before */
     bool opens;    /* and will not be after */
@@ -49,6 +47,7 @@ typedef struct contact_rule {
     double storm_time;     /* s */
     dem_index max_impacts; /* within storm_time at one site */
     bool vertices;         /* whether edges touch vertices */
+    dem_index n_books;     /* places behind the nodes in a state, for what is integrated along */
     model_load load;
 } contact_rule;
 
@@ -71,6 +70,7 @@ typedef struct touch_frame {
     double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
                              what the integrator's error has opened */
     double mobility;      /* 1/kg, sum of weight^2/m */
+    double noise;         /* m/s, what rounding may leave of the velocity of a point at rest: a node's is set */
 } touch_frame;
 
 static inline const segment *scene_segment(const contact_scene *scene, dem_index s)
@@ -87,6 +87,12 @@ static inline double scene_margin(const contact_scene *scene)
 static inline bool site_is_edge(const contact_site *site)
 {
     return site->other >= 0;
+}
+
+/** Where the velocities begin in a state y = (x, v). */
+static inline dem_index scene_velocities(const contact_scene *scene)
+{
+    return 2 * (scene->model->lattice.n_nodes + scene->rule.n_books);
 }
 
 /** The segment that a contact is on, or that ends in the vertex it is on. */

@@ -683,11 +683,11 @@ static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_does_not_
     obstacle_edge edge = edge_between(0.125, 0.25, 1.0, 0.25);
     assert_no_poke(&o, &edge);
     edge.tolerance = 0.125;
-    assert_close(obstacles_poke(&o, &edge).place, -0.125 / 0.875, 1e-15);
+    assert_close(obstacles_poke(&o, &edge).place, 0.0, 0.0);
     edge = edge_between(-1.0, 0.25, -0.125, 0.25);
     assert_no_poke(&o, &edge);
     edge.tolerance = 0.125;
-    assert_close(obstacles_poke(&o, &edge).place, 1.0 + 0.125 / 0.875, 1e-15);
+    assert_close(obstacles_poke(&o, &edge).place, 1.0, 0.0);
     edge = edge_between(-1.0, 0.5, 1.0, 0.5);
     assert_no_poke(&o, &edge); /* as far as the reach */
     edge = edge_between(-1.0, -0.5, 1.0, -0.5);
@@ -753,14 +753,21 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
         if (k == edge->except[0] || k == edge->except[1]) continue;
         if (before->obstacle == edge->without[0] || before->obstacle == edge->without[1]) continue;
         if (distance <= -edge->depth || distance >= edge->reach || distance >= first.distance) continue;
-        if (place < -edge->tolerance || place > length + edge->tolerance) continue;
+        const bool behind_next = vec2_cross(vec2_sub(edge->next, edge->b), vec2_sub(o->vertices[k].at, edge->b)) > 0.0,
+                   behind_previous =
+                       vec2_cross(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
+        const bool notch_b = vec2_cross(way, vec2_sub(edge->next, edge->b)) < 0.0 && behind_next && place > length &&
+                             place - length <= edge->depth && distance < 0.0;
+        const bool notch_a = vec2_cross(vec2_sub(edge->a, edge->previous), way) < 0.0 && behind_previous &&
+                             place < 0.0 && -place <= edge->depth && distance < 0.0;
+        if ((place < -edge->tolerance && !notch_a) || (place > length + edge->tolerance && !notch_b)) continue;
         if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
         const double turn_a = vec2_cross(vec2_sub(edge->a, edge->previous), way),
                      turn_b = vec2_cross(way, vec2_sub(edge->next, edge->b));
         if (distance < 0.0 && (beside_neighbour(edge->previous, edge->a, o->vertices[k].at, turn_a, distance) ||
                                beside_neighbour(edge->b, edge->next, o->vertices[k].at, turn_b, distance)))
             continue;
-        first = (obstacle_poke){distance, k, place / length, normal};
+        first = (obstacle_poke){distance, k, fmin(fmax(place / length, 0.0), 1.0), normal};
     }
     return first;
 }
