@@ -197,6 +197,7 @@ static dem_status settle(contact_sites *c, dem_index k, contact_moment *now, boo
 {
     bool here = false;
     contact_site *site = &c->list[k];
+    if (site->asleep) return DEM_OK;
     TRY(site->n_closed == 0 ? settle_free(c, k, now, &here) : settle_closed(c, k, now, &here));
     if (!here) return DEM_OK;
     *changed = true;
@@ -223,19 +224,6 @@ static void weigh_all(contact_sites *c, const double *x, const double *v)
     }
 }
 
-/* Where a free node is now: it may have come round a free end, or back. */
-static void refresh_place(contact_sites *c, dem_index k, const double *x)
-{
-    contact_site *site = &c->list[k];
-    dem_index feature;
-    if (site_clear(&c->scene, site, x, &feature)) sites_go_behind(c, k, scene_segment(&c->scene, feature)->obstacle);
-    if (site_is_edge(site) || site->behind[0] < 0) return;
-    const double gap =
-        obstacles_gap_of(&c->scene.model->obstacles, vec2_at(x, site->node), scene_margin(&c->scene), site->behind[0])
-            .distance;
-    if (gap > 0.0) sites_go_behind(c, k, -1);
-}
-
 /* Puts closed nodes back where rounding has taken them from. */
 static void straighten_nodes(contact_sites *c, double *x)
 {
@@ -253,7 +241,7 @@ static void reflect_early(contact_sites *c, contact_moment *now)
 {
     for (dem_index k = 0; k < c->n; k++) {
         const contact_site *site = &c->list[k];
-        if (site->n_closed > 0 || sites_coupled(c, k)) continue;
+        if (site->n_closed > 0 || site->asleep || sites_coupled(c, k)) continue;
         const contact_spot spot = site_spot(site, now->x);
         const contact_gap gap = site_gap(&c->scene, site, &spot);
         if (gap.feature < 0) continue;
@@ -272,8 +260,11 @@ void contact_guards(contact *c, const double *y, double *g)
 {
     contact_sites *s = &c->sites;
     for (dem_index q = 0; q < s->reactions.n_groups; q++) reactions_solve(&s->reactions, q, y, velocities(c, y));
-    for (dem_index k = 0; k < s->n; k++)
+    for (dem_index k = 0; k < SITE_GUARDS * s->n; k++) g[k] = 1.0;
+    for (dem_index a = 0; a < c->watch.n; a++) {
+        const dem_index k = c->watch.awake[a];
         site_guards(&s->scene, &s->list[k], s->reactions.force[k], y, velocities(c, y), &g[SITE_GUARDS * k]);
+    }
 }
 
 void contact_constrain(contact *c, const double *y, double *a)
@@ -283,12 +274,16 @@ void contact_constrain(contact *c, const double *y, double *a)
 
 dem_status contact_create(contact *out, const dem_model *model, const contact_rule *rule)
 {
-    out->idle = 0;
-    return sites_create(&out->sites, model, rule);
+    *out = (contact){0};
+    TRY(sites_create(&out->sites, model, rule));
+    const dem_status status = watch_create(&out->watch, out->sites.n);
+    if (status != DEM_OK) sites_destroy(&out->sites);
+    return status;
 }
 
 void contact_destroy(contact *c)
 {
+    watch_destroy(&c->watch);
     sites_destroy(&c->sites);
 }
 
@@ -308,7 +303,7 @@ dem_status contact_resolve(contact *c, double t, double *y, const contact_listen
     if (s->scene.rule.window > 0.0 && s->books.counts.impacts > impacts) reflect_early(s, &now);
     straighten_nodes(s, now.x);
     weigh_all(s, now.x, now.v);
-    for (dem_index k = 0; k < s->n; k++) refresh_place(s, k, now.x);
+    watch_look(&c->watch, s, now.x, watch_speed(s, now.v));
     return now.told;
 }
 
@@ -353,23 +348,34 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
     return now.told != DEM_OK ? now.told : status;
 }
 
+/* No node that may touch goes further in the step. */
+static double furthest(const contact *c, const path *p)
+{
+    const double start = watch_speed(&c->sites, velocities(c, p->y0)),
+                 end = watch_speed(&c->sites, velocities(c, p->y1));
+    return 2.0 * (p->t1 - p->t0) * fmax(start, end);
+}
+
 bool contact_check(contact *c, path *p, bool rooted, double *state)
 {
     contact_sites *s = &c->sites;
     const double last = rooted ? p->end - search_resolution(p) : INFINITY; /* what is due then is the root found */
     double first = INFINITY;
+    const double way = furthest(c, p);
     for (dem_index k = 0; k < s->n; k++)
-        if (s->list[k].n_closed == 0) first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
+        if (s->list[k].n_closed == 0 && watch_wakes(&c->watch, &s->list[k], way))
+            first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
     for (dem_index g = 0; g < s->reactions.n_groups; g++) {
-        search_state(&s->reactions, g, p, p->end, state);
-        reactions_solve(&s->reactions, g, state, velocities(c, state));
+        const double *y = p->end == p->t1 ? p->y1 : state;
+        if (y == state) search_state(&s->reactions, g, p, p->end, state);
+        reactions_solve(&s->reactions, g, y, velocities(c, y));
         for (dem_index m = s->reactions.row[g]; m < s->reactions.row[g + 1]; m++) {
-            const dem_index k = s->reactions.members[m];
-            const contact_site *site = &s->list[k];
-            if (!site_due(&s->scene, site, s->reactions.force[k], state, velocities(c, state))) continue;
+            const contact_site *site = &s->list[s->reactions.members[m]];
+            const reaction *force = s->reactions.force[s->reactions.members[m]];
+            if (!site_due(&s->scene, site, force, y, velocities(c, y))) continue;
             first = fmin(first, search_due(&s->reactions, site, p, state));
-            search_state(&s->reactions, g, p, p->end, state);
-            reactions_solve(&s->reactions, g, state, velocities(c, state));
+            if (y == state) search_state(&s->reactions, g, p, p->end, state);
+            reactions_solve(&s->reactions, g, y, velocities(c, y));
         }
     }
     if (!(first < last)) return false;
@@ -378,11 +384,12 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     return true;
 }
 
-void contact_follow(contact *c, const double *y)
+void contact_follow(contact *c, const path *p, const double *y)
 {
     contact_sites *s = &c->sites;
+    c->watch.travelled += furthest(c, p);
     weigh_all(s, y, velocities(c, y));
-    for (dem_index k = 0; k < s->n; k++) refresh_place(s, k, y);
+    watch_look(&c->watch, s, y, watch_speed(s, velocities(c, y)));
 }
 
 void contact_account(const contact *c, const double *y, double *rate)

@@ -6,10 +6,11 @@
 #define DEM_CONTACT_H
 
 #include "search.h"
-#include "sites.h"
+#include "watch.h"
 
 typedef struct contact {
     contact_sites sites;
+    contact_watch watch;
     dem_index idle; /* events in a row that changed nothing */
 } contact;
 
@@ -34,9 +35,8 @@ void contact_constrain(contact *c, const double *y, double *a);
  *  returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
-/** Follows an accepted step that ends at y: refreshes the forces, and notes which nodes have come round the end of an
- *  obstacle. */
-void contact_follow(contact *c, const double *y);
+/** Follows an accepted step that ends at y: refreshes the forces, and looks where the sites are. */
+void contact_follow(contact *c, const path *p, const double *y);
 
 /** Adds to the rates [2 n_obstacles + 1][2], after contact_constrain() in the same state: the force of each obstacle's
  *  closed contacts, N; the part of it that is friction; and in the last place the power that friction takes, W. */

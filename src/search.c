@@ -80,8 +80,8 @@ static bool out_of_reach(const contact_scene *scene, const contact_site *site, c
     const contact_spot spot = site_spot_on(site, p, p->end);
     const contact_gap gap = site_gap(scene, site, &spot);
     if (gap.distance + scene->rule.skin <= reach) return false;
-    const bool bound = gap.feature < 0 && isfinite(gap.distance); /* a vertex beside the edge is no part of its gap */
-    return !site_is_edge(site) || bound || !site_near(scene, site, &spot, reach + scene->rule.skin);
+    /* a vertex beside the edge is no part of its gap */
+    return !site_is_edge(site) || !site_near(scene, site, &spot, reach + scene->rule.skin);
 }
 
 double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)

@@ -207,7 +207,7 @@ static dem_status commit_step(dem_simulation *s)
     const contact_listener listener = {tell_event, s};
     const path *p = &s->path;
     path_state(p, p->end, s->y);
-    contact_follow(&s->contact, s->y);
+    contact_follow(&s->contact, p, s->y);
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;

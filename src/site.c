@@ -55,16 +55,9 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_site *site
     return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
-static double moved(const contact_site *site, const contact_spot *spot)
-{
-    return fmax(vec2_norm(vec2_sub(spot->a, site->clear_at[0])), vec2_norm(vec2_sub(spot->b, site->clear_at[1])));
-}
-
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
 {
     if (site->n_closed == 2) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
-    const double left = site->n_closed == 0 ? site->clear - moved(site, spot) : 0.0;
-    if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
     return site_is_edge(site) ? edge_gap(scene, site, spot) : node_gap(scene, site, spot->a);
 }
 
@@ -93,19 +86,13 @@ bool site_near(const contact_scene *scene, const contact_site *site, const conta
     return obstacles_poke(&scene->model->obstacles, &edge).vertex >= 0;
 }
 
-bool site_clear(const contact_scene *scene, contact_site *site, const double *x, dem_index *feature)
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
+                      dem_index *nearest)
 {
-    const contact_spot spot = site_spot(site, x);
-    const double way = moved(site, &spot);
-    if (site->n_closed > 0 || way < 0.5 * site->clear) return false;
-    const contact_gap gap = node_gap(scene, site, spot.a);
-    const double clear = site_is_edge(site) ? edge_clearance(scene, site, &spot) : gap.distance;
-    const bool untouched = !site_is_edge(site) && way < site->clear;
-    *feature = gap.feature;
-    site->clear = fmax(0.0, clear - 2.0 * scene_margin(scene));
-    site->clear_at[0] = spot.a;
-    site->clear_at[1] = spot.b;
-    return untouched && gap.distance < 0.0;
+    if (site_is_edge(site)) return edge_clearance(scene, site, spot);
+    const contact_gap gap = node_gap(scene, site, spot->a);
+    *nearest = gap.feature;
+    return gap.distance;
 }
 
 /* ---- guards of closed contacts ---- */

@@ -13,7 +13,7 @@ enum { SITE_GUARDS = 4 };
 /** Distance to what a site is not in contact with. */
 typedef struct contact_gap {
     double distance;   /* m, > 0 in front; infinity: nothing there */
-    dem_index feature; /* segment, or vertex; -1: none, or the distance is a lower bound */
+    dem_index feature; /* segment, or vertex; -1: none */
     double place;      /* of a vertex on the edge, 0 to 1 */
     vec2 normal;       /* unit, the way in which the distance grows */
 } contact_gap;
@@ -33,9 +33,10 @@ contact_gap site_gap(const contact_scene *scene, const contact_site *site, const
 /** Whether a vertex is within reach (m) of an edge, anywhere. */
 bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
 
-/** Notes how far from everything the site is: nearer than that nothing is looked for until it has moved as far.
- *  Returns true if a node that cannot have touched anything is inside: it has come round the end of `feature`. */
-bool site_clear(const contact_scene *scene, contact_site *site, const double *x, dem_index *feature);
+/** How far at least a free site is from everything that it can touch, m; < 0 inside.
+ *  \param[out] nearest  of a node, the nearest segment */
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
+                      dem_index *nearest);
 
 /** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */
 int site_end_passed(const contact_scene *scene, const contact_site *site, int q, const double *x, const double *v);

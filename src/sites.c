@@ -82,11 +82,11 @@ void sites_go_behind(contact_sites *c, dem_index k, dem_index obstacle)
     const dem_index node = c->list[k].node;
     c->books.counts.behind += obstacle >= 0 ? 1 : -1;
     c->list[k].behind[0] = obstacle;
-    c->list[k].clear = 0.0;
+    c->list[k].asleep = false;
     for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_sites; p++) {
         contact_site *edge = &c->list[sites_of_edge(c, s->at[p])];
         edge->behind[edge->node == node ? 0 : 1] = obstacle;
-        edge->clear = 0.0;
+        edge->asleep = false;
     }
 }
 
@@ -130,7 +130,7 @@ dem_status sites_close(contact_sites *c, dem_index k, contact_touch touch)
 {
     contact_site *site = &c->list[k];
     site->closed[site->n_closed++] = touch;
-    site->clear = 0.0;
+    site->asleep = false;
     return sites_regroup(c);
 }
 

@@ -114,7 +114,7 @@ static dem_status hold_on(contact_sites *c, dem_index k, contact_hit held, const
 {
     contact_site *site = &c->list[k];
     site->n_closed = 0;
-    site->clear = 0.0;
+    site->asleep = false;
     for (int q = 0; q < held.n; q++) {
         const segment *s = scene_segment(&c->scene, held.feature[q]);
         const double speed = vec2_dot(vec2_at(now->v, site->node), s->tangent);
@@ -545,9 +545,7 @@ dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment 
     for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_sites; p++) {
         const dem_index e = sites_of_edge(c, s->at[p]);
         const contact_spot spot = site_spot(&c->list[e], now->x);
-        contact_site bare = c->list[e];
-        bare.clear = 0.0;
-        const contact_gap gap = site_gap(&c->scene, &bare, &spot);
+        const contact_gap gap = site_gap(&c->scene, &c->list[e], &spot);
         if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
         const obstacle_vertex *v = &c->scene.model->obstacles.vertices[gap.feature];
         if (vec2_norm(vec2_sub(v->at, vec2_at(now->x, node))) > 2.0 * tolerance || !in_cone(c, v, gap.normal)) continue;

@@ -32,8 +32,8 @@ typedef struct contact_site {
     contact_touch closed[2];
     bool stirred;       /* its nodes take part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
-    vec2 clear_at[2];   /* m, where the nodes were when the site was */
-    double clear;       /* m, this far from all that it can touch */
+    bool asleep;        /* it is free and far from all that it can touch, */
+    double wake;        /* m, until the bodies may have gone this far since the start */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
 } contact_site;

@@ -18,7 +18,7 @@ LAYERS = [
     {"reaction", "books"},
     {"site"},
     {"sites", "search"},
-    {"strike"},
+    {"strike", "watch"},
     {"contact", "trajectory", "deck"},
     {"simulation", "output", "report"},
     {"dem_batch"},

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The broad phase: which free sites are near enough to touch something. A site that is far from everything sleeps until
+ * the bodies may have gone as far. */
+#ifndef DEM_WATCH_H
+#define DEM_WATCH_H
+
+#include "sites.h"
+
+typedef struct contact_watch {
+    double travelled; /* m, no site has gone further since the start */
+    dem_index n;
+    dem_index *awake; /* [n] sites that are closed, or may touch something in the next step */
+} contact_watch;
+
+dem_status watch_create(contact_watch *out, dem_index n_sites);
+void watch_destroy(contact_watch *w);
+
+/** Fastest of the nodes that may touch, m/s. */
+double watch_speed(const contact_sites *c, const double *v);
+
+/** Looks again at what has woken, before a step from positions x. A node found inside an obstacle that it cannot have
+ *  touched has come round its free end, and is behind it; one that is behind may have come back.
+ *  \param speed  of watch_speed() there */
+void watch_look(contact_watch *w, contact_sites *c, const double *x, double speed);
+
+/** Whether a site may have touched something after `way` (m) more. */
+static inline bool watch_wakes(const contact_watch *w, const contact_site *site, double way)
+{
+    return !site->asleep || site->wake <= w->travelled + way;
+}
+
+#endif
