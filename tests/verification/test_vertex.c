@@ -224,6 +224,7 @@ static dem_status add_event(void *context, const dem_simulation *simulation, con
     (void)simulation;
     w->lasting += event->state != DEM_CONTACT_FREE;
     for (int d = 0; d < 2; d++) w->impulse[d] += event->impulse[d];
+    if (event->other >= 0) assert_close(event->weight, 0.5, 0.5 + 1e-4); /* on the edge, but for skins */
     if (event->kind == DEM_EVENT_IMPACT) w->least_energy = fmin(w->least_energy, event->energy);
     return DEM_OK;
 }
@@ -303,15 +304,15 @@ static verdict run_wedge(const wedge *c, double t_end)
     return v;
 }
 
-/* Node and apex at most twice the skin deep. What the impacts of the obstacle took and gave is in the velocities to
- * rounding, 1e-12 after some hundred restarts; what lasting contacts gave is integrated beside the motion, to its
- * tolerance. The ledger: row d's 1e-6 at rtol 1e-9, and proportional to rtol. */
+/* Node and apex at most twice the skin deep. Momentum: rounding of a hundred restarts is 1e-12 at most, and every
+ * further hundred add as much. The ledger: row d's 1e-6 at rtol 1e-9, and proportional to rtol. */
 static verdict check_wedge(const wedge *c, double t_end)
 {
     const verdict v = run_wedge(c, t_end);
+    const double rounding = 1e-12 * (1.0 + 0.01 * (double)v.counts.events);
     assert_true(v.apex < 2.0 && v.node < 2.0);
-    assert_true(v.balance < (v.lasting == 0 ? 1e-12 : c->rtol));
-    if (v.lasting == 0) assert_true(v.told < 1e-12);
+    assert_true(v.balance < rounding);
+    if (v.lasting == 0) assert_true(v.told < rounding);
     assert_true(v.closure < 1e3 * c->rtol);
     assert_true(v.counts.vertex_impacts >= 1);
     return v;

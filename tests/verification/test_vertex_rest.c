@@ -99,8 +99,8 @@ static void check_rest(const rack *r)
     const dem_counts counts = dem_simulation_counts(run.simulation);
     print_message("# mu %g: creep %.1e m, unbalance %.1e, %lld steps, %lld events, %lld impacts\n", r->friction, creep,
                   worst, (long long)counts.steps, (long long)counts.events, (long long)counts.impacts);
-    assert_true(creep < 1e-12);
-    assert_true(worst < 1e-9);
+    assert_true(creep < (r->friction > 0.0 ? 1e-14 : 1e-11)); /* rounding; 1e-12 g over 1 s where nothing holds it */
+    assert_true(worst < 1e-9);                                /* rounding of positions in stiff springs: 1e-11 */
     support_close(&run);
     dem_lattice_free(&lattice);
 }
