@@ -130,6 +130,20 @@ static dem_status pass_edge(contact_sites *c, dem_index k, int q, bool backwards
     return strike(c, next, (contact_hit){1, {feature}}, now);
 }
 
+/* Books what the contacts of a group got to stop. */
+static void book_stop(contact_sites *c, dem_index group, const contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &c->list[r->members[p]];
+        for (int q = 0; q < site->n_closed; q++) {
+            const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
+            const dem_obstacle *on = touch_obstacle(&c->scene, site, site->closed[q].feature);
+            strike_book(c, on - c->scene.model->obstacles.list, site->closed[q].stop, f.normal);
+        }
+    }
+}
+
 /* A sliding contact that has turned back comes to rest; if it does not stick there it slides the other way. */
 static dem_status stop(contact_sites *c, dem_index k, int q, contact_moment *now)
 {
@@ -137,7 +151,8 @@ static dem_status stop(contact_sites *c, dem_index k, int q, contact_moment *now
     const touch_frame f = touch_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
     touch->sign = 0;
     touch->place = f.place;
-    reactions_stop(&c->reactions, c->reactions.group[k], now->x, now->v);
+    c->books.impact += sites_stop(c, c->reactions.group[k], now->x, now->v);
+    book_stop(c, c->reactions.group[k], now);
     sites_weigh(c, k, now->x, now->v);
     const reaction force = {touch->force, touch->friction};
     if (site_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0) touch->sign = force.tangent > 0.0 ? -1 : 1;
@@ -342,12 +357,14 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
 {
     contact_sites *s = &c->sites;
     contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
-    for (dem_index k = 0; k < s->n; k++) {
-        const contact_spot spot = site_spot(&s->list[k], now.x);
-        const contact_gap gap = site_gap(&s->scene, &s->list[k], &spot);
-        if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) continue;
-        TRY(site_is_edge(&s->list[k]) ? touch_edge(s, k, &gap, &now) : touch_node(s, k, &gap, &now));
-    }
+    for (dem_index k = 0; k < s->n; k++)
+        for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
+            const contact_spot spot = site_spot(&s->list[k], now.x);
+            const contact_gap gap = site_gap(&s->scene, &s->list[k], &spot);
+            if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) break;
+            TRY(site_is_edge(&s->list[k]) ? touch_edge(s, k, &gap, &now) : touch_node(s, k, &gap, &now));
+            if (!site_is_edge(&s->list[k]) || s->list[k].n_closed != 1) break;
+        }
     const dem_status status = contact_resolve(c, t, y, listener);
     return now.told != DEM_OK ? now.told : status;
 }
@@ -386,12 +403,14 @@ static double first_due(contact *c, const path *p, double *state)
 bool contact_check(contact *c, path *p, bool rooted, double *state)
 {
     contact_sites *s = &c->sites;
-    const double last = rooted ? p->end - search_resolution(p) : INFINITY; /* what is due then is the root found */
+    const double last = rooted ? p->end - 4.0 * search_resolution(p) : INFINITY; /* later it is the root found */
     double first = INFINITY;
     const double way = furthest(c, p);
-    for (dem_index k = 0; k < s->n; k++)
-        if (s->list[k].n_closed == 0 && watch_wakes(&c->watch, &s->list[k], way))
-            first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
+    for (dem_index k = 0; k < s->n; k++) {
+        if (s->list[k].n_closed > 0 || !watch_wakes(&c->watch, &s->list[k], way)) continue;
+        s->list[k].asleep = false;
+        first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
+    }
     first = fmin(first, first_due(c, p, state));
     if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;

@@ -26,20 +26,25 @@ static int sign_of(const contact_sites *c, dem_index k, dem_index feature, doubl
     return speed < 0.0 ? -1 : 1;
 }
 
+/* Hops in a notch that this many skins hold up: it is passed a skin beyond its bottom. */
+static const double notch_skins = 8.0;
+
 /* Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
  * position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
- * the skin keep up; or it would be shorter than twice the window. Nothing is at rest (-1) that does not return. */
+ * the skin keep up (`on`: the surface, NULL: a notch); or it would be shorter than twice the window. Nothing is at rest
+ * (-1) that does not return. */
 static double resting_speed(const contact_sites *c, vec2 x, double back, const impact_surface *on)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     if (rule->rest_speed > 0.0) return rule->rest_speed;
     const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
-    const double height = fmax(fmax(rule->position_error, rounding), 2.0 * impact_kept_up(on) * rule->skin);
+    const double skins = on != NULL ? 2.0 * impact_kept_up(on) : notch_skins;
+    const double height = fmax(fmax(rule->position_error, rounding), skins * rule->skin);
     return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
 
-static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
+void strike_book(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
 {
     const vec2 along = vec2_scale(vec2_dot(impulse, normal), normal);
     books_add_impulse(&c->books, obstacle, impulse, vec2_sub(impulse, along));
@@ -150,7 +155,9 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
     if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
     const contact_hit held = lasting(c, k, hit, after, now);
     if (held.n > 0) { /* what stays has not rebounded, and friction goes with the impulse given */
-        for (int q = 0; q < hit.n; q++) wall[q].restitution = 0.0;
+        for (int q = 0; q < hit.n; q++)
+            for (int h = 0; h < held.n; h++)
+                if (held.feature[h] == hit.feature[q]) wall[q].restitution = 0.0;
         after = without_normals(c, held, impact_rebound(wall, hit.n, before, kick));
     }
     vec2_put(now->v, i, after);
@@ -163,7 +170,7 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
         const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
         kick[first] = vec2_add(kick[first], rest);
         for (int q = 0; q < hit.n; q++)
-            book_impulse(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
+            strike_book(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
         dem_event event = sites_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
         event.before[0] = before.x;
         event.before[1] = before.y;
@@ -175,27 +182,6 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
 }
 
 /* ---- contacts that share nodes ---- */
-
-static void stir(contact_sites *c, dem_index k)
-{
-    contact_site *site = &c->list[k];
-    const dem_index first = c->of_node[site->node], second = site_is_edge(site) ? c->of_node[site->other] : -1;
-    site->stirred = true;
-    if (first >= 0) c->list[first].stirred = true;
-    if (second >= 0) c->list[second].stirred = true;
-}
-
-/* Kinetic energy of the nodes that take part, J. */
-static double stirred_energy(const contact_sites *c, const double *v)
-{
-    double energy = 0.0;
-    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
-        const dem_index i = c->list[k].node;
-        const vec2 vi = vec2_at(v, i);
-        if (c->list[k].stirred) energy += 0.5 * c->scene.model->lattice.mass[i] * vec2_dot(vi, vi);
-    }
-    return energy;
-}
 
 /* Puts the contacts of the site's group on their surfaces. */
 static void straighten(contact_sites *c, dem_index k, contact_moment *now)
@@ -220,7 +206,7 @@ static double prepare(contact_sites *c, dem_index group, const contact_moment *n
     double scale = 0.0;
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         contact_site *site = &c->list[r->members[p]];
-        stir(c, r->members[p]);
+        site->stirred = true;
         site->n_struck = site->n_closed;
         for (int q = 0; q < site->n_closed; q++) {
             const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
@@ -264,7 +250,8 @@ static bool strike_once(contact_sites *c, dem_index k, int q, double tolerance, 
     return true;
 }
 
-static void sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
+/* Returns false if they have not come to an end. */
+static bool sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
 {
     const reactions *r = &c->reactions;
     bool struck = true;
@@ -274,6 +261,7 @@ static void sweep(contact_sites *c, dem_index group, double tolerance, contact_m
             for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
                 struck |= strike_once(c, r->members[p], q, tolerance, 2 * s >= most_sweeps, now);
     }
+    return !struck;
 }
 
 /* Which contacts of the group last, and how they slide. */
@@ -324,6 +312,15 @@ static bool take_back(contact_sites *c, dem_index group, contact_moment *now)
     return any;
 }
 
+/* What still strikes after all sweeps is held for now: it stops exactly with the others, and opens if nothing presses. */
+static void keep_struck(contact_sites *c, dem_index group)
+{
+    const reactions *r = &c->reactions;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
+            if (c->list[r->members[p]].closed[q].struck) c->list[r->members[p]].closed[q].opens = false;
+}
+
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
 static void part(contact_site *site)
 {
@@ -336,25 +333,19 @@ static void part(contact_site *site)
     while (site->n_closed > 0 && site->closed[site->n_closed - 1].opens) site->n_closed--;
 }
 
-/* Closed contacts neither open nor slide where they stick: what the sweeps have left of that goes. */
+/* What the sweeps have left of velocities that closed contacts do not allow goes. */
 static void settle_velocities(contact_sites *c, contact_moment *now)
 {
-    reactions *r = &c->reactions;
-    const double before = stirred_energy(c, now->v);
+    const reactions *r = &c->reactions;
     for (dem_index g = 0; g < r->n_groups; g++) {
         if (!c->list[r->members[r->row[g]]].stirred) continue;
-        reactions_stop(r, g, now->x, now->v);
+        c->books.impact += sites_stop(c, g, now->x, now->v);
         for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
             contact_site *site = &c->list[r->members[p]];
-            for (int q = 0; q < site->n_closed; q++) {
-                const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
-                const reaction got = r->force[r->members[p]][q];
-                site->closed[q].impulse = vec2_add(
-                    site->closed[q].impulse, vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent));
-            }
+            for (int q = 0; q < site->n_closed; q++)
+                site->closed[q].impulse = vec2_add(site->closed[q].impulse, site->closed[q].stop);
         }
     }
-    c->books.impact += before - stirred_energy(c, now->v);
 }
 
 /* Books and tells what the contacts of a site got. */
@@ -366,7 +357,7 @@ static void tell_party(contact_sites *c, dem_index k, contact_moment *now)
         const bool kept = q < site->n_closed;
         dem_event event = sites_event(c, k, touch->feature, DEM_EVENT_IMPACT, now);
         c->books.counts.closings += touch->fresh && kept;
-        book_impulse(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
+        strike_book(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
         if (touch->struck) {
             event.before[0] = touch->before.x;
             event.before[1] = touch->before.y;
@@ -401,12 +392,13 @@ static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit
     const dem_index group = c->reactions.group[k];
     straighten(c, k, now);
     const double tolerance = group_noise * prepare(c, group, now);
-    sweep(c, group, tolerance, now);
+    bool done = sweep(c, group, tolerance, now);
     judge(c, group, tolerance, now);
     if (take_back(c, group, now)) {
-        sweep(c, group, tolerance, now);
+        done = sweep(c, group, tolerance, now);
         judge(c, group, tolerance, now);
     }
+    if (!done) keep_struck(c, group);
     for (dem_index m = 0; m < c->n; m++)
         if (c->list[m].stirred) part(&c->list[m]);
     TRY(sites_regroup(c));
@@ -441,7 +433,7 @@ bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const 
     if (impact_holding(sides, 2, a, push_on) != 3) return false;
     const vec2 after = impact_rebound(&sides[1], 1, vec2_at(now->v, node), &kick);
     const double speed = vec2_norm(after), back = speed > 0.0 ? -vec2_dot(a, after) / speed : 0.0;
-    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, &sides[0]);
+    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, NULL);
 }
 
 void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now)
@@ -464,7 +456,7 @@ void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact
     event.after[0] = after.x;
     event.after[1] = after.y;
     c->books.counts.early++;
-    book_impulse(c, event.obstacle, impulse, f.normal);
+    strike_book(c, event.obstacle, impulse, f.normal);
     book(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
 }
 
