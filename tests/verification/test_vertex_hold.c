@@ -233,7 +233,7 @@ static void compare(const triangle *q, const double *y, const dem_state *state, 
 }
 
 /* Follows triangle and reference to t_end; returns how often the reference changed between sliding and sticking.
- * Positions are asked to 1e-8 m of 1 m: at rtol 1e-11 the integrator leaves some 1e-11 m, and of the ledger of some 10 J
+ * Positions are asked to 1e-8 m of 1 m: at rtol 1e-11 the integrator leaves some 1e-11 m, and of the ledger of 10 J
  * some 1e-10 J. */
 static int follow(triangle *q, double *y, double t_end)
 {
