@@ -46,7 +46,9 @@ static double resting_speed(const contact_sites *c, vec2 x, double back, const i
 
 static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
 {
-    const vec2 along = vec2_scale(vec2_dot(impulse, normal), normal);
+    const dem_obstacle *o = &c->scene.model->obstacles.list[obstacle];
+    const bool smooth = o->friction == 0.0 && o->friction_law == DEM_FRICTION_COULOMB;
+    const vec2 along = smooth ? impulse : vec2_scale(vec2_dot(impulse, normal), normal);
     books_add_impulse(&c->books, obstacle, impulse, vec2_sub(impulse, along));
 }
 
