@@ -74,14 +74,44 @@ static double fastest(const path *p, double t, const contact_site *site)
     return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
 }
 
-/* Whether a site that moves by no more than `reach` in the step meets nothing in it. */
-static bool out_of_reach(const contact_scene *scene, const contact_site *site, const path *p, double reach)
+/* How far a site may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of its
+ * nodes there, four times what a constant one does; an edge turns besides. */
+static double bend(const contact_site *site, const path *p)
+{
+    const double h = p->t1 - p->t0;
+    double a =
+        fmax(vec2_norm(vec2_at(p->f0, p->n_nodes + site->node)), vec2_norm(vec2_at(p->f1, p->n_nodes + site->node)));
+    if (!site_is_edge(site)) return 0.5 * h * h * a;
+    a = fmax(a, fmax(vec2_norm(vec2_at(p->f0, p->n_nodes + site->other)),
+                     vec2_norm(vec2_at(p->f1, p->n_nodes + site->other))));
+    const vec2 va = path_velocity(p, p->end, site->node), vb = path_velocity(p, p->end, site->other);
+    const double length =
+        vec2_norm(vec2_sub(path_position(p, p->end, site->other), path_position(p, p->end, site->node)));
+    const double turn = 2.0 * vec2_norm(vec2_sub(vb, va)) / length * fmax(vec2_norm(va), vec2_norm(vb));
+    return 0.5 * h * h * (a + turn);
+}
+
+/* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the nearest is
+ * further in front than the edge can have come from there. */
+static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const path *p, double reach)
 {
     const contact_spot spot = site_spot_on(site, p, p->end);
-    const contact_gap gap = site_gap(scene, site, &spot);
-    if (gap.distance + scene->rule.skin <= reach) return false;
-    /* a vertex beside the edge is no part of its gap */
-    return !site_is_edge(site) || !site_near(scene, site, &spot, reach + scene->rule.skin);
+    const contact_gap around = site_around(scene, site, &spot, reach + scene->rule.skin);
+    if (around.feature < 0) return true;
+    const double va = vec2_dot(path_velocity(p, p->end, site->node), around.normal),
+                 vb = vec2_dot(path_velocity(p, p->end, site->other), around.normal);
+    const double way = (p->end - p->t0) * fmax(0.0, fmax(va, vb));
+    return around.distance + scene->rule.skin > way + bend(site, p);
+}
+
+/* Whether a node cannot have touched between two clear ends of a step: it is further off than the step reaches, or than
+ * it bends where the gap does not fall and rise again. */
+static bool node_is_clear(const contact_site *site, const path *p, double reach, const sample *first,
+                          const sample *last)
+{
+    if (last->guard > reach) return true;
+    if (first->slope < 0.0 && last->slope > 0.0) return false;
+    return fmin(first->guard, last->guard) > bend(site, p);
 }
 
 double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
@@ -89,9 +119,10 @@ double search_crossing(const contact_scene *scene, const contact_site *site, con
     enum { n = 8 };
     const double h = p->end - p->t0;
     const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
-    if (out_of_reach(scene, site, p, reach)) return INFINITY;
+    if (site_is_edge(site) && edge_is_clear(scene, site, p, reach)) return INFINITY;
     const sample last = sample_at(scene, site, p, p->end);
     sample s = sample_at(scene, site, p, p->t0);
+    if (!site_is_edge(site) && node_is_clear(site, p, reach, &s, &last)) return INFINITY;
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
         if (next.guard <= 0.0) return crossing(scene, site, p, s.t, next.t);

@@ -61,13 +61,14 @@ contact_gap site_gap(const contact_scene *scene, const contact_site *site, const
     return site_is_edge(site) ? edge_gap(scene, site, spot) : node_gap(scene, site, spot->a);
 }
 
-bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach)
+contact_gap site_around(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach)
 {
     obstacle_edge edge = edge_query(scene, site, spot);
     edge.tolerance = edge.depth = edge.reach = reach;
     edge.previous = edge.a;
     edge.next = edge.b;
-    return obstacles_poke(&scene->model->obstacles, &edge).vertex >= 0;
+    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
+    return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
 /* An edge is as far from all vertices as its node is from the obstacles, less its length; one that is nearer looks at
@@ -75,17 +76,14 @@ bool site_near(const contact_scene *scene, const contact_site *site, const conta
 static double edge_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
                              double enough)
 {
-    obstacle_edge edge = edge_query(scene, site, spot);
+    const obstacle_edge edge = edge_query(scene, site, spot);
     const double node =
         obstacles_gap(&scene->model->obstacles, spot->a, 0.0, site->behind[0], site->behind[1]).distance;
     const double far = node - edge.reach / edge_reach;
     if (far > edge.reach) return far;
-    edge.tolerance = edge.depth = edge.reach;
-    edge.previous = edge.a;
-    edge.next = edge.b;
-    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
-    if (poke.vertex < 0 || poke.distance > 0.0) return fmin(poke.distance, edge.reach);
-    return site_near(scene, site, spot, enough) ? 0.0 : enough;
+    const contact_gap around = site_around(scene, site, spot, edge.reach);
+    if (around.distance > 0.0) return fmin(around.distance, edge.reach);
+    return site_around(scene, site, spot, enough).feature < 0 ? enough : 0.0;
 }
 
 double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double enough,

@@ -30,8 +30,8 @@ contact_spot site_spot_on(const contact_site *site, const path *p, double t);
  *  are guarded by themselves; of an edge its vertex. */
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
 
-/** Whether a vertex is within reach (m) of an edge, anywhere. */
-bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
+/** The nearest vertex within reach (m) of an edge, in front of it, behind it or beside it. */
+contact_gap site_around(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
 
 /** How far at least a site is from everything else that it can touch, m; < 0 inside.
  *  \param enough  m, a distance that is looked into if larger ones give nothing

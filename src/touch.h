@@ -35,7 +35,7 @@ typedef struct contact_site {
     bool stirred;       /* it takes part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
     bool asleep;        /* it is far from all that it could touch besides, */
-    double wake;        /* m, until the bodies may have gone this far since the start */
+    double wake;        /* m, until the bodies may have gone this far since the start; then it is looked at */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
 } contact_site;

@@ -30,6 +30,9 @@ double watch_speed(const contact_sites *c, const double *v)
     return sqrt(square);
 }
 
+/* What is awake is looked at again when the bodies may have gone this many times as far as in a step. */
+static const double look_again = 8.0;
+
 /* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */
 static void come_back(contact_sites *c, dem_index k, vec2 x)
 {
@@ -52,7 +55,7 @@ static void look_at(contact_watch *w, contact_sites *c, dem_index k, const doubl
     }
     clear -= 2.0 * scene_margin(&c->scene);
     site->asleep = clear > reach;
-    site->wake = w->travelled + clear;
+    site->wake = w->travelled + (site->asleep ? clear : look_again * reach);
 }
 
 void watch_look(contact_watch *w, contact_sites *c, const double *x, double speed)
@@ -63,7 +66,7 @@ void watch_look(contact_watch *w, contact_sites *c, const double *x, double spee
         if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(x, c->list[k].node));
     for (dem_index k = 0; k < c->n; k++) {
         const contact_site *site = &c->list[k];
-        if (watch_wakes(w, site, reach)) look_at(w, c, k, x, reach);
+        if (site->wake <= w->travelled + reach) look_at(w, c, k, x, reach);
         if (site->n_closed > 0 || !site->asleep) w->awake[w->n++] = k;
     }
 }

@@ -56,7 +56,7 @@ static double *make_ground(long segments, double width)
 static dem_model *make_model(long columns, long rows, long segments)
 {
     const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1}, lift[2] = {0.0, 2e-3 * spacing};
+    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1}, lift[2] = {0.0, 1.1e-2 * spacing};
     double *points = make_ground(segments, 1.2 * width);
     const dem_obstacle ground = {.n_points = segments + 1, .points = points, .friction = 0.3};
     dem_lattice lattice;
