@@ -140,7 +140,7 @@ static dem_status stop(contact_sites *c, dem_index k, int q, contact_moment *now
     reactions_stop(&c->reactions, c->reactions.group[k], now->x, now->v);
     sites_weigh(c, k, now->x, now->v);
     const reaction force = {touch->force, touch->friction};
-    if (site_grip(&c->scene, &c->list[k], q, &force) < 0.0) touch->sign = force.tangent > 0.0 ? -1 : 1;
+    if (site_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0) touch->sign = force.tangent > 0.0 ? -1 : 1;
     return enter(c, k, touch->feature, DEM_EVENT_STICK, now);
 }
 
@@ -160,8 +160,8 @@ static dem_status settle_contact(contact_sites *c, dem_index k, int q, contact_m
     *changed = true;
     if (force.normal <= 0.0) return release(c, k, q, now);
     const bool held = site->closed[q].held;
-    if (!held && site_turns(&c->scene, site, q, &f)) return stop(c, k, q, now);
-    if (!held && site_grip(&c->scene, site, q, &force) < 0.0) return begin_to_slide(c, k, q, now);
+    if (!held && site_turns(&c->scene, site, q, &f, now->v)) return stop(c, k, q, now);
+    if (!held && site_grip(&c->scene, site, q, &f, &force, now->x) < 0.0) return begin_to_slide(c, k, q, now);
     const int passed = held ? 0 : site_end_passed(&c->scene, site, q, now->x, now->v);
     if (passed != 0 && site_is_edge(site)) return pass_edge(c, k, q, passed < 0, now);
     if (passed != 0) return pass_node(c, k, passed < 0, now);
@@ -197,7 +197,7 @@ static dem_status settle(contact_sites *c, dem_index k, contact_moment *now, boo
 {
     bool here = false;
     contact_site *site = &c->list[k];
-    if (site->asleep) return DEM_OK;
+    if (site->asleep && site->n_closed == 0) return DEM_OK;
     TRY(site->n_closed == 0 ? settle_free(c, k, now, &here) : settle_closed(c, k, now, &here));
     if (!here) return DEM_OK;
     *changed = true;
@@ -214,14 +214,14 @@ static dem_status settle(contact_sites *c, dem_index k, contact_moment *now, boo
 
 /* ---- all sites ---- */
 
-/* Refreshes the forces of the closed contacts. */
-static void weigh_all(contact_sites *c, const double *x, const double *v)
+static void solve_all(contact_sites *c, const double *x, const double *v)
 {
-    for (dem_index g = 0; g < c->reactions.n_groups; g++) {
-        reactions_solve(&c->reactions, g, x, v);
-        for (dem_index p = c->reactions.row[g]; p < c->reactions.row[g + 1]; p++)
-            sites_store(c, c->reactions.members[p]);
-    }
+    for (dem_index g = 0; g < c->reactions.n_groups; g++) reactions_solve(&c->reactions, g, x, v);
+}
+
+static void store_all(contact_sites *c)
+{
+    for (dem_index m = 0; m < c->reactions.row[c->reactions.n_groups]; m++) sites_store(c, c->reactions.members[m]);
 }
 
 /* Puts closed nodes back where rounding has taken them from. */
@@ -256,10 +256,11 @@ static void reflect_early(contact_sites *c, contact_moment *now)
 
 /* ---- public ---- */
 
-void contact_guards(contact *c, const double *y, double *g)
+void contact_guards(contact *c, double t, const double *y, double *g)
 {
     contact_sites *s = &c->sites;
-    for (dem_index q = 0; q < s->reactions.n_groups; q++) reactions_solve(&s->reactions, q, y, velocities(c, y));
+    solve_all(s, y, velocities(c, y));
+    c->solved = t;
     for (dem_index k = 0; k < SITE_GUARDS * s->n; k++) g[k] = 1.0;
     for (dem_index a = 0; a < c->watch.n; a++) {
         const dem_index k = c->watch.awake[a];
@@ -269,6 +270,7 @@ void contact_guards(contact *c, const double *y, double *g)
 
 void contact_constrain(contact *c, const double *y, double *a)
 {
+    c->solved = NAN;
     reactions_hold(&c->sites.reactions, y, velocities(c, y), a);
 }
 
@@ -290,6 +292,7 @@ void contact_destroy(contact *c)
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener)
 {
     contact_sites *s = &c->sites;
+    c->solved = NAN;
     contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
     const dem_index impacts = s->books.counts.impacts;
     bool changed = true;
@@ -302,7 +305,8 @@ dem_status contact_resolve(contact *c, double t, double *y, const contact_listen
           t);
     if (s->scene.rule.window > 0.0 && s->books.counts.impacts > impacts) reflect_early(s, &now);
     straighten_nodes(s, now.x);
-    weigh_all(s, now.x, now.v);
+    solve_all(s, now.x, now.v);
+    store_all(s);
     watch_look(&c->watch, s, now.x, watch_speed(s, now.v));
     return now.told;
 }
@@ -356,6 +360,29 @@ static double furthest(const contact *c, const path *p)
     return 2.0 * (p->t1 - p->t0) * fmax(start, end);
 }
 
+/* First time at which a closed contact has to change that has to at the end of the step; infinity if none has. */
+static double first_due(contact *c, const path *p, double *state)
+{
+    contact_sites *s = &c->sites;
+    reactions *r = &s->reactions;
+    const bool whole = p->end == p->t1, solved = whole && c->solved == p->t1;
+    const double *y = whole ? p->y1 : state;
+    double first = INFINITY;
+    for (dem_index g = 0; g < r->n_groups; g++) {
+        if (!whole) search_state(r, g, p, p->end, state);
+        if (!solved) reactions_solve(r, g, y, velocities(c, y));
+        for (dem_index m = r->row[g]; m < r->row[g + 1]; m++) {
+            const contact_site *site = &s->list[r->members[m]];
+            if (!site_due(&s->scene, site, r->force[r->members[m]], y, velocities(c, y))) continue;
+            first = fmin(first, search_due(r, site, p, state));
+            if (!whole) search_state(r, g, p, p->end, state);
+            reactions_solve(r, g, y, velocities(c, y));
+        }
+    }
+    if (whole) c->solved = p->t1;
+    return first;
+}
+
 bool contact_check(contact *c, path *p, bool rooted, double *state)
 {
     contact_sites *s = &c->sites;
@@ -365,19 +392,8 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     for (dem_index k = 0; k < s->n; k++)
         if (s->list[k].n_closed == 0 && watch_wakes(&c->watch, &s->list[k], way))
             first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
-    for (dem_index g = 0; g < s->reactions.n_groups; g++) {
-        const double *y = p->end == p->t1 ? p->y1 : state;
-        if (y == state) search_state(&s->reactions, g, p, p->end, state);
-        reactions_solve(&s->reactions, g, y, velocities(c, y));
-        for (dem_index m = s->reactions.row[g]; m < s->reactions.row[g + 1]; m++) {
-            const contact_site *site = &s->list[s->reactions.members[m]];
-            const reaction *force = s->reactions.force[s->reactions.members[m]];
-            if (!site_due(&s->scene, site, force, y, velocities(c, y))) continue;
-            first = fmin(first, search_due(&s->reactions, site, p, state));
-            if (y == state) search_state(&s->reactions, g, p, p->end, state);
-            reactions_solve(&s->reactions, g, y, velocities(c, y));
-        }
-    }
+    first = fmin(first, first_due(c, p, state));
+    if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;
     p->end = first;
     s->books.counts.late++;
@@ -388,7 +404,8 @@ void contact_follow(contact *c, const path *p, const double *y)
 {
     contact_sites *s = &c->sites;
     c->watch.travelled += furthest(c, p);
-    weigh_all(s, y, velocities(c, y));
+    if (c->solved != p->t1 || p->end < p->t1) solve_all(s, y, velocities(c, y));
+    store_all(s);
     watch_look(&c->watch, s, y, watch_speed(s, velocities(c, y)));
 }
 

@@ -11,6 +11,7 @@
 typedef struct contact {
     contact_sites sites;
     contact_watch watch;
+    double solved;  /* s, time of the state for which the reactions' forces are known; NAN: none */
     dem_index idle; /* events in a row that changed nothing */
 } contact;
 
@@ -24,8 +25,8 @@ dem_status contact_admissible(const contact *c, const double *x);
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener);
 
-/** Values of all guards at a state, [n_sites][SITE_GUARDS]: see site_guards(). */
-void contact_guards(contact *c, const double *y, double *g);
+/** Values of all guards at a state at t, [n_sites][SITE_GUARDS]: see site_guards(). */
+void contact_guards(contact *c, double t, const double *y, double *g);
 
 /** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
 void contact_constrain(contact *c, const double *y, double *a);

@@ -24,6 +24,8 @@ struct integrator {
     N_Vector y1, f0, f1; /* the accepted step for the path */
     double *y0, *arrays; /* [4 n] each: y0, then those behind the vectors */
     double *inside;      /* [4 n] state at a root function's time */
+    double *guards;      /* [n_guards] values of the guards at guards_t */
+    double guards_t;     /* s; NAN: none */
     double t;            /* last accepted time, of y0 */
     double t1;           /* end of the step that y1, f0, f1 hold */
     bool holds_step;     /* y1, f0, f1 are those of the step that ends at t1 */
@@ -94,9 +96,16 @@ static int call_guards(realtype t, N_Vector y, realtype *g, void *user)
         path_state(&step, t, I->inside);
         state = I->inside;
     }
-    I->problem.guards(state, g, I->problem.context);
+    const size_t size = (size_t)I->problem.n_guards * sizeof *g;
+    if (t == I->guards_t) { /* ARKODE asks at the end of a step, and again as the next one starts there */
+        memcpy(g, I->guards, size);
+        return 0;
+    }
+    I->problem.guards(t, state, g, I->problem.context);
     for (dem_index k = 0; k < I->problem.n_guards; k++)
         if (!isfinite(g[k])) return -1;
+    memcpy(I->guards, g, size);
+    I->guards_t = t;
     return 0;
 }
 
@@ -182,6 +191,9 @@ static dem_status set_guards(integrator *I)
 {
     const dem_index n = I->problem.n_guards;
     if (n == 0) return DEM_OK;
+    I->guards_t = NAN;
+    I->guards = malloc((size_t)n * sizeof *I->guards);
+    CHECK(I->guards != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
     int *falling = malloc((size_t)n * sizeof *falling);
     CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
     for (dem_index k = 0; k < n; k++) falling[k] = -1;
@@ -242,6 +254,7 @@ void integrator_destroy(integrator *I)
     if (I->f1 != NULL) N_VDestroy(I->f1);
     if (I->sundials != NULL) SUNContext_Free(&I->sundials);
     free(I->arrays);
+    free(I->guards);
     free(I);
 }
 
@@ -298,6 +311,7 @@ dem_status integrator_restart(integrator *I, double t, const double *y)
     memcpy(N_VGetArrayPointer(I->y), I->y0, size);
     I->t = t;
     I->at_end = I->holds_step = false;
+    I->guards_t = NAN;
     CHECK(ERKStepReset(I->arkode, t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
           "ARKODE does not restart at t = %.9g s: %s", t, I->message);
     return DEM_OK;

@@ -16,7 +16,7 @@ typedef struct integrator_problem {
     dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
     /** Derivative f of y at t; returns 0, or 1 if it is not finite. */
     int (*derivative)(double t, const double *y, double *f, void *context);
-    void (*guards)(const double *y, double *g, void *context);
+    void (*guards)(double t, const double *y, double *g, void *context);
     void *context;
     dem_method method;
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */

@@ -319,14 +319,25 @@ void reactions_hold(reactions *r, const double *x, const double *v, double *a)
     for (dem_index g = 0; g < r->n_groups; g++) hold(r, g, x, v, a);
 }
 
+/* The free acceleration of a node, once for all contacts that share it. */
+static void set_free(reactions *r, dem_index node, const double *x, const double *v)
+{
+    if (r->first[node] == 0) return;
+    r->first[node] = 0;
+    vec2_put(r->a, node, model_acceleration(r->scene->model, &r->scene->rule.load, node, x, v));
+}
+
 void reactions_solve(reactions *r, dem_index group, const double *x, const double *v)
 {
-    const contact_scene *scene = r->scene;
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         const contact_site *site = &r->sites[r->members[p]];
-        vec2_put(r->a, site->node, model_acceleration(scene->model, &scene->rule.load, site->node, x, v));
-        if (site_is_edge(site))
-            vec2_put(r->a, site->other, model_acceleration(scene->model, &scene->rule.load, site->other, x, v));
+        r->first[site->node] = -1;
+        if (site_is_edge(site)) r->first[site->other] = -1;
+    }
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &r->sites[r->members[p]];
+        set_free(r, site->node, x, v);
+        if (site_is_edge(site)) set_free(r, site->other, x, v);
     }
     hold(r, group, x, v, r->a);
 }

@@ -106,10 +106,10 @@ static int derivative(double t, const double *y, double *f, void *context)
     return 1;
 }
 
-static void guards(const double *y, double *g, void *context)
+static void guards(double t, const double *y, double *g, void *context)
 {
     dem_simulation *s = context;
-    contact_guards(&s->contact, y, g);
+    contact_guards(&s->contact, t, y, g);
 }
 
 /* ---- what observers see ---- */

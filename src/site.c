@@ -57,24 +57,8 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_site *site
 
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
 {
-    if (site->n_closed == 2) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
+    if (site->n_closed == 2 || site->asleep) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
     return site_is_edge(site) ? edge_gap(scene, site, spot) : node_gap(scene, site, spot->a);
-}
-
-/* An edge is as far from all vertices as its node is from the obstacles, less its length; one that is nearer looks at
- * the vertices around it. */
-static double edge_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
-{
-    obstacle_edge edge = edge_query(scene, site, spot);
-    const double node =
-        obstacles_gap(&scene->model->obstacles, spot->a, 0.0, site->behind[0], site->behind[1]).distance;
-    const double far = node - edge.reach / edge_reach;
-    if (far > edge.reach) return far;
-    edge.tolerance = edge.depth = edge.reach;
-    edge.previous = edge.a;
-    edge.next = edge.b;
-    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
-    return poke.vertex < 0 ? edge.reach : poke.distance;
 }
 
 bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach)
@@ -86,10 +70,28 @@ bool site_near(const contact_scene *scene, const contact_site *site, const conta
     return obstacles_poke(&scene->model->obstacles, &edge).vertex >= 0;
 }
 
-double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
+/* An edge is as far from all vertices as its node is from the obstacles, less its length; one that is nearer looks at
+ * the vertices around it. */
+static double edge_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
+                             double enough)
+{
+    obstacle_edge edge = edge_query(scene, site, spot);
+    const double node =
+        obstacles_gap(&scene->model->obstacles, spot->a, 0.0, site->behind[0], site->behind[1]).distance;
+    const double far = node - edge.reach / edge_reach;
+    if (far > edge.reach) return far;
+    edge.tolerance = edge.depth = edge.reach;
+    edge.previous = edge.a;
+    edge.next = edge.b;
+    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
+    if (poke.vertex < 0 || poke.distance > 0.0) return fmin(poke.distance, edge.reach);
+    return site_near(scene, site, spot, enough) ? 0.0 : enough;
+}
+
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double enough,
                       dem_index *nearest)
 {
-    if (site_is_edge(site)) return edge_clearance(scene, site, spot);
+    if (site_is_edge(site)) return edge_clearance(scene, site, spot, enough);
     const contact_gap gap = node_gap(scene, site, spot->a);
     *nearest = gap.feature;
     return gap.distance;
@@ -138,22 +140,20 @@ int site_end_passed(const contact_scene *scene, const contact_site *site, int q,
 /* In units of the skin per step: slower than this is rounding. */
 static const double rest_noise = 1e-16;
 
-bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f)
+bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f, const double *v)
 {
     const int sign = site->closed[q].sign;
-    return sign != 0 && touch_friction(scene, site, site->closed[q].feature) > 0.0 &&
-           sign * vec2_dot(f->velocity, f->tangent) <
-               -fmax(f->noise, rest_noise * scene->rule.skin / scene->rule.max_step);
+    if (sign == 0 || touch_friction(scene, site, site->closed[q].feature) == 0.0) return false;
+    const double least = rest_noise * scene->rule.skin / scene->rule.max_step;
+    return sign * vec2_dot(f->velocity, f->tangent) < -fmax(touch_noise(f, v), least);
 }
 
-/* By so much a friction at its limit may seem to be beyond it. */
-static const double limit_noise = 1e-10;
-
-double site_grip(const contact_scene *scene, const contact_site *site, int q, const reaction *force)
+double site_grip(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f,
+                 const reaction *force, const double *x)
 {
     if (!sticks(site, q)) return INFINITY;
     const double limit = touch_friction(scene, site, site->closed[q].feature) * force->normal;
-    return limit * (1.0 + limit_noise) - fabs(force->tangent);
+    return limit + touch_slack(scene, f, x) - fabs(force->tangent);
 }
 
 /* The gap as a guard: finite where there is nothing. */
@@ -174,11 +174,14 @@ void site_guards(const contact_scene *scene, const contact_site *site, const rea
     for (int q = 0; q < site->n_closed; q++) {
         g[1] = fmin(g[1], force[q].normal);
         if (site->closed[q].held) continue;
-        const double limit =
-            sticks(site, q) ? site_grip(scene, site, q, &force[q]) : end_guard(scene, site, q, x, &end);
-        g[2] = fmin(g[2], limit);
-        if (sticks(site, q) || touch_friction(scene, site, site->closed[q].feature) == 0.0) continue;
+        if (!sticks(site, q) && touch_friction(scene, site, site->closed[q].feature) == 0.0) {
+            g[2] = fmin(g[2], end_guard(scene, site, q, x, &end));
+            continue;
+        }
         const touch_frame f = touch_frame_at(scene, site, q, x, v);
+        g[2] = fmin(g[2],
+                    sticks(site, q) ? site_grip(scene, site, q, &f, &force[q], x) : end_guard(scene, site, q, x, &end));
+        if (sticks(site, q)) continue;
         g[3] = fmin(g[3], site->closed[q].sign * vec2_dot(f.velocity, f.tangent));
     }
     for (int k = 1; k < SITE_GUARDS; k++)
@@ -193,9 +196,10 @@ bool site_due(const contact_scene *scene, const contact_site *site, const reacti
     for (int q = 0; q < site->n_closed; q++) {
         if (force[q].normal <= 0.0) return true;
         if (site->closed[q].held) continue;
-        const touch_frame f = touch_frame_at(scene, site, q, x, v);
-        if (site_grip(scene, site, q, &force[q]) < 0.0 || site_turns(scene, site, q, &f)) return true;
         if (site_end_passed(scene, site, q, x, v) != 0) return true;
+        if (touch_friction(scene, site, site->closed[q].feature) == 0.0) continue;
+        const touch_frame f = touch_frame_at(scene, site, q, x, v);
+        if (site_grip(scene, site, q, &f, &force[q], x) < 0.0 || site_turns(scene, site, q, &f, v)) return true;
     }
     return false;
 }

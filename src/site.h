@@ -26,27 +26,29 @@ typedef struct contact_spot {
 contact_spot site_spot(const contact_site *site, const double *x);
 contact_spot site_spot_on(const contact_site *site, const path *p, double t);
 
-/** Gap of a site. What it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends
+/** Gap of a site, infinity for one that sleeps. What it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends
  *  are guarded by themselves; of an edge its vertex. */
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
 
 /** Whether a vertex is within reach (m) of an edge, anywhere. */
 bool site_near(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
 
-/** How far at least a free site is from everything that it can touch, m; < 0 inside.
+/** How far at least a site is from everything else that it can touch, m; < 0 inside.
+ *  \param enough  m, a distance that is looked into if larger ones give nothing
  *  \param[out] nearest  of a node, the nearest segment */
-double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double enough,
                       dem_index *nearest);
 
 /** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */
 int site_end_passed(const contact_scene *scene, const contact_site *site, int q, const double *x, const double *v);
 
 /** Whether sliding contact q has turned back: it slides against its sign. Without friction that does not matter. */
-bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f);
+bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f, const double *v);
 
-/** How far the friction of contact q is below what the normal force allows, N; infinity unless it sticks by friction.
- */
-double site_grip(const contact_scene *scene, const contact_site *site, int q, const reaction *force);
+/** How far the friction of contact q is below what the normal force and rounding allow, N; infinity unless it sticks by
+ *  friction. */
+double site_grip(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f,
+                 const reaction *force, const double *x);
 
 /** Values of the guards in a state, [SITE_GUARDS]: gap + skin; smallest normal force; distance to the nearer end +
  *  skin of what slides, grip of what sticks; speed of sliding. What does not apply is 1.

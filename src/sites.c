@@ -139,6 +139,7 @@ dem_status sites_open(contact_sites *c, dem_index k, int q)
     contact_site *site = &c->list[k];
     if (q == 0) site->closed[0] = site->closed[1];
     site->n_closed--;
+    site->asleep = false;
     return sites_regroup(c);
 }
 

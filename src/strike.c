@@ -327,6 +327,7 @@ static bool take_back(contact_sites *c, dem_index group, contact_moment *now)
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
 static void part(contact_site *site)
 {
+    site->asleep = false;
     if (site->n_closed == 2 && site->closed[0].opens && !site->closed[1].opens) {
         const contact_touch first = site->closed[0];
         site->closed[0] = site->closed[1];

@@ -63,9 +63,22 @@ static touch_frame edge_frame(const contact_scene *scene, const contact_site *si
     f.turning = touch->sign == 0 ? 0.0 : 2.0 * turn * vt;
     f.keep[0] = f.turning - beta * (2.0 * vn + beta * f.gap);
     f.keep[1] = -beta * (2.0 * vt + beta * vec2_dot(off, t));
-    f.noise = 64.0 * DBL_EPSILON * (fabs(wa) * vec2_norm(va) + fabs(wb) * vec2_norm(vb));
     f.mobility = wa * wa * inverse_mass[site->node] + wb * wb * inverse_mass[site->other];
     return f;
+}
+
+/* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2. */
+double touch_slack(const contact_scene *scene, const touch_frame *f, const double *x)
+{
+    const double omega = scene->model->omega_max, rounding = 64.0 * DBL_EPSILON * vec2_norm(vec2_at(x, f->node[0]));
+    return 0.5 * omega * omega * rounding / f->mobility;
+}
+
+double touch_noise(const touch_frame *f, const double *v)
+{
+    double speed = 0.0;
+    for (int p = 0; p < f->n && f->n > 1; p++) speed += fabs(f->weight[p]) * vec2_norm(vec2_at(v, f->node[p]));
+    return 64.0 * DBL_EPSILON * speed;
 }
 
 touch_frame touch_frame_at(const contact_scene *scene, const contact_site *site, int q, const double *x,

@@ -32,7 +32,7 @@ typedef struct contact_site {
     contact_touch closed[2];
     bool stirred;       /* its nodes take part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
-    bool asleep;        /* it is free and far from all that it can touch, */
+    bool asleep;        /* it is far from all that it could touch besides, */
     double wake;        /* m, until the bodies may have gone this far since the start */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
@@ -70,7 +70,6 @@ typedef struct touch_frame {
     double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
                              what the integrator's error has opened */
     double mobility;      /* 1/kg, sum of weight^2/m */
-    double noise;         /* m/s, what rounding may leave of the velocity of a point at rest: a node's is set */
 } touch_frame;
 
 static inline const segment *scene_segment(const contact_scene *scene, dem_index s)
@@ -107,6 +106,12 @@ double touch_friction(const contact_scene *scene, const contact_site *site, dem_
 /** Frame of closed contact q of a site at positions x and velocities v [n][2]. */
 touch_frame touch_frame_at(const contact_scene *scene, const contact_site *site, int q, const double *x,
                            const double *v);
+
+/** What rounding of the coordinates may make of the force of a contact, N. */
+double touch_slack(const contact_scene *scene, const touch_frame *f, const double *x);
+
+/** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node, whose velocity is set. */
+double touch_noise(const touch_frame *f, const double *v);
 
 /** What the library tells of it. */
 dem_contact touch_describe(const contact_scene *scene, const contact_site *site, int q, const double *x);

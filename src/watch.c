@@ -38,16 +38,16 @@ static void come_back(contact_sites *c, dem_index k, vec2 x)
         sites_go_behind(c, k, -1);
 }
 
-/* Looks how far a free site is from everything, and lets it sleep if that is further than `reach`. */
+/* Looks how far a site is from everything else, and lets it sleep if that is further than `reach`. */
 static void look_at(contact_watch *w, contact_sites *c, dem_index k, const double *x, double reach)
 {
     contact_site *site = &c->list[k];
     const contact_spot spot = site_spot(site, x);
     dem_index nearest;
-    double clear = site_clearance(&c->scene, site, &spot, &nearest);
-    if (clear < 0.0 && site->asleep && !site_is_edge(site)) {
+    double clear = site_clearance(&c->scene, site, &spot, 8.0 * reach, &nearest);
+    if (clear < 0.0 && site->asleep && site->n_closed == 0 && !site_is_edge(site)) {
         sites_go_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
-        clear = site_clearance(&c->scene, site, &spot, &nearest);
+        clear = site_clearance(&c->scene, site, &spot, 8.0 * reach, &nearest);
     }
     clear -= 2.0 * scene_margin(&c->scene);
     site->asleep = clear > reach;
@@ -56,13 +56,13 @@ static void look_at(contact_watch *w, contact_sites *c, dem_index k, const doubl
 
 void watch_look(contact_watch *w, contact_sites *c, const double *x, double speed)
 {
-    const double reach = 2.0 * c->scene.rule.max_step * speed;
+    const double reach = 1.25 * c->scene.rule.max_step * speed; /* further is found after the step */
     w->n = 0;
     for (dem_index k = 0; k < c->scene.model->n_sites && c->books.counts.behind > 0; k++)
         if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(x, c->list[k].node));
     for (dem_index k = 0; k < c->n; k++) {
         const contact_site *site = &c->list[k];
-        if (site->n_closed == 0 && watch_wakes(w, site, reach)) look_at(w, c, k, x, reach);
-        if (!site->asleep) w->awake[w->n++] = k;
+        if (watch_wakes(w, site, reach)) look_at(w, c, k, x, reach);
+        if (site->n_closed > 0 || !site->asleep) w->awake[w->n++] = k;
     }
 }

@@ -56,7 +56,7 @@ static double *make_ground(long segments, double width)
 static dem_model *make_model(long columns, long rows, long segments)
 {
     const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.5}, lift[2] = {0.0, 2e-3 * spacing};
+    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1}, lift[2] = {0.0, 2e-3 * spacing};
     double *points = make_ground(segments, 1.2 * width);
     const dem_obstacle ground = {.n_points = segments + 1, .points = points, .friction = 0.3};
     dem_lattice lattice;
@@ -140,13 +140,15 @@ int main(int argc, char **argv)
     static tally t;
     dem_model *model = make_model(columns, rows, segments);
     const dem_observer observer = {.step = after_step, .context = &t};
-    const dem_options options = dem_options_default();
+    dem_options options = dem_options_default();
     dem_simulation *simulation;
+    options.gravity[1] = -1e4; /* presses it down */
+    options.mass_damping = 1e5;
     t.model = model;
     t.columns = columns;
     must(dem_simulation_create(&simulation, model, &options));
     must(dem_simulation_observe(simulation, &observer));
-    must(dem_simulation_advance(simulation, argc > 4 ? atof(argv[4]) : 3e-5));
+    must(dem_simulation_advance(simulation, argc > 4 ? atof(argv[4]) : 1e-4));
     const dem_counts counts = dem_simulation_counts(simulation);
     const double force = median(t.force, t.n), contact_time = median(t.contact, t.n);
     (void)printf("%lld nodes, %ld segments, %lld contacts on %ld columns, %lld steps, %lld events, %zu steps counted\n",
