@@ -342,12 +342,14 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
 {
     contact_sites *s = &c->sites;
     contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
-    for (dem_index k = 0; k < s->n; k++) {
-        const contact_spot spot = site_spot(&s->list[k], now.x);
-        const contact_gap gap = site_gap(&s->scene, &s->list[k], &spot);
-        if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) continue;
-        TRY(site_is_edge(&s->list[k]) ? touch_edge(s, k, &gap, &now) : touch_node(s, k, &gap, &now));
-    }
+    for (dem_index k = 0; k < s->n; k++)
+        for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
+            const contact_spot spot = site_spot(&s->list[k], now.x);
+            const contact_gap gap = site_gap(&s->scene, &s->list[k], &spot);
+            if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) break;
+            TRY(site_is_edge(&s->list[k]) ? touch_edge(s, k, &gap, &now) : touch_node(s, k, &gap, &now));
+            if (!site_is_edge(&s->list[k]) || s->list[k].n_closed != 1) break;
+        }
     const dem_status status = contact_resolve(c, t, y, listener);
     return now.told != DEM_OK ? now.told : status;
 }
@@ -389,9 +391,11 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     const double last = rooted ? p->end - search_resolution(p) : INFINITY; /* what is due then is the root found */
     double first = INFINITY;
     const double way = furthest(c, p);
-    for (dem_index k = 0; k < s->n; k++)
-        if (s->list[k].n_closed == 0 && watch_wakes(&c->watch, &s->list[k], way))
-            first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
+    for (dem_index k = 0; k < s->n; k++) {
+        if (s->list[k].n_closed > 0 || !watch_wakes(&c->watch, &s->list[k], way)) continue;
+        s->list[k].asleep = false;
+        first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
+    }
     first = fmin(first, first_due(c, p, state));
     if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;

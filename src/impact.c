@@ -5,6 +5,8 @@
 
 #include <stdbool.h>
 
+static const double parallel_below = 1e-9; /* sine between two normals */
+
 /* Parts p[s] <= 0 of v that the cone of the inward normals holds: the projection of v on it. */
 static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
 {
@@ -23,6 +25,10 @@ static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
         }
     }
     vec2_parts(v, s[0].normal, s[1].normal, p);
+    if (p[0] <= 0.0 && p[1] <= 0.0 && fabs(vec2_cross(s[0].normal, s[1].normal)) > parallel_below) return;
+    const int k = alone[0] <= alone[1] ? 0 : 1; /* as good as parallel: rounding decides, and they are one */
+    p[k] = alone[k];
+    p[1 - k] = 0.0;
 }
 
 /* Friction where a surface has changed the normal velocity by `kick`, m/s. */

@@ -343,15 +343,17 @@ static bool round_corner(const obstacle_edge *edge, vec2 x, double distance)
            (turns_after && distance_beside(edge->b, edge->next, x) > distance);
 }
 
-/* Whether x, behind the edge with its foot beyond an end of it, is behind the neighbour there too, where the boundary
- * turns in: it is inside the body then, between the two. */
+/* Whether x, behind the edge with its foot beyond an end of it, is behind the neighbour there too, with its foot beyond
+ * that one's end, where the boundary turns in: it is inside the body then, between the two. */
 static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
 {
     const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
-               previous = vec2_sub(edge->a, edge->previous);
+               previous = vec2_sub(edge->a, edge->previous), from_a = vec2_sub(x, edge->a),
+               from_b = vec2_sub(x, edge->b);
     if (fabs(beyond) > edge->depth) return false;
-    if (beyond > 0.0) return vec2_cross(way, next) < 0.0 && vec2_cross(next, vec2_sub(x, edge->b)) > 0.0;
-    return vec2_cross(previous, way) < 0.0 && vec2_cross(previous, vec2_sub(x, edge->a)) > 0.0;
+    if (beyond > 0.0)
+        return vec2_cross(way, next) < 0.0 && vec2_cross(next, from_b) > 0.0 && vec2_dot(next, from_b) <= 0.0;
+    return vec2_cross(previous, way) < 0.0 && vec2_cross(previous, from_a) > 0.0 && vec2_dot(previous, from_a) >= 0.0;
 }
 
 static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)

@@ -26,16 +26,21 @@ static int sign_of(const contact_sites *c, dem_index k, dem_index feature, doubl
     return speed < 0.0 ? -1 : 1;
 }
 
+/* Hops in a notch that this many skins hold up: it is passed a skin beyond its bottom. */
+static const double notch_skins = 8.0;
+
 /* Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
  * position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
- * the skin keep up; or it would be shorter than twice the window. Nothing is at rest (-1) that does not return. */
+ * the skin keep up (`on`: the surface, NULL: a notch); or it would be shorter than twice the window. Nothing is at rest
+ * (-1) that does not return. */
 static double resting_speed(const contact_sites *c, vec2 x, double back, const impact_surface *on)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     if (rule->rest_speed > 0.0) return rule->rest_speed;
     const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
-    const double height = fmax(fmax(rule->position_error, rounding), 2.0 * impact_kept_up(on) * rule->skin);
+    const double skins = on != NULL ? 2.0 * impact_kept_up(on) : notch_skins;
+    const double height = fmax(fmax(rule->position_error, rounding), skins * rule->skin);
     return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
 
@@ -150,7 +155,9 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
     if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
     const contact_hit held = lasting(c, k, hit, after, now);
     if (held.n > 0) { /* what stays has not rebounded, and friction goes with the impulse given */
-        for (int q = 0; q < hit.n; q++) wall[q].restitution = 0.0;
+        for (int q = 0; q < hit.n; q++)
+            for (int h = 0; h < held.n; h++)
+                if (held.feature[h] == hit.feature[q]) wall[q].restitution = 0.0;
         after = without_normals(c, held, impact_rebound(wall, hit.n, before, kick));
     }
     vec2_put(now->v, i, after);
@@ -264,7 +271,8 @@ static bool strike_once(contact_sites *c, dem_index k, int q, double tolerance, 
     return true;
 }
 
-static void sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
+/* Returns false if they have not come to an end. */
+static bool sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
 {
     const reactions *r = &c->reactions;
     bool struck = true;
@@ -274,6 +282,7 @@ static void sweep(contact_sites *c, dem_index group, double tolerance, contact_m
             for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
                 struck |= strike_once(c, r->members[p], q, tolerance, 2 * s >= most_sweeps, now);
     }
+    return !struck;
 }
 
 /* Which contacts of the group last, and how they slide. */
@@ -322,6 +331,15 @@ static bool take_back(contact_sites *c, dem_index group, contact_moment *now)
             touch->struck = false;
         }
     return any;
+}
+
+/* What still strikes after all sweeps is held for now: it stops exactly with the others, and opens if nothing presses. */
+static void keep_struck(contact_sites *c, dem_index group)
+{
+    const reactions *r = &c->reactions;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
+            if (c->list[r->members[p]].closed[q].struck) c->list[r->members[p]].closed[q].opens = false;
 }
 
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
@@ -401,12 +419,13 @@ static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit
     const dem_index group = c->reactions.group[k];
     straighten(c, k, now);
     const double tolerance = group_noise * prepare(c, group, now);
-    sweep(c, group, tolerance, now);
+    bool done = sweep(c, group, tolerance, now);
     judge(c, group, tolerance, now);
     if (take_back(c, group, now)) {
-        sweep(c, group, tolerance, now);
+        done = sweep(c, group, tolerance, now);
         judge(c, group, tolerance, now);
     }
+    if (!done) keep_struck(c, group);
     for (dem_index m = 0; m < c->n; m++)
         if (c->list[m].stirred) part(&c->list[m]);
     TRY(sites_regroup(c));
@@ -441,7 +460,7 @@ bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const 
     if (impact_holding(sides, 2, a, push_on) != 3) return false;
     const vec2 after = impact_rebound(&sides[1], 1, vec2_at(now->v, node), &kick);
     const double speed = vec2_norm(after), back = speed > 0.0 ? -vec2_dot(a, after) / speed : 0.0;
-    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, &sides[0]);
+    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, NULL);
 }
 
 void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now)

@@ -55,16 +55,28 @@ static dem_index next_edge(const surface *s, const unsigned char *walked, dem_in
     return -1;
 }
 
+/* Whether an edge ends where this one starts. */
+static bool has_previous(const surface *s, dem_index edge)
+{
+    const dem_index node = s->ends[2 * edge];
+    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
+        if (s->ends[2 * s->at[p] + 1] == node) return true;
+    return false;
+}
+
 static void walk(const surface *s, unsigned char *walked, dem_index *ends)
 {
     dem_index n = 0;
-    for (dem_index start = 0; start < s->n_edges; start++)
-        for (dem_index e = walked[start] ? -1 : start; e >= 0; e = next_edge(s, walked, s->ends[2 * e + 1])) {
+    for (dem_index k = 0; k < 2 * s->n_edges; k++) { /* open chains from where they begin, then closed ones */
+        const dem_index start = k % s->n_edges;
+        if (walked[start] || (k < s->n_edges && has_previous(s, start))) continue;
+        for (dem_index e = start; e >= 0; e = next_edge(s, walked, s->ends[2 * e + 1])) {
             walked[e] = 1;
             ends[2 * n] = s->ends[2 * e];
             ends[2 * n + 1] = s->ends[2 * e + 1];
             n++;
         }
+    }
 }
 
 /* Puts the edges in the order of a walk along each boundary. */

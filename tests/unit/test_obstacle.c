@@ -757,8 +757,10 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
                    behind_previous =
                        vec2_cross(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
         const bool notch_b = vec2_cross(way, vec2_sub(edge->next, edge->b)) < 0.0 && behind_next && place > length &&
+                             vec2_dot(vec2_sub(edge->next, edge->b), vec2_sub(o->vertices[k].at, edge->b)) <= 0.0 &&
                              place - length <= edge->depth && distance < 0.0;
         const bool notch_a = vec2_cross(vec2_sub(edge->a, edge->previous), way) < 0.0 && behind_previous &&
+                             vec2_dot(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) >= 0.0 &&
                              place < 0.0 && -place <= edge->depth && distance < 0.0;
         if ((place < -edge->tolerance && !notch_a) || (place > length + edge->tolerance && !notch_b)) continue;
         if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
