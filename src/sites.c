@@ -165,6 +165,26 @@ void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v
     sites_store(c, k);
 }
 
+double sites_stop(contact_sites *c, dem_index group, const double *x, double *v)
+{
+    reactions *r = &c->reactions;
+    double energy = 0.0;
+    for (int after = 0; after < 2; after++) { /* impulses at points take -J.(v + v')/2 */
+        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+            contact_site *site = &c->list[r->members[p]];
+            for (int q = 0; q < site->n_closed; q++) {
+                const touch_frame f = touch_frame_at(&c->scene, site, q, x, v);
+                const reaction got = r->force[r->members[p]][q];
+                const vec2 impulse = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
+                if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(site->closed[q].stop, f.velocity));
+                site->closed[q].stop = after ? impulse : f.velocity;
+            }
+        }
+        if (!after) reactions_stop(r, group, x, v);
+    }
+    return energy;
+}
+
 dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,
                       const contact_moment *now)
 {

@@ -47,6 +47,10 @@ void sites_store(contact_sites *c, dem_index k);
 /** Solves for the forces of the site's group and stores them in the site's contacts. */
 void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v);
 
+/** Stops a group: closed contacts neither open nor slide where they stick. Leaves in `stop` of each the impulse that
+ *  this takes.  \return the energy that it takes, J */
+double sites_stop(contact_sites *c, dem_index group, const double *x, double *v);
+
 /** An event of a site at a feature: what is known without the impact. */
 dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,
                       const contact_moment *now);

@@ -44,7 +44,7 @@ static double resting_speed(const contact_sites *c, vec2 x, double back, const i
     return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
 
-static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
+void strike_book(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
 {
     const vec2 along = vec2_scale(vec2_dot(impulse, normal), normal);
     books_add_impulse(&c->books, obstacle, impulse, vec2_sub(impulse, along));
@@ -170,7 +170,7 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
         const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
         kick[first] = vec2_add(kick[first], rest);
         for (int q = 0; q < hit.n; q++)
-            book_impulse(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
+            strike_book(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
         dem_event event = sites_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
         event.before[0] = before.x;
         event.before[1] = before.y;
@@ -182,27 +182,6 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
 }
 
 /* ---- contacts that share nodes ---- */
-
-static void stir(contact_sites *c, dem_index k)
-{
-    contact_site *site = &c->list[k];
-    const dem_index first = c->of_node[site->node], second = site_is_edge(site) ? c->of_node[site->other] : -1;
-    site->stirred = true;
-    if (first >= 0) c->list[first].stirred = true;
-    if (second >= 0) c->list[second].stirred = true;
-}
-
-/* Kinetic energy of the nodes that take part, J. */
-static double stirred_energy(const contact_sites *c, const double *v)
-{
-    double energy = 0.0;
-    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
-        const dem_index i = c->list[k].node;
-        const vec2 vi = vec2_at(v, i);
-        if (c->list[k].stirred) energy += 0.5 * c->scene.model->lattice.mass[i] * vec2_dot(vi, vi);
-    }
-    return energy;
-}
 
 /* Puts the contacts of the site's group on their surfaces. */
 static void straighten(contact_sites *c, dem_index k, contact_moment *now)
@@ -227,7 +206,7 @@ static double prepare(contact_sites *c, dem_index group, const contact_moment *n
     double scale = 0.0;
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         contact_site *site = &c->list[r->members[p]];
-        stir(c, r->members[p]);
+        site->stirred = true;
         site->n_struck = site->n_closed;
         for (int q = 0; q < site->n_closed; q++) {
             const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
@@ -354,25 +333,19 @@ static void part(contact_site *site)
     while (site->n_closed > 0 && site->closed[site->n_closed - 1].opens) site->n_closed--;
 }
 
-/* Closed contacts neither open nor slide where they stick: what the sweeps have left of that goes. */
+/* What the sweeps have left of velocities that closed contacts do not allow goes. */
 static void settle_velocities(contact_sites *c, contact_moment *now)
 {
-    reactions *r = &c->reactions;
-    const double before = stirred_energy(c, now->v);
+    const reactions *r = &c->reactions;
     for (dem_index g = 0; g < r->n_groups; g++) {
         if (!c->list[r->members[r->row[g]]].stirred) continue;
-        reactions_stop(r, g, now->x, now->v);
+        c->books.impact += sites_stop(c, g, now->x, now->v);
         for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
             contact_site *site = &c->list[r->members[p]];
-            for (int q = 0; q < site->n_closed; q++) {
-                const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
-                const reaction got = r->force[r->members[p]][q];
-                site->closed[q].impulse = vec2_add(
-                    site->closed[q].impulse, vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent));
-            }
+            for (int q = 0; q < site->n_closed; q++)
+                site->closed[q].impulse = vec2_add(site->closed[q].impulse, site->closed[q].stop);
         }
     }
-    c->books.impact += before - stirred_energy(c, now->v);
 }
 
 /* Books and tells what the contacts of a site got. */
@@ -384,7 +357,7 @@ static void tell_party(contact_sites *c, dem_index k, contact_moment *now)
         const bool kept = q < site->n_closed;
         dem_event event = sites_event(c, k, touch->feature, DEM_EVENT_IMPACT, now);
         c->books.counts.closings += touch->fresh && kept;
-        book_impulse(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
+        strike_book(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
         if (touch->struck) {
             event.before[0] = touch->before.x;
             event.before[1] = touch->before.y;
@@ -483,7 +456,7 @@ void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact
     event.after[0] = after.x;
     event.after[1] = after.y;
     c->books.counts.early++;
-    book_impulse(c, event.obstacle, impulse, f.normal);
+    strike_book(c, event.obstacle, impulse, f.normal);
     book(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
 }
 

@@ -20,6 +20,7 @@ typedef struct contact_touch {
     bool plastic;  /* it does not rebound, for it will last */
     vec2 before;   /* m/s, of the point of the body */
     vec2 impulse;  /* N s, given to the body */
+    vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
     double energy; /* J, taken by it */
 } contact_touch;
 
@@ -30,7 +31,7 @@ typedef struct contact_site {
     dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
     int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
     contact_touch closed[2];
-    bool stirred;       /* its nodes take part in the impact under way */
+    bool stirred;       /* it takes part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
     bool asleep;        /* it is far from all that it could touch besides, */
     double wake;        /* m, until the bodies may have gone this far since the start */
