@@ -130,20 +130,6 @@ static dem_status pass_edge(contact_sites *c, dem_index k, int q, bool backwards
     return strike(c, next, (contact_hit){1, {feature}}, now);
 }
 
-/* Books what the contacts of a group got to stop. */
-static void book_stop(contact_sites *c, dem_index group, const contact_moment *now)
-{
-    const reactions *r = &c->reactions;
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_site *site = &c->list[r->members[p]];
-        for (int q = 0; q < site->n_closed; q++) {
-            const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
-            const dem_obstacle *on = touch_obstacle(&c->scene, site, site->closed[q].feature);
-            strike_book(c, on - c->scene.model->obstacles.list, site->closed[q].stop, f.normal);
-        }
-    }
-}
-
 /* A sliding contact that has turned back comes to rest; if it does not stick there it slides the other way. */
 static dem_status stop(contact_sites *c, dem_index k, int q, contact_moment *now)
 {
@@ -151,8 +137,7 @@ static dem_status stop(contact_sites *c, dem_index k, int q, contact_moment *now
     const touch_frame f = touch_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
     touch->sign = 0;
     touch->place = f.place;
-    c->books.impact += sites_stop(c, c->reactions.group[k], now->x, now->v);
-    book_stop(c, c->reactions.group[k], now);
+    strike_stop(c, c->reactions.group[k], now);
     sites_weigh(c, k, now->x, now->v);
     const reaction force = {touch->force, touch->friction};
     if (site_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0) touch->sign = force.tangent > 0.0 ? -1 : 1;

@@ -332,28 +332,27 @@ static double distance_beside(vec2 p, vec2 q, vec2 x)
     return along >= 0.0 && along <= square && square > 0.0 ? -vec2_cross(way, from) / sqrt(square) : -INFINITY;
 }
 
-/* Whether x, behind the edge by -distance, is nearer to a neighbour round a convex corner of the body: it is outside
- * the body there, or has come in there. */
-static bool round_corner(const obstacle_edge *edge, vec2 x, double distance)
+/* Whether x, behind the edge by -distance, is nearer to a neighbour round a convex corner of the body, against which
+ * the obstacle's corner points: it is outside the body there, or has come in there. */
+static bool round_corner(const obstacle_edge *edge, vec2 x, vec2 mean, double distance)
 {
-    const vec2 way = vec2_sub(edge->b, edge->a);
-    const bool turns_before = vec2_cross(vec2_sub(edge->a, edge->previous), way) > 0.0;
-    const bool turns_after = vec2_cross(way, vec2_sub(edge->next, edge->b)) > 0.0;
-    return (turns_before && distance_beside(edge->previous, edge->a, x) > distance) ||
-           (turns_after && distance_beside(edge->b, edge->next, x) > distance);
+    const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
+               previous = vec2_sub(edge->a, edge->previous);
+    const bool before = vec2_cross(previous, way) > 0.0 && vec2_cross(previous, mean) > 0.0;
+    const bool after = vec2_cross(way, next) > 0.0 && vec2_cross(next, mean) > 0.0;
+    return (before && distance_beside(edge->previous, edge->a, x) > distance) ||
+           (after && distance_beside(edge->b, edge->next, x) > distance);
 }
 
-/* Whether x, behind the edge with its foot beyond an end of it, is behind the neighbour there too, with its foot beyond
- * that one's end, where the boundary turns in: it is inside the body then, between the two. */
+/* Whether x, behind the edge with its foot beyond an end of it, is in a notch of the body there: where the boundary
+ * turns in, and its foot is beyond that end of the neighbour, too. */
 static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
 {
     const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
-               previous = vec2_sub(edge->a, edge->previous), from_a = vec2_sub(x, edge->a),
-               from_b = vec2_sub(x, edge->b);
+               previous = vec2_sub(edge->a, edge->previous);
     if (fabs(beyond) > edge->depth) return false;
-    if (beyond > 0.0)
-        return vec2_cross(way, next) < 0.0 && vec2_cross(next, from_b) > 0.0 && vec2_dot(next, from_b) <= 0.0;
-    return vec2_cross(previous, way) < 0.0 && vec2_cross(previous, from_a) > 0.0 && vec2_dot(previous, from_a) >= 0.0;
+    if (beyond > 0.0) return vec2_cross(way, next) < 0.0 && vec2_dot(next, vec2_sub(x, edge->b)) < 0.0;
+    return vec2_cross(previous, way) < 0.0 && vec2_dot(previous, vec2_sub(x, edge->a)) > 0.0;
 }
 
 static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
@@ -368,7 +367,7 @@ static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obsta
     if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
     const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
     if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
-    if (distance < 0.0 && round_corner(edge, v->at, distance)) return;
+    if (distance < 0.0 && round_corner(edge, v->at, mean, distance)) return;
     *deepest = (obstacle_poke){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
 }
 

@@ -44,7 +44,7 @@ static double resting_speed(const contact_sites *c, vec2 x, double back, const i
     return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
 
-void strike_book(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
+static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)
 {
     const vec2 along = vec2_scale(vec2_dot(impulse, normal), normal);
     books_add_impulse(&c->books, obstacle, impulse, vec2_sub(impulse, along));
@@ -170,7 +170,7 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
         const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
         kick[first] = vec2_add(kick[first], rest);
         for (int q = 0; q < hit.n; q++)
-            strike_book(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
+            book_impulse(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]), wall[q].normal);
         dem_event event = sites_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
         event.before[0] = before.x;
         event.before[1] = before.y;
@@ -250,11 +250,14 @@ static bool strike_once(contact_sites *c, dem_index k, int q, double tolerance, 
     return true;
 }
 
-/* Returns false if they have not come to an end. */
-static bool sweep(contact_sites *c, dem_index group, double tolerance, contact_moment *now)
+/* The contacts of a group strike in turn, those of site k first. Returns false if that has not come to an end. */
+static bool sweep(contact_sites *c, dem_index k, double tolerance, contact_moment *now)
 {
     const reactions *r = &c->reactions;
+    const dem_index group = r->group[k];
     bool struck = true;
+    for (int q = 0; q < c->list[k].n_closed; q++)
+        (void)strike_once(c, k, q, tolerance, false, now); /* it is the first */
     for (int s = 0; s < most_sweeps && struck; s++) {
         struck = false;
         for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
@@ -333,6 +336,36 @@ static void part(contact_site *site)
     while (site->n_closed > 0 && site->closed[site->n_closed - 1].opens) site->n_closed--;
 }
 
+void strike_stop(contact_sites *c, dem_index group, contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    c->books.impact += sites_stop(c, group, now->x, now->v);
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &c->list[r->members[p]];
+        for (int q = 0; q < site->n_closed; q++) {
+            const touch_frame f = touch_frame_at(&c->scene, site, q, now->x, now->v);
+            const dem_obstacle *on = touch_obstacle(&c->scene, site, site->closed[q].feature);
+            book_impulse(c, on - c->scene.model->obstacles.list, site->closed[q].stop, f.normal);
+        }
+    }
+}
+
+/* Stops the groups that have a node in common with a site: what the integrator's error has left them of velocity is no
+ * approach. */
+static void stop_around(contact_sites *c, dem_index k, contact_moment *now)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
+    for (int e = 0; e < (site_is_edge(&c->list[k]) ? 2 : 1); e++) {
+        const dem_index own = c->of_node[nodes[e]];
+        if (own >= 0 && c->list[own].n_closed > 0) strike_stop(c, c->reactions.group[own], now);
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_sites; p++) {
+            const dem_index edge = sites_of_edge(c, s->at[p]);
+            if (c->list[edge].n_closed > 0) strike_stop(c, c->reactions.group[edge], now);
+        }
+    }
+}
+
 /* What the sweeps have left of velocities that closed contacts do not allow goes. */
 static void settle_velocities(contact_sites *c, contact_moment *now)
 {
@@ -357,7 +390,7 @@ static void tell_party(contact_sites *c, dem_index k, contact_moment *now)
         const bool kept = q < site->n_closed;
         dem_event event = sites_event(c, k, touch->feature, DEM_EVENT_IMPACT, now);
         c->books.counts.closings += touch->fresh && kept;
-        strike_book(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
+        book_impulse(c, event.obstacle, touch->impulse, vec2_at(event.normal, 0));
         if (touch->struck) {
             event.before[0] = touch->before.x;
             event.before[1] = touch->before.y;
@@ -388,14 +421,15 @@ static dem_status take_up(contact_sites *c, dem_index k, contact_hit hit)
 /* The contacts of the group strike one another in turn until none approaches any more. */
 static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit, contact_moment *now)
 {
+    stop_around(c, k, now);
     TRY(take_up(c, k, hit));
     const dem_index group = c->reactions.group[k];
     straighten(c, k, now);
     const double tolerance = group_noise * prepare(c, group, now);
-    bool done = sweep(c, group, tolerance, now);
+    bool done = sweep(c, k, tolerance, now);
     judge(c, group, tolerance, now);
     if (take_back(c, group, now)) {
-        done = sweep(c, group, tolerance, now);
+        done = sweep(c, k, tolerance, now);
         judge(c, group, tolerance, now);
     }
     if (!done) keep_struck(c, group);
@@ -456,7 +490,7 @@ void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact
     event.after[0] = after.x;
     event.after[1] = after.y;
     c->books.counts.early++;
-    strike_book(c, event.obstacle, impulse, f.normal);
+    book_impulse(c, event.obstacle, impulse, f.normal);
     book(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
 }
 

@@ -26,8 +26,8 @@ contact_hit strike_met(const contact_sites *c, dem_index k, const contact_moment
  *  node right on an apex, the side's normal counts. Returns -1 where there is none. */
 dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment *now, dem_index *vertex);
 
-/** Books an impulse (N s) that an obstacle gives; what of it is not along the normal is friction. */
-void strike_book(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal);
+/** Stops a group of contacts, and books what that takes. */
+void strike_stop(contact_sites *c, dem_index group, contact_moment *now);
 
 /** A site strikes: it is put back on the surface, rebounds, and the contacts that last are closed. A node on a segment
  *  that it does not strike again leaves it. */

@@ -48,7 +48,7 @@ static double *make_ground(long segments, double width)
         random = random * 6364136223846793005ULL + 1442695040888963407ULL;
         const double bump = (double)(random >> 33) / 2147483648.0;
         points[2 * k] = width * ((double)k / (double)segments - 0.5);
-        points[2 * k + 1] = 1e-3 * spacing * bump;
+        points[2 * k + 1] = 1e-2 * spacing * sin(points[2 * k] / (6.0 * spacing)) + 0.0 * bump;
     }
     return points;
 }

@@ -58,15 +58,17 @@ static int rattle(double t, const double *y, double *f, void *context)
     return fail_if_due(context, t);
 }
 
-static void heights(const double *y, double *guards, void *context)
+static void heights(double t, const double *y, double *guards, void *context)
 {
+    (void)t;
     const world *w = context;
     guards[0] = y[1] - w->floor;
     guards[1] = w->floor + 1.0 - y[1];
 }
 
-static void broken_heights(const double *y, double *guards, void *context)
+static void broken_heights(double t, const double *y, double *guards, void *context)
 {
+    (void)t;
     (void)y;
     (void)context;
     guards[0] = guards[1] = (double)NAN;

@@ -383,6 +383,7 @@ static dem_status on_impact(void *context, const dem_simulation *simulation, con
 {
     diary *d = context;
     (void)simulation;
+    if (impact->kind != DEM_EVENT_IMPACT) return DEM_OK;
     enter(d, 'i', impact->t);
     return ++d->n_impacts == d->stop_at_impact ? DEM_STOPPED : DEM_OK;
 }

@@ -1,359 +1,629 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* site.c: guards, reactions and ends of one contact site in each of its states, and when they change within a step.
- * Numbers are worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
-#include "../verification/support.h"
+/* site.c: gaps and guards of one contact site in each of its states, and what is due. Numbers are worked out by hand;
+ * tolerances of 1e-15 to 1e-13 are rounding. */
+#include "scene.h"
 
-#include <float.h>
-#include <stdbool.h>
-#include <stdlib.h>
-
-#include "site.h"
-
-static const double skin = 1e-3, g = 10.0, mass = 2.0;
+static const double skin = 1e-3;
 
 /* A floor of 4 m and, 3 m above its end, a ceiling; bodies live between them. */
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {6.0, 3.0, 3.0, 3.0};
 static const dem_obstacle room[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.5},
                                      {.n_points = 2, .points = ceiling_points, .restitution = 0.5}};
+static const dem_obstacle rough = {
+    .n_points = 2, .points = floor_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
 
 /* A groove of 90 degrees with its bottom in the origin. */
 static const double groove_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
 static const dem_obstacle groove = {.n_points = 3, .points = groove_points, .restitution = 0.0};
 
-static contact_scene open_scene(const dem_obstacle *obstacles, dem_index n_obstacles)
+static void set_rule(scene *s)
 {
-    const double x[4] = {1.0, 1.0};
-    contact_scene scene = {.rule = {.skin = skin, .max_step = 0.1, .load.gravity = {0.0, -g}}};
-    dem_lattice lattice;
-    dem_model *model;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
-    assert_ok(dem_model_create(&model, &lattice, obstacles, n_obstacles));
-    dem_lattice_free(&lattice);
-    scene.model = model;
-    return scene;
+    s->c.sites.scene.rule.skin = skin;
+    s->c.sites.scene.rule.max_step = 0.1;
 }
 
-static void close_scene(contact_scene *scene)
+/* One node of 2 kg. */
+static const contact_scene *open_node(scene *s, const dem_obstacle *obstacles, dem_index n)
 {
-    dem_model_destroy((dem_model *)(uintptr_t)scene->model);
+    const double x[2] = {1.0, 1.0}, mass = 2.0;
+    scene_open(s, 1, x, &mass, 0, NULL, obstacles, n);
+    set_rule(s);
+    return &s->c.sites.scene;
 }
 
 static contact_site free_site(void)
 {
-    return (contact_site){.node = 0, .behind = -1};
+    return (contact_site){.node = 0, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
 }
 
-static contact_site sliding_site(dem_index s)
+static contact_site closed_site(dem_index feature, int sign)
 {
-    return (contact_site){.node = 0, .behind = -1, .n_closed = 1, .segments = {s, -1}};
+    contact_site site = free_site();
+    site.n_closed = 1;
+    site.closed[0] = (contact_touch){.feature = feature, .sign = sign};
+    return site;
 }
 
 static contact_site held_site(void)
 {
-    return (contact_site){.node = 0, .behind = -1, .n_closed = 2, .segments = {0, 1}};
+    contact_site site = closed_site(0, 1);
+    site.n_closed = 2;
+    site.closed[1] = (contact_touch){.feature = 1, .sign = 1};
+    site.closed[0].held = site.closed[1].held = true;
+    return site;
 }
 
-static void check_guards(const contact_scene *scene, const contact_site *site, double x, double y, double g0, double g1,
-                         double g2)
+/* State of one node and the forces in its contacts. */
+typedef struct node_state {
+    double x[2], v[2];
+    reaction force[2];
+} node_state;
+
+static void check_guards(const contact_scene *world, const contact_site *site, const node_state *s,
+                         const double expected[SITE_GUARDS])
 {
-    const double at[4] = {x, y};
-    double guards[SITE_GUARDS] = {77.0, 77.0, 77.0};
-    site_guards(scene, site, at, guards);
-    assert_close(guards[0], g0, 1e-13);
-    assert_close(guards[1], g1, 1e-13);
-    assert_close(guards[2], g2, 1e-13);
+    double guards[SITE_GUARDS] = {77.0, 77.0, 77.0, 77.0};
+    site_guards(world, site, s->force, s->x, s->v, guards);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
 }
 
-/* ---- guards ---- */
+/* ---- guards of a node ---- */
+
+static void check_free(const contact_scene *world, const contact_site *site, double x, double y, double guard)
+{
+    const node_state s = {{x, y}, {0.0, 0.0}, {{0.0, 0.0}, {0.0, 0.0}}};
+    check_guards(world, site, &s, (double[]){guard, 1.0, 1.0, 1.0});
+}
 
 static void a_free_site_watches_its_gap_down_to_the_skin(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
+    const contact_scene *world = open_node(&s, room, 2);
     const contact_site site = free_site();
-    check_guards(&scene, &site, 1.0, 0.25, 0.25 + skin, 1.0, 1.0);
-    check_guards(&scene, &site, 1.0, 0.0, skin, 1.0, 1.0);
-    check_guards(&scene, &site, 1.0, -skin, 0.0, 1.0, 1.0);
-    check_guards(&scene, &site, 1.0, -0.1, -0.1 + skin, 1.0, 1.0);
-    check_guards(&scene, &site, 5.0, 2.5, 0.5 + skin, 1.0, 1.0); /* the ceiling is nearer */
-    close_scene(&scene);
+    check_free(world, &site, 1.0, 0.25, 0.25 + skin);
+    check_free(world, &site, 1.0, 0.0, skin);
+    check_free(world, &site, 1.0, -skin, 0.0);
+    check_free(world, &site, 1.0, -0.1, -0.1 + skin);
+    check_free(world, &site, 5.0, 2.5, 0.5 + skin); /* the ceiling is nearer */
+    scene_close(&s);
 }
 
 static void far_from_everything_its_guard_is_finite(void **state)
 {
+    scene s, empty;
     (void)state;
-    contact_scene scene = open_scene(room, 2), empty = open_scene(NULL, 0);
+    const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
     const contact_site site = free_site();
-    check_guards(&scene, &site, -50.0, 1.0, 1.0 + skin, 1.0, 1.0);
-    check_guards(&empty, &site, 0.0, 0.0, 1.0 + skin, 1.0, 1.0);
-    close_scene(&scene);
-    close_scene(&empty);
+    check_free(world, &site, -50.0, 1.0, 1.0 + skin);
+    check_free(nothing, &site, 0.0, 0.0, 1.0 + skin);
+    scene_close(&s);
+    scene_close(&empty);
 }
 
 static void a_site_behind_an_obstacle_does_not_see_it(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
+    const contact_scene *world = open_node(&s, room, 2);
     contact_site site = free_site();
-    site.behind = 0;
-    check_guards(&scene, &site, 3.5, -0.2, 1.0 + skin, 1.0, 1.0);
-    check_guards(&scene, &site, 3.5, 2.5, 0.5 + skin, 1.0, 1.0);
-    site = sliding_site(1);
-    site.behind = 0;
-    check_guards(&scene, &site, 3.5, 3.0, -mass * g, 0.5 + skin, 1.0 + skin);
-    close_scene(&scene);
+    site.behind[0] = 0;
+    check_free(world, &site, 3.5, -0.2, 1.0 + skin);
+    check_free(world, &site, 3.5, 2.5, 0.5 + skin);
+    site = closed_site(1, 1);
+    site.behind[0] = 0;
+    const node_state at = {{3.5, 3.0}, {0.0, 0.0}, {{-20.0, 0.0}, {0.0, 0.0}}};
+    check_guards(world, &site, &at, (double[]){1.0 + skin, -20.0, 0.5 + skin, 1.0});
+    scene_close(&s);
 }
 
-/* Reaction m g, the nearer end, the other obstacle above: min(3 - 0, 1) + skin; 3 m to the ceiling count as 1. */
+/* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + skin; 3 m to the ceiling count as 1. Without
+ * friction the speed of sliding does not matter. */
 static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site on_floor = sliding_site(0), on_ceiling = sliding_site(1);
-    check_guards(&scene, &on_floor, 1.5, 0.0, mass * g, 1.5 + skin, 1.0 + skin);
-    check_guards(&scene, &on_floor, 3.75, 0.0, mass * g, 0.25 + skin, 1.0 + skin);
-    check_guards(&scene, &on_floor, 4.5, 0.0, mass * g, -0.5 + skin, 1.0 + skin);
-    check_guards(&scene, &on_floor, 3.5, 2.75, mass * g, 0.5 + skin, 0.25 + skin);
-    check_guards(&scene, &on_ceiling, 4.0, 3.0, -mass * g, 1.0 + skin, 1.0 + skin);
-    close_scene(&scene);
+    const contact_scene *world = open_node(&s, room, 2);
+    const contact_site on_floor = closed_site(0, 1), on_ceiling = closed_site(1, 1);
+    const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
+    const double expected[5][SITE_GUARDS] = {{1.0 + skin, 20.0, 1.5 + skin, 1.0},
+                                             {1.0 + skin, 20.0, 0.25 + skin, 1.0},
+                                             {1.0 + skin, 20.0, -0.5 + skin, 1.0},
+                                             {0.25 + skin, 20.0, 0.5 + skin, 1.0},
+                                             {1.0 + skin, 20.0, 1.0 + skin, 1.0}};
+    for (int k = 0; k < 5; k++) {
+        const node_state at = {{x[k], y[k]}, {-3.0, 0.0}, {{20.0, 0.0}, {-7.0, -7.0}}};
+        check_guards(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
+    }
+    scene_close(&s);
 }
 
-/* Each flank of the groove takes m g cos 45; with gravity turned into one flank's normal the other takes nothing. */
+/* The tangent of the floor is (1, 0). */
+static void a_site_that_slides_with_friction_watches_its_speed_too(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site along = closed_site(0, 1), against = closed_site(0, -1);
+    const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
+    const node_state backwards = {{3.0, 0.0}, {-0.5, 0.0}, {{20.0, 10.0}, {0.0, 0.0}}};
+    check_guards(world, &along, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, 0.75});
+    check_guards(world, &along, &backwards, (double[]){1.0 + skin, 20.0, 1.0 + skin, -0.5});
+    check_guards(world, &against, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, -0.75});
+    check_guards(world, &against, &backwards, (double[]){1.0 + skin, 20.0, 1.0 + skin, 0.5});
+    scene_close(&s);
+}
+
+/* mu = 1/2: 20 N allow 10 N, either way. The end of the floor is of no matter to it. */
+static void a_sticking_site_watches_its_grip(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site site = closed_site(0, 0);
+    const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
+    for (int k = 0; k < 4; k++) {
+        const node_state at = {{4.5, 0.0}, {0.0, 0.0}, {{20.0, tangent[k]}, {-7.0, -7.0}}};
+        check_guards(world, &site, &at, (double[]){1.0 + skin, 20.0, grip[k], 1.0});
+    }
+    scene_close(&s);
+}
+
 static void a_held_site_watches_both_reactions(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(&groove, 1);
+    const contact_scene *world = open_node(&s, &groove, 1);
     const contact_site site = held_site();
-    double reaction[2];
-    const double at[4] = {0.0, 0.0};
-    check_guards(&scene, &site, 0.0, 0.0, mass * g * sqrt(0.5), mass * g * sqrt(0.5), 1.0);
-    scene.rule.load.gravity[0] = -g; /* into the left flank, whose normal is (1, 1)/sqrt 2 */
-    check_guards(&scene, &site, 0.0, 0.0, mass * g * sqrt(2.0), 0.0, 1.0);
-    scene.rule.load.gravity[1] = 0.0;
-    check_guards(&scene, &site, 0.0, 0.0, mass * g * sqrt(0.5), -mass * g * sqrt(0.5), 1.0);
-    site_reactions(&scene, &site, at, reaction);
-    assert_close(reaction[0], mass * g * sqrt(0.5), 1e-13);
-    assert_close(reaction[1], -mass * g * sqrt(0.5), 1e-13);
-    close_scene(&scene);
+    const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
+    const node_state second = {{0.0, 0.0}, {0.0, 0.0}, {{14.0, 0.0}, {-2.0, 0.0}}};
+    check_guards(world, &site, &first, (double[]){1.0 + skin, 3.0, 1.0, 1.0});
+    check_guards(world, &site, &second, (double[]){1.0 + skin, -2.0, 1.0, 1.0});
+    scene_close(&s);
 }
 
-/* A spring of 100 N and 1 m stretched to 1.5 m pulls with 50 N; the weight is 20 N. */
-static void the_force_on_a_site_is_elastic_and_weight(void **state)
+static double grip(const contact_scene *world, const contact_site *site)
 {
-    const double x[4] = {1.0, 0.0, 1.0, 1.0}, now[4] = {1.0, 0.0, 1.0, 1.5}, masses[2] = {2.0, 3.0};
-    const dem_index ends[2] = {0, 1};
-    const contact_site site = sliding_site(0);
-    dem_lattice lattice;
-    dem_model *model;
-    double reaction[2];
+    const reaction force = {20.0, -4.0};
+    const double x[2] = {1.0, 0.0}, v[2] = {0.0, 0.0};
+    const touch_frame f = touch_frame_at(world, site, 0, x, v);
+    return site_grip(world, site, 0, &f, &force, x);
+}
+
+static void only_what_sticks_by_friction_has_a_grip(void **state)
+{
+    scene s, t;
     (void)state;
-    support_lattice(&lattice, 2, x, masses, 1, ends, 1.0, 100.0, NULL);
-    assert_ok(dem_model_create(&model, &lattice, room, 2));
-    dem_lattice_free(&lattice);
-    const contact_scene scene = {model, {.skin = skin, .load.gravity = {0.5, -g}}};
-    const vec2 force = site_force(&scene, &site, now);
-    assert_close(force.x, 1.0, 1e-14);
-    assert_close(force.y, 30.0, 1e-14);
-    site_reactions(&scene, &site, now, reaction);
-    assert_close(reaction[0], -30.0, 1e-14);
-    assert_close(reaction[1], 0.0, 0.0);
-    dem_model_destroy(model);
+    const contact_scene *world = open_node(&s, &rough, 1), *corner = open_node(&t, &groove, 1);
+    const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1), held = held_site();
+    assert_close(grip(world, &sticks), 6.0, 1e-14);
+    assert_true(isinf(grip(world, &slides)) != 0);
+    assert_true(isinf(grip(corner, &held)) != 0);
+    scene_close(&s);
+    scene_close(&t);
+}
+
+static bool turns(const contact_scene *world, int sign, double speed)
+{
+    const contact_site site = closed_site(0, sign);
+    const double x[2] = {1.0, 0.0}, v[2] = {speed, 0.0};
+    const touch_frame f = touch_frame_at(world, &site, 0, x, v);
+    return site_turns(world, &site, 0, &f, v);
+}
+
+static void what_slides_with_friction_turns_when_it_goes_the_other_way(void **state)
+{
+    scene s, smooth;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1), *without = open_node(&smooth, room, 1);
+    assert_false(turns(world, 1, 1e-6));
+    assert_false(turns(world, 1, 0.0));
+    assert_true(turns(world, 1, -1e-6));
+    assert_false(turns(world, -1, -1e-6));
+    assert_true(turns(world, -1, 1e-6));
+    assert_false(turns(world, 0, 1e-6));
+    assert_false(turns(without, 1, -1.0));
+    scene_close(&s);
+    scene_close(&smooth);
 }
 
 /* ---- ends and what is due ---- */
 
-static int end_passed(const contact_scene *scene, double x, double vx)
+static int end_passed(const contact_scene *world, double x, double vx)
 {
-    const contact_site site = sliding_site(0);
-    const double at[4] = {x, 0.0}, v[2] = {vx, 0.0};
-    return site_end_passed(scene, &site, at, v);
+    const contact_site site = closed_site(0, 1);
+    const double at[2] = {x, 0.0}, v[2] = {vx, 0.0};
+    return site_end_passed(world, &site, 0, at, v);
 }
 
 static void an_end_is_passed_by_the_skin_heading_out(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    assert_int_equal(end_passed(&scene, 2.0, 5.0), 0);
-    assert_int_equal(end_passed(&scene, 4.0 + 0.99 * skin, 1.0), 0);
-    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 1.0), 1);
-    assert_int_equal(end_passed(&scene, 4.1, 1.0), 1);
-    assert_int_equal(end_passed(&scene, 4.1, -1.0), 0);
-    assert_int_equal(end_passed(&scene, -1.01 * skin, -1.0), -1);
-    assert_int_equal(end_passed(&scene, -0.1, -1.0), -1);
-    assert_int_equal(end_passed(&scene, -0.1, 1.0), 0);
-    close_scene(&scene);
+    const contact_scene *world = open_node(&s, room, 2);
+    assert_int_equal(end_passed(world, 2.0, 5.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 0.99 * skin, 1.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 1.0), 1);
+    assert_int_equal(end_passed(world, 4.1, 1.0), 1);
+    assert_int_equal(end_passed(world, 4.1, -1.0), 0);
+    assert_int_equal(end_passed(world, -1.01 * skin, -1.0), -1);
+    assert_int_equal(end_passed(world, -0.1, -1.0), -1);
+    assert_int_equal(end_passed(world, -0.1, 1.0), 0);
+    scene_close(&s);
 }
 
 static void at_rest_the_force_tells_where_it_heads(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 0);
-    scene.rule.load.gravity[0] = 1.0;
-    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 1);
-    assert_int_equal(end_passed(&scene, -1.01 * skin, 0.0), 0);
-    scene.rule.load.gravity[0] = -1.0;
-    assert_int_equal(end_passed(&scene, 4.0 + 1.01 * skin, 0.0), 0);
-    assert_int_equal(end_passed(&scene, -1.01 * skin, 0.0), -1);
-    close_scene(&scene);
+    const contact_scene *world = open_node(&s, room, 2);
+    double *gravity = s.c.sites.scene.rule.load.gravity;
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
+    gravity[0] = 1.0;
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 1);
+    assert_int_equal(end_passed(world, -1.01 * skin, 0.0), 0);
+    gravity[0] = -1.0;
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
+    assert_int_equal(end_passed(world, -1.01 * skin, 0.0), -1);
+    scene_close(&s);
 }
 
-static bool due(const contact_scene *scene, const contact_site *site, double x, double y, double vx)
+static void what_sticks_passes_no_end(void **state)
 {
-    const double at[4] = {x, y, vx, 0.0};
-    return site_due(scene, site, at);
+    scene s;
+    const double at[2] = {4.5, 0.0}, v[2] = {1.0, 0.0};
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1);
+    assert_int_equal(site_end_passed(world, &sticks, 0, at, v), 0);
+    assert_int_equal(site_end_passed(world, &slides, 0, at, v), 1);
+    scene_close(&s);
+}
+
+static bool due(const contact_scene *world, const contact_site *site, const node_state *s)
+{
+    return site_due(world, site, s->force, s->x, s->v);
 }
 
 static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = sliding_site(0);
-    assert_false(due(&scene, &site, 2.0, 0.0, 1.0));
-    assert_true(due(&scene, &site, 4.0 + 1.01 * skin, 0.0, 1.0));
-    assert_false(due(&scene, &site, 4.0 + 1.01 * skin, 0.0, -1.0));
-    assert_true(due(&scene, &site, 3.5, 3.0 + 1.01 * skin, 1.0));
-    assert_false(due(&scene, &site, 3.5, 3.0 + 0.99 * skin, 1.0));
-    scene.rule.load.gravity[1] = 0.0;
-    assert_true(due(&scene, &site, 2.0, 0.0, 1.0));
-    close_scene(&scene);
+    const contact_scene *world = open_node(&s, room, 2);
+    const contact_site site = closed_site(0, 1);
+    node_state at = {{2.0, 0.0}, {1.0, 0.0}, {{20.0, 0.0}, {0.0, 0.0}}};
+    assert_false(due(world, &site, &at));
+    at.force[0].normal = 0.0;
+    assert_true(due(world, &site, &at));
+    at.force[0].normal = 1e-9;
+    assert_false(due(world, &site, &at));
+    at.x[0] = 4.0 + 1.01 * skin;
+    assert_true(due(world, &site, &at));
+    at.v[0] = -1.0;
+    assert_false(due(world, &site, &at));
+    at.x[0] = 3.5;
+    at.x[1] = 3.0 + 1.01 * skin;
+    assert_true(due(world, &site, &at));
+    at.x[1] = 3.0 + 0.99 * skin;
+    assert_false(due(world, &site, &at));
+    scene_close(&s);
+}
+
+static void with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site slides = closed_site(0, 1), sticks = closed_site(0, 0);
+    node_state at = {{2.0, 0.0}, {1e-3, 0.0}, {{20.0, -10.0}, {0.0, 0.0}}};
+    assert_false(due(world, &slides, &at));
+    at.v[0] = -1e-3;
+    assert_true(due(world, &slides, &at));
+    at.v[0] = 0.0;
+    at.force[0].tangent = -9.99;
+    assert_false(due(world, &sticks, &at));
+    at.force[0].tangent = -10.01;
+    assert_true(due(world, &sticks, &at));
+    at.force[0].tangent = 10.01;
+    assert_true(due(world, &sticks, &at));
+    scene_close(&s);
 }
 
 static void a_held_site_is_due_when_either_reaction_ceases(void **state)
 {
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(&groove, 1);
+    const contact_scene *world = open_node(&s, &groove, 1);
     const contact_site site = held_site();
-    assert_false(due(&scene, &site, 0.0, 0.0, 0.0));
-    scene.rule.load.gravity[0] = 1.01 * g;
-    assert_true(due(&scene, &site, 0.0, 0.0, 0.0));
-    scene.rule.load.gravity[0] = -1.01 * g;
-    assert_true(due(&scene, &site, 0.0, 0.0, 0.0));
-    close_scene(&scene);
+    node_state at = {{0.0, 0.0}, {0.0, 0.0}, {{1.0, 0.0}, {1.0, 0.0}}};
+    assert_false(due(world, &site, &at));
+    at.force[0].normal = -0.01;
+    assert_true(due(world, &site, &at));
+    at.force[0].normal = 1.0;
+    at.force[1].normal = -0.01;
+    assert_true(due(world, &site, &at));
+    scene_close(&s);
 }
 
-/* ---- search within a step ---- */
+/* ---- edges ---- */
 
-/* Free flight y = y0 + u t - g t^2/2 from t0 to t1 over x = x0 + w t, which the path's quintic follows exactly. */
-typedef struct flight {
-    double y0[4], f0[4], y1[4], f1[4];
-    path path;
-} flight;
+/* A roof with its ridge in the origin, and one beside it with its ridge at (0.75, -0.25); the former with friction. */
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
+                    beside_points[6] = {0.5, -0.5, 0.75, -0.25, 4.0, -3.5};
+static const dem_obstacle roof = {.n_points = 3, .points = roof_points},
+                          rough_roof = {.n_points = 3,
+                                        .points = roof_points,
+                                        .friction = 0.5,
+                                        .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle roofs[2] = {{.n_points = 3, .points = roof_points}, {.n_points = 3, .points = beside_points}};
 
-static void fly(flight *f, const double x[2], const double v[2], double a, double t0, double t1)
+static const double masses[3] = {2.0, 2.0, 2.0};
+
+/* The lower edge, from node 0 at (x, y) 2 m along. */
+static contact_site *open_edge(scene *s, double x, double y, const dem_obstacle *obstacles, dem_index n)
 {
-    const double h = t1 - t0;
-    for (int k = 0; k < 2; k++) {
-        const double ak = k == 1 ? a : 0.0;
-        f->y0[k] = x[k];
-        f->y0[2 + k] = f->f0[k] = v[k];
-        f->f0[2 + k] = f->f1[2 + k] = ak;
-        f->y1[k] = x[k] + h * (v[k] + 0.5 * h * ak);
-        f->y1[2 + k] = f->f1[k] = v[k] + h * ak;
+    scene_open_triangle(s, masses, x, y, obstacles, n);
+    set_rule(s);
+    return &s->c.sites.list[scene_edge(s, 0, 1)];
+}
+
+static void check_edge(scene *s, const contact_site *edge, const double expected[SITE_GUARDS])
+{
+    const reaction force[2] = {{20.0, -4.0}, {8.0, 6.0}};
+    double guards[SITE_GUARDS];
+    site_guards(&s->c.sites.scene, edge, force, s->y, scene_v(s), guards);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+}
+
+static void move_all(scene *s, double x, double y, double u)
+{
+    scene_put(s, 0, x, y, u, 0.0);
+    scene_put(s, 1, x + 2.0, y, u, 0.0);
+    scene_put(s, 2, x + 1.0, y + 1.0, u, 0.0);
+}
+
+/* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the skin beyond
+ * its ends. */
+static void a_free_edge_watches_the_convex_vertex_below_it(void **state)
+{
+    const double x[10] = {-1.5, -1.5, -1.5, -1.5, 0.99 * skin, 1.01 * skin, -2.0 - 0.99 * skin, -2.0 - 1.01 * skin,
+                          -1.0, -1.0};
+    const double y[10] = {0.25, 0.0, -skin, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51, -0.49};
+    const double gap[10] = {0.25, 0.0, -skin, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    for (int k = 0; k < 10; k++) {
+        move_all(&s, x[k], y[k], 0.0);
+        vec2_put(s.y, 2, (vec2){x[k] + 1.0, 10.0}); /* deep inside, the other edges are further */
+        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
     }
-    f->path = (path){1, t0, t1, t1, f->y0, f->f0, f->y1, f->f1};
+    scene_close(&s);
 }
 
-/* Falls from 0.2 m: at the skin's depth after sqrt(2 (0.2 + skin)/g). The time is found to 100 units of rounding of
- * t + h, and its end is on the deep side. */
-static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
+/* From (-1.5, 0.5) to (0.1, 1.7), 2 m long at a slope of 3 to 4: the ridge is 0.8 * 1.625 m away and out of reach; once
+ * the edge is 1.125 m lower it is 0.8 * 0.5 m. */
+static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
 {
-    const double x[4] = {1.0, 0.2}, v[2] = {0.3, 0.0}, start = 7.0, t = sqrt(2.0 * (0.2 + skin) / g);
-    flight f;
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = free_site();
-    fly(&f, x, v, -g, start, start + 0.3);
-    const double found = site_first_crossing(&scene, &site, &f.path, false);
-    assert_close(found, start + t, 200.0 * DBL_EPSILON * (start + 0.3));
-    assert_true(path_position(&f.path, found, 0).y <= -skin);
-    f.path.end = start + 0.9 * t;
-    assert_true(isinf(site_first_crossing(&scene, &site, &f.path, false)) != 0);
-    close_scene(&scene);
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
+    scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
+    const contact_spot spot = site_spot(edge, s.y);
+    const contact_gap gap = site_gap(&s.c.sites.scene, edge, &spot);
+    assert_close(gap.distance, 0.8 * (-0.625 + 0.75 * 1.5), 1e-15);
+    assert_close(gap.place, (0.8 * 1.5 + 0.6 * 0.625) / 2.0, 1e-15);
+    assert_close(gap.normal.x, -0.6, 1e-15);
+    assert_close(gap.normal.y, 0.8, 1e-15);
+    assert_int_equal(gap.feature, 0);
+    assert_int_equal(touch_segment(&s.c.sites.scene, edge, gap.feature), 0);
+    scene_close(&s);
 }
 
-static void a_crossing_at_the_end_of_a_rooted_step_is_the_root_itself(void **state)
+/* On the ridge of the first roof 0.5 m from its end; the second one's is 0.25 m below it. */
+static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
 {
-    const double x[4] = {1.0, 0.2}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * (0.2 + skin) / g);
-    flight f;
+    scene s, rubbed;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = free_site();
-    fly(&f, x, v, -g, 0.0, 0.3);
-    f.path.end = t * (1.0 + 1e-12);
-    assert_true(isinf(site_first_crossing(&scene, &site, &f.path, true)) != 0);
-    assert_close(site_first_crossing(&scene, &site, &f.path, false), t, 1e-13);
-    f.path.end = 1.2 * t; /* an eighth before this end it is deep already */
-    assert_close(site_first_crossing(&scene, &site, &f.path, true), t, 1e-13);
-    close_scene(&scene);
+    contact_site *edge = open_edge(&s, -1.5, 0.0, roofs, 2);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    move_all(&s, -1.5, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, 1.0}); /* the second ridge is beyond its end */
+    move_all(&s, -0.25, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, 0.25 + skin, 1.0});
+    move_all(&s, 0.125, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, -0.125 + skin, 1.0});
+    scene_close(&s);
+    edge = open_edge(&rubbed, -1.5, 0.0, &rough_roof, 1);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = -1};
+    move_all(&rubbed, -1.5, 0.0, 0.75);
+    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, -0.75});
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 0, .place = 0.75};
+    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 6.0, 1.0}); /* 0.5 * 20 - 4 */
+    scene_close(&rubbed);
 }
 
-/* Thrown down against an upward pull: inside from 0.24 t1 to 0.76 t1, outside at both ends. */
-static void a_dip_within_the_step_is_found(void **state)
+static void an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap(void **state)
 {
-    const double depth = 0.05, a = 10.0, bottom = 0.2; /* y = -depth + a (t - bottom)^2/2 */
-    const double x[4] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
-    flight f;
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = free_site();
-    fly(&f, x, v, a, 0.0, 2.0 * bottom);
-    assert_true(f.y0[1] > 0.0 && f.y1[1] > 0.0);
-    assert_close(site_first_crossing(&scene, &site, &f.path, false), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
-    assert_close(site_first_crossing(&scene, &site, &f.path, true), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
-    close_scene(&scene);
+    contact_site *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
+    edge->n_closed = 2;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    edge->closed[1] = (contact_touch){.feature = 1, .sign = 1};
+    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.25 + skin, 1.0});
+    move_all(&s, -1.15, 0.0, 0.0); /* the second is 0.1 m from the end, the first 0.85 m */
+    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.1 + skin, 1.0});
+    scene_close(&s);
 }
 
-/* A parabola whose bottom, between two of the eight samples, is a micrometre deeper than the skin for 1/500 of the
- * step; one that stays as much above it is none. Times to rounding over a vertical speed of 4.5 mm/s. */
-static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
+/* A body that goes right takes its start to the vertex. */
+static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **state)
 {
-    const double a = 10.0, bottom = 0.2, end = 0.45;
+    const double x[6] = {1.01 * skin, 1.01 * skin, 0.99 * skin, -2.0 - 1.01 * skin, -2.0 - 1.01 * skin, -1.0};
+    const double u[6] = {1.0, -1.0, 1.0, -1.0, 1.0, 1.0};
+    const int passed[6] = {-1, 0, 0, 1, 0, 0};
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = free_site();
-    for (int k = 0; k < 2; k++) {
-        const double depth = skin + (k == 0 ? 1e-6 : -1e-6);
-        const double x[4] = {1.0, -depth + 0.5 * a * bottom * bottom}, v[2] = {0.0, -a * bottom};
-        flight f;
-        fly(&f, x, v, a, 0.0, end);
-        const double found = site_first_crossing(&scene, &site, &f.path, k == 1);
-        if (k == 0)
-            assert_close(found, bottom - sqrt(2.0 * (depth - skin) / a), 1e-12);
-        else
-            assert_true(isinf(found) != 0);
+    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    for (int k = 0; k < 6; k++) {
+        move_all(&s, x[k], 0.0, u[k]);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), passed[k]);
     }
-    close_scene(&scene);
+    s.c.sites.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
+    for (int k = 0; k < 2; k++) {
+        move_all(&s, k == 0 ? 1.01 * skin : -2.0 - 1.01 * skin, 0.0, 0.0);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
+    }
+    scene_close(&s);
 }
 
-static void a_site_out_of_reach_never_crosses(void **state)
+/* The body's edge from node 1 at (2, 0) to node 2 at (1, 1) falls away by 45 degrees: what is 0.03 m above the lower
+ * edge's line is outside where x + y > 2, and inside the body where it is less. */
+static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **state)
 {
-    const double x[4] = {1.0, 0.9}, v[2] = {4.0, 0.0};
-    flight f;
+    const double x[4] = {-1.99, -1.9, -0.01, -0.1}, gap[4] = {1.0, -0.03, 1.0, -0.03};
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = free_site();
-    fly(&f, x, v, 0.0, 0.0, 0.1);
-    assert_true(isinf(site_first_crossing(&scene, &site, &f.path, false)) != 0);
-    close_scene(&scene);
+    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    assert_int_equal(edge->next, 2);
+    assert_int_equal(edge->previous, 2);
+    for (int k = 0; k < 4; k++) {
+        move_all(&s, x[k], -0.03, 0.0);
+        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+    }
+    scene_close(&s);
 }
 
-/* Slides from x = 3 with 2 m/s: beyond the end by the skin after half a second and the time for that. */
-static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
+static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(void **state)
 {
-    const double x[4] = {3.0, 0.0}, v[2] = {2.0, 0.0};
-    double scratch[4];
-    flight f;
+    scene s;
     (void)state;
-    contact_scene scene = open_scene(room, 2);
-    const contact_site site = sliding_site(0);
-    fly(&f, x, v, 0.0, 1.0, 1.7);
-    assert_true(site_due(&scene, &site, f.y1));
-    const double found = site_first_due(&scene, &site, &f.path, scratch);
-    assert_close(found, 1.5 + 0.5 * skin, 200.0 * DBL_EPSILON * 2.4);
-    path_state(&f.path, found, scratch);
-    assert_true(site_due(&scene, &site, scratch));
-    close_scene(&scene);
+    contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    check_edge(&s, edge, (double[]){0.25 + skin, 1.0, 1.0, 1.0});
+    for (int k = 0; k < 2; k++) {
+        edge->behind[k] = 0;
+        check_edge(&s, edge, (double[]){1.0 + skin, 1.0, 1.0, 1.0});
+        edge->behind[k] = -1;
+    }
+    scene_close(&s);
+}
+
+/* ---- what is clear ---- */
+
+static double uniform(unsigned *seed, double low, double high)
+{
+    *seed = *seed * 1664525u + 1013904223u; /* Numerical Recipes' generator */
+    return low + (high - low) * (*seed >> 8) / 16777216.0;
+}
+
+/* A ragged line of 24 points, 0.3 m apart, with ridges of up to 0.3 m; and a plate that hangs above it. */
+static void open_ragged(scene *s, unsigned *seed, bool triangle)
+{
+    double points[48], plate[6] = {3.0, 1.5, 1.5, uniform(seed, 0.9, 1.5), 0.0, 1.5};
+    for (int k = 0; k < 24; k++) {
+        points[2 * k] = 0.3 * k - 3.0;
+        points[2 * k + 1] = uniform(seed, -0.15, 0.15);
+    }
+    const dem_obstacle ragged[2] = {{.n_points = 24, .points = points}, {.n_points = 3, .points = plate}};
+    if (triangle)
+        scene_open_triangle(s, masses, 0.0, 1.0, ragged, 2);
+    else
+        scene_open(s, 1, (double[]){0.0, 1.0}, masses, 0, NULL, ragged, 2);
+    set_rule(s);
+}
+
+/* The clearance less the way gone is never more than what is there, but for the margin of ten skins by which free ends
+ * count as longer; and it is of use: most of what is looked at is told by it. */
+static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
+{
+    unsigned seed = 7;
+    int inside = 0;
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        scene s;
+        dem_index nearest;
+        open_ragged(&s, &seed, false);
+        const contact_scene *world = &s.c.sites.scene;
+        const contact_site site = free_site();
+        const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
+        const contact_spot here = site_spot(&site, x);
+        const double clear = site_clearance(world, &site, &here, 0.0, &nearest) - 10.0 * skin;
+        assert_int_equal(nearest, obstacles_gap(&world->model->obstacles, here.a, 10.0 * skin, -1, -1).segment);
+        for (int q = 0; q < 50; q++) {
+            const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
+            const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
+            const contact_spot there = {to, to, to, to};
+            assert_true(site_gap(world, &site, &there).distance >= clear - way - 1e-15 || clear < way);
+            inside += way < clear;
+        }
+        scene_close(&s);
+    }
+    assert_true(inside > 2000);
+}
+
+/* The same of an edge that turns and stretches: its ends go different ways. The ridges are steeper than it gets. */
+static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
+{
+    unsigned seed = 11;
+    int inside = 0;
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        scene s;
+        dem_index nearest;
+        open_ragged(&s, &seed, true);
+        const contact_scene *world = &s.c.sites.scene;
+        const contact_site edge = s.c.sites.list[scene_edge(&s, 0, 1)];
+        const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
+        const double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
+        const contact_spot here = site_spot(&edge, at);
+        const double clear = site_clearance(world, &edge, &here, k % 2 == 0 ? 0.05 : 0.0, &nearest);
+        for (int q = 0; q < 50; q++) {
+            double to[6], way = 0.0;
+            for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
+            for (int i = 0; i < 2; i++) way = fmax(way, vec2_norm(vec2_sub(vec2_at(to, i), vec2_at(at, i))));
+            const contact_spot there = site_spot(&edge, to);
+            assert_true(site_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
+            inside += way < clear;
+        }
+        scene_close(&s);
+    }
+    assert_true(inside > 2000);
+}
+
+/* Half the edge's length, 1 m, is as far as is looked; beyond that the distance of its node less its length counts. */
+static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(void **state)
+{
+    const double y[4] = {0.25, 0.9, 1.1, 5.0}, clear[4] = {0.25, 0.9, 1.0, sqrt(27.25) - 2.0};
+    scene s;
+    dem_index nearest;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    for (int k = 0; k < 4; k++) {
+        move_all(&s, -1.5, y[k], 0.0);
+        const contact_spot spot = site_spot(edge, s.y);
+        assert_close(site_clearance(&s.c.sites.scene, edge, &spot, 0.0, &nearest), clear[k], 1e-14);
+    }
+    scene_close(&s);
+}
+
+/* The ridge is 0.3 m beyond the end of the edge, and 0.4 m below it. */
+static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
+    const contact_spot spot = site_spot(edge, s.y);
+    assert_int_equal(site_gap(&s.c.sites.scene, edge, &spot).feature, -1);
+    assert_true(site_near(&s.c.sites.scene, edge, &spot, 0.5));
+    assert_false(site_near(&s.c.sites.scene, edge, &spot, 0.29));
+    assert_false(site_near(&s.c.sites.scene, edge, &spot, 0.39));
+    scene_close(&s);
 }
 
 int main(void)
@@ -363,18 +633,28 @@ int main(void)
         cmocka_unit_test(far_from_everything_its_guard_is_finite),
         cmocka_unit_test(a_site_behind_an_obstacle_does_not_see_it),
         cmocka_unit_test(a_sliding_site_watches_reaction_end_and_other_obstacles),
+        cmocka_unit_test(a_site_that_slides_with_friction_watches_its_speed_too),
+        cmocka_unit_test(a_sticking_site_watches_its_grip),
         cmocka_unit_test(a_held_site_watches_both_reactions),
-        cmocka_unit_test(the_force_on_a_site_is_elastic_and_weight),
+        cmocka_unit_test(only_what_sticks_by_friction_has_a_grip),
+        cmocka_unit_test(what_slides_with_friction_turns_when_it_goes_the_other_way),
         cmocka_unit_test(an_end_is_passed_by_the_skin_heading_out),
         cmocka_unit_test(at_rest_the_force_tells_where_it_heads),
+        cmocka_unit_test(what_sticks_passes_no_end),
         cmocka_unit_test(a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle),
+        cmocka_unit_test(with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip),
         cmocka_unit_test(a_held_site_is_due_when_either_reaction_ceases),
-        cmocka_unit_test(a_fall_reaches_the_skin_at_the_time_of_free_fall),
-        cmocka_unit_test(a_crossing_at_the_end_of_a_rooted_step_is_the_root_itself),
-        cmocka_unit_test(a_dip_within_the_step_is_found),
-        cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
-        cmocka_unit_test(a_site_out_of_reach_never_crosses),
-        cmocka_unit_test(a_sliding_site_is_first_due_when_it_reaches_the_end),
+        cmocka_unit_test(a_free_edge_watches_the_convex_vertex_below_it),
+        cmocka_unit_test(the_gap_of_a_sloping_edge_is_along_its_normal),
+        cmocka_unit_test(a_closed_edge_watches_force_end_and_other_vertices),
+        cmocka_unit_test(an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap),
+        cmocka_unit_test(a_vertex_passes_an_edges_end_against_the_motion_of_the_body),
+        cmocka_unit_test(a_vertex_round_a_convex_corner_of_the_body_is_not_inside),
+        cmocka_unit_test(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices),
+        cmocka_unit_test(nothing_is_nearer_to_a_node_than_its_clearance),
+        cmocka_unit_test(no_vertex_is_nearer_to_an_edge_than_its_clearance),
+        cmocka_unit_test(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it),
+        cmocka_unit_test(a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void the_frame_of_a_node_is_that_of_its_segment(void **state)
     check_vector(f.velocity, 3.0, -7.0, 0.0);
     assert_close(f.gap, 0.5, 1e-15); /* rounding of positions of order 1 */
     assert_close(f.place, 2.0, 1e-15);
-    assert_close(f.noise, 0.0, 0.0);
+    assert_close(touch_noise(&f, b.v), 0.0, 0.0);
     assert_close(f.turning, 0.0, 0.0);
     assert_close(f.keep[0], 0.0, 0.0);
     assert_close(f.keep[1], 0.0, 0.0);
@@ -227,8 +227,9 @@ static void a_sticking_contact_asks_for_no_acceleration(void **state)
         assert_close(first.height, 0.0, difference_tolerance);
         assert_close(second.height, 0.0, difference_tolerance);
         assert_close(first.place, 0.0, difference_tolerance);
-        assert_true(vec2_norm(f.velocity) <= f.noise); /* what rounding leaves of it, and that is little: */
-        assert_true(f.noise > 0.0 && f.noise < 1e-12);
+        assert_true(vec2_norm(f.velocity) <=
+                    touch_noise(&f, b.v)); /* what rounding leaves of it, and that is little: */
+        assert_true(touch_noise(&f, b.v) > 0.0 && touch_noise(&f, b.v) < 1e-12);
         assert_close(f.turning, 0.0, 0.0);
         assert_close(f.keep[0], 0.0, 1e-90); /* 1/max_step */
         assert_close(f.keep[1], 0.0, 1e-90);
