@@ -294,9 +294,21 @@ static void random_bodies_neither_sink_in_nor_gain_energy_in_any_order(void **un
     assert_true(5 * all.vertex >= n_cases);
 }
 
+/* Corners of bodies cut within a step, storms of rounding, notches, second vertices on an edge, sweeps by number. */
+static void what_once_failed_stays_mended(void **unused)
+{
+    static const unsigned long seeds[] = {2, 3, 17, 56, 79, 92, 132, 2536, 2723, 3299, 3511, 3570};
+    census all = {0};
+    (void)unused;
+    n_faults = 0;
+    for (size_t k = 0; k < sizeof seeds / sizeof *seeds; k++) run_case(seeds[k], &all);
+    assert_int_equal(n_faults, 0);
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy_in_any_order)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy_in_any_order),
+                                       cmocka_unit_test(what_once_failed_stays_mended)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
     return cmocka_run_group_tests(tests, NULL, NULL);
