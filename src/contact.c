@@ -392,8 +392,9 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     double first = INFINITY;
     const double way = furthest(c, p);
     for (dem_index k = 0; k < s->n; k++) {
-        if (s->list[k].n_closed > 0 || !watch_wakes(&c->watch, &s->list[k], way)) continue;
+        if (!watch_wakes(&c->watch, &s->list[k], way)) continue;
         s->list[k].asleep = false;
+        if (s->list[k].n_closed == 2) continue;
         first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
     }
     first = fmin(first, first_due(c, p, state));

@@ -332,16 +332,21 @@ static double distance_beside(vec2 p, vec2 q, vec2 x)
     return along >= 0.0 && along <= square && square > 0.0 ? -vec2_cross(way, from) / sqrt(square) : -INFINITY;
 }
 
-/* Whether x, behind the edge by -distance, is nearer to a neighbour round a convex corner of the body, against which
- * the obstacle's corner points: it is outside the body there, or has come in there. */
+/* Whether x, behind the edge by -distance, belongs to the neighbour from p to q round a convex corner of the body: it is
+ * nearer to that, and outside the body in front of it, or inside with the obstacle's corner pointing against it. */
+static bool belongs(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
+{
+    const double beside = distance_beside(p, q, x);
+    return beside > distance && (beside >= 0.0 || vec2_cross(vec2_sub(q, p), mean) > 0.0);
+}
+
 static bool round_corner(const obstacle_edge *edge, vec2 x, vec2 mean, double distance)
 {
-    const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
-               previous = vec2_sub(edge->a, edge->previous);
-    const bool before = vec2_cross(previous, way) > 0.0 && vec2_cross(previous, mean) > 0.0;
-    const bool after = vec2_cross(way, next) > 0.0 && vec2_cross(next, mean) > 0.0;
-    return (before && distance_beside(edge->previous, edge->a, x) > distance) ||
-           (after && distance_beside(edge->b, edge->next, x) > distance);
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const bool before = vec2_cross(vec2_sub(edge->a, edge->previous), way) > 0.0;
+    const bool after = vec2_cross(way, vec2_sub(edge->next, edge->b)) > 0.0;
+    return (before && belongs(edge->previous, edge->a, x, mean, distance)) ||
+           (after && belongs(edge->b, edge->next, x, mean, distance));
 }
 
 /* Whether x, behind the edge with its foot beyond an end of it, is in a notch of the body there: where the boundary

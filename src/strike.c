@@ -237,7 +237,7 @@ static bool strike_once(contact_sites *c, dem_index k, int q, double tolerance, 
     vec2 kick;
     if (vec2_dot(f.velocity, f.normal) >= -tolerance) return false;
     impact_surface wall = surface_of(c, k, touch->feature, f.normal);
-    if (plastic) wall.restitution = 0.0;
+    if (plastic || touch->plastic) wall.restitution = 0.0;
     const vec2 after = impact_rebound(&wall, 1, f.velocity, &kick);
     const vec2 impulse = vec2_scale(1.0 / f.mobility, kick);
     for (int p = 0; p < f.n; p++)
@@ -284,6 +284,7 @@ static void judge(contact_sites *c, dem_index group, double tolerance, const con
             const impact_surface wall = surface_of(c, k, touch->feature, f.normal);
             const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, &wall);
             touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
+            touch->rests = rest > 0.0 && away <= rest;
             const int sign = sign_of(c, k, touch->feature, fabs(speed) <= tolerance ? 0.0 : speed);
             if (sign == 0 && (touch->fresh || touch->sign != 0)) touch->place = fmin(fmax(f.place, 0.0), 1.0);
             touch->sign = sign;
@@ -300,7 +301,7 @@ static bool take_back(contact_sites *c, dem_index group, contact_moment *now)
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
         for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
             contact_touch *touch = &c->list[r->members[p]].closed[q];
-            touch->plastic = touch->struck && !touch->opens;
+            touch->plastic = touch->struck && touch->rests;
             any |= touch->plastic;
         }
     for (dem_index p = r->row[group]; p < r->row[group + 1] && any; p++)

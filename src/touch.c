@@ -67,11 +67,13 @@ static touch_frame edge_frame(const contact_scene *scene, const contact_site *si
     return f;
 }
 
-/* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2. */
+/* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2; here it is the rounding of the
+ * coordinates of the node and its neighbours, 64 units. */
 double touch_slack(const contact_scene *scene, const touch_frame *f, const double *x)
 {
-    const double omega = scene->model->omega_max, rounding = 64.0 * DBL_EPSILON * vec2_norm(vec2_at(x, f->node[0]));
-    return 0.5 * omega * omega * rounding / f->mobility;
+    const double omega = scene->model->omega_max,
+                 extent = vec2_norm(vec2_at(x, f->node[0])) + 2.0 * scene->model->spacing;
+    return 32.0 * DBL_EPSILON * extent * omega * omega / f->mobility;
 }
 
 double touch_noise(const touch_frame *f, const double *v)

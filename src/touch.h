@@ -17,6 +17,7 @@ typedef struct contact_touch {
     bool fresh;    /* the contact was not closed before */
     bool opens;    /* and will not be after */
     bool struck;   /* it approached */
+    bool rests;    /* what it gets away is no more than a hop that counts as rest */
     bool plastic;  /* it does not rebound, for it will last */
     vec2 before;   /* m/s, of the point of the body */
     vec2 impulse;  /* N s, given to the body */

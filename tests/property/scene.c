@@ -109,7 +109,8 @@ static void random_wall(gsl_rng *rng, solid *s, const solid *terrain)
     put_point(s, x + lean, y + 1.0);
     s->n_exposed = 2;
     put_point(s, x + 2.0, y + 1.0);
-    put_point(s, x + 2.0, y);
+    put_point(s, x + 2.0, y - 5.0);
+    put_point(s, x - 5.0 * lean, y - 5.0); /* it goes on behind what it stands on */
 }
 
 static void random_laws(gsl_rng *rng, scene *sc)
@@ -226,7 +227,7 @@ static int starts_clear(gsl_rng *rng, scene *sc)
     judge_boundary(&b, &sc->body);
     int clear = judge_nodes(sc, sc->body.x) == 0.0 && judge_vertices(sc, &b, sc->body.x) == 0.0;
     if (clear) bring_near(rng, sc, &b);
-    clear = clear && judge_clearance(sc, &b, sc->body.x) > 1e-5;
+    clear = clear && judge_clearance(sc, &b, sc->body.x) > 1e-5 && judge_nodes(sc, sc->body.x) == 0.0;
     free(b.ends);
     return clear;
 }

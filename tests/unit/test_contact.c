@@ -665,6 +665,21 @@ static void at_the_start_a_touching_edge_is_in_contact(void **state)
     }
 }
 
+/* Ridges at s = 1/4 and 3/4 share the weight of both nodes. */
+static void at_the_start_an_edge_may_touch_two_vertices(void **state)
+{
+    const double points[10] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5, 1.0, 0.0, 5.0, -4.0}, mass[3] = {2.0, 2.0, 2.0};
+    const dem_obstacle ridges = {.n_points = 5, .points = points};
+    scene s;
+    (void)state;
+    scene_open_triangle(&s, mass, -0.5, 0.0, &ridges, 1);
+    assert_ok(scene_take_up(&s));
+    const contact_site *edge = &s.c.sites.list[scene_edge(&s, 0, 1)];
+    assert_int_equal(edge->n_closed, 2);
+    for (int q = 0; q < 2; q++) assert_close(edge->closed[q].force, 2.0 * g, 1e-12);
+    scene_close(&s);
+}
+
 /* The ridge under 3/4 of edge 0-1, of masses 1 and 3: W = 1/16 + 9/48 = 1/4, so that N = 40 N; mu = 1/2. A wind of
  * 0.6 g drives the point against friction with 0.6 g/W = 24 N. */
 static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
@@ -1101,6 +1116,7 @@ int main(void)
         cmocka_unit_test(forces_and_friction_power_are_told_as_rates),
         cmocka_unit_test(an_edge_may_touch_a_vertex_but_not_start_with_it_inside),
         cmocka_unit_test(at_the_start_a_touching_edge_is_in_contact),
+        cmocka_unit_test(at_the_start_an_edge_may_touch_two_vertices),
         cmocka_unit_test(an_edge_slides_stops_and_slides_on_a_vertex),
         cmocka_unit_test(a_vertex_glides_from_edge_to_edge_of_a_flat_side),
         cmocka_unit_test(a_vertex_leaves_a_convex_corner_of_the_body),

@@ -732,12 +732,13 @@ static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void *
 }
 
 /* Whether x, `distance` in front of an edge, is further in front of its neighbour pq, on which its foot is, where the
- * boundary turns left from one to the other. */
-static bool beside_neighbour(vec2 p, vec2 q, vec2 x, double turn, double distance)
+ * boundary turns left from one to the other, and outside the body there or pointing into it. */
+static bool beside_neighbour(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
 {
     const vec2 way = vec2_sub(q, p);
     const double along = vec2_dot(vec2_sub(x, p), way), height = -vec2_cross(way, vec2_sub(x, p));
-    return turn > 0.0 && along >= 0.0 && along <= vec2_dot(way, way) && height / vec2_norm(way) > distance;
+    if (along < 0.0 || along > vec2_dot(way, way) || height / vec2_norm(way) <= distance) return false;
+    return height >= 0.0 || vec2_cross(way, mean) > 0.0;
 }
 
 static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
@@ -753,21 +754,19 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
         if (k == edge->except[0] || k == edge->except[1]) continue;
         if (before->obstacle == edge->without[0] || before->obstacle == edge->without[1]) continue;
         if (distance <= -edge->depth || distance >= edge->reach || distance >= first.distance) continue;
-        const bool behind_next = vec2_cross(vec2_sub(edge->next, edge->b), vec2_sub(o->vertices[k].at, edge->b)) > 0.0,
-                   behind_previous =
-                       vec2_cross(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
-        const bool notch_b = vec2_cross(way, vec2_sub(edge->next, edge->b)) < 0.0 && behind_next && place > length &&
-                             vec2_dot(vec2_sub(edge->next, edge->b), vec2_sub(o->vertices[k].at, edge->b)) <= 0.0 &&
-                             place - length <= edge->depth && distance < 0.0;
-        const bool notch_a = vec2_cross(vec2_sub(edge->a, edge->previous), way) < 0.0 && behind_previous &&
-                             vec2_dot(vec2_sub(edge->a, edge->previous), vec2_sub(o->vertices[k].at, edge->a)) >= 0.0 &&
-                             place < 0.0 && -place <= edge->depth && distance < 0.0;
+        const vec2 next = vec2_sub(edge->next, edge->b), previous = vec2_sub(edge->a, edge->previous);
+        const bool notch_b = vec2_cross(way, next) < 0.0 && place > length && place - length <= edge->depth &&
+                             distance < 0.0 && vec2_dot(next, vec2_sub(o->vertices[k].at, edge->b)) < 0.0;
+        const bool notch_a = vec2_cross(previous, way) < 0.0 && place < 0.0 && -place <= edge->depth &&
+                             distance < 0.0 && vec2_dot(previous, vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
         if ((place < -edge->tolerance && !notch_a) || (place > length + edge->tolerance && !notch_b)) continue;
         if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
-        const double turn_a = vec2_cross(vec2_sub(edge->a, edge->previous), way),
-                     turn_b = vec2_cross(way, vec2_sub(edge->next, edge->b));
-        if (distance < 0.0 && (beside_neighbour(edge->previous, edge->a, o->vertices[k].at, turn_a, distance) ||
-                               beside_neighbour(edge->b, edge->next, o->vertices[k].at, turn_b, distance)))
+        const vec2 mean = vec2_add(before->normal, after->normal);
+        if (distance < 0.0 && vec2_cross(previous, way) > 0.0 &&
+            beside_neighbour(edge->previous, edge->a, o->vertices[k].at, mean, distance))
+            continue;
+        if (distance < 0.0 && vec2_cross(way, next) > 0.0 &&
+            beside_neighbour(edge->b, edge->next, o->vertices[k].at, mean, distance))
             continue;
         first = (obstacle_poke){distance, k, fmin(fmax(place / length, 0.0), 1.0), normal};
     }
