@@ -1,143 +1,55 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random small bodies thrown at random obstacles: nobody sinks in, no impact gives energy, no run ends in a storm.
- * `test_random [CASES [FIRST_SEED]]`. Depth is judged by brute force on densely sampled states: point in polygon and
- * distance to every edge, nothing of the library's. */
-#include <gsl/gsl_rng.h>
+/* Random small bodies thrown at random obstacles: nobody sinks in, no impact gives energy, no run ends in a storm, and
+ * the order in which things are listed does not matter. `test_random [CASES [FIRST_SEED]]`. */
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../verification/support.h"
+#include "judge.h"
 
-enum { max_points = 40 };
+enum { compared = 20, kept = 60 };
 
-static long n_cases = 150, first_seed = 1;
+static long n_cases = 150, first_seed = 1, n_faults;
 
-/* A polygon with the solid inside: a terrain closed far below, or a block. */
-typedef struct solid {
-    dem_index n;
-    double points[2 * max_points];
-    dem_index n_exposed; /* points of the polyline that the library is given; the rest only closes the solid */
-} solid;
-
-typedef struct scene {
-    solid solids[2];
-    dem_obstacle obstacles[2];
-    int n;
-    dem_lattice body;
-    dem_options options;
-    double spacing;
-} scene;
+/* An impact as it is told in any order of things: by the numbers that nodes have in the unshuffled body. */
+typedef struct hit {
+    double t, after[2];
+    dem_index node, other;
+    int taken;
+} hit;
 
 typedef struct verdict {
     const scene *scene;
-    double deepest;
-    dem_index looks;
-    double gained; /* largest energy that an impact gave, J */
+    boundary boundary;
+    double node_depth, vertex_depth; /* m */
+    double gained;                   /* largest energy that an impact gave, of what it is judged by */
+    double fall;                     /* largest fall of what impacts have taken so far, J */
+    double taken;                    /* J, by impacts so far */
+    double start, open, scale;       /* J, the ledger at first, the largest difference from it, the largest energy */
+    int stuck, slid;                 /* lasting contacts seen to */
+    double v_scale;                  /* m/s */
+    const dem_index *old;            /* [n_nodes] numbers before shuffling, or NULL */
+    int n_hits;
+    hit hits[kept];
 } verdict;
 
-static double uniform(gsl_rng *rng, double a, double b)
+/* How many cases showed what. */
+typedef struct census {
+    long stick, slip, vertex, cases, chaotic;
+    dem_counts sum;
+    double deepest, deepest_vertex, gained, closure, parted;
+} census;
+
+/* All faults are told before the test fails. */
+static void fault(unsigned long seed, const char *format, ...)
 {
-    return a + (b - a) * gsl_rng_uniform(rng);
-}
-
-/* ---- random things ---- */
-
-static void random_terrain(gsl_rng *rng, solid *s)
-{
-    const int n = 2 + (int)gsl_rng_uniform_int(rng, 10);
-    const double step = 0.6 / n, steep = uniform(rng, 0.0, 2.0);
-    double y = 0.0;
-    for (int k = 0; k <= n; k++) {
-        s->points[2 * k] = -0.3 + step * k;
-        s->points[2 * k + 1] = y;
-        y += step * uniform(rng, -steep, steep);
-    }
-    s->n_exposed = n + 1;
-    s->points[2 * n + 2] = 0.3;
-    s->points[2 * n + 3] = -5.0;
-    s->points[2 * n + 4] = -0.3;
-    s->points[2 * n + 5] = -5.0;
-    s->n = n + 3;
-}
-
-/* Star-shaped, clockwise, so that bodies live outside; closed. */
-static void random_block(gsl_rng *rng, solid *s, double x, double y)
-{
-    const int n = 3 + (int)gsl_rng_uniform_int(rng, 6);
-    const double size = uniform(rng, 0.01, 0.05), rough = uniform(rng, 0.0, 0.6), turn = uniform(rng, 0.0, 6.28);
-    for (int k = 0; k < n; k++) {
-        const double r = size * uniform(rng, 1.0 - rough, 1.0), angle = turn - 6.283185307179586 * k / n;
-        s->points[2 * k] = x + r * cos(angle);
-        s->points[2 * k + 1] = y + r * sin(angle);
-    }
-    s->points[2 * n] = s->points[0];
-    s->points[2 * n + 1] = s->points[1];
-    s->n = n;
-    s->n_exposed = n + 1;
-}
-
-static void random_body(gsl_rng *rng, scene *sc)
-{
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    const double speed = uniform(rng, 0.0, 8.0), heading = uniform(rng, -3.0, 0.0);
-    const double velocity[2] = {speed * cos(heading), speed * sin(heading)},
-                 lift[2] = {uniform(rng, -0.15, 0.15), 0.75};
-    sc->spacing = uniform(rng, 8e-3, 15e-3);
-    if (gsl_rng_uniform(rng) < 0.3)
-        assert_ok(dem_lattice_disc(&sc->body, uniform(rng, 0.02, 0.04), sc->spacing));
-    else
-        assert_ok(dem_lattice_rectangle(&sc->body, uniform(rng, 0.02, 0.07), uniform(rng, 0.02, 0.07), sc->spacing));
-    assert_ok(dem_lattice_assemble(&sc->body, &rubber));
-    dem_lattice_move(&sc->body, uniform(rng, 0.0, 6.28), lift);
-    assert_ok(dem_lattice_launch(&sc->body, velocity));
-}
-
-/* Lowers the body until it is near: half the gap at a time, as the gap is a lower bound of the way left. */
-static void lower_body(scene *sc)
-{
-    dem_model *model;
-    for (int k = 0; k < 60; k++) {
-        double gap = INFINITY;
-        assert_ok(dem_model_create(&model, &sc->body, sc->obstacles, sc->n));
-        for (dem_index i = 0; i < sc->body.n_nodes; i++) gap = fmin(gap, dem_model_gap(model, &sc->body.x[2 * i]));
-        dem_model_destroy(model);
-        if (gap < 1e-3) return;
-        dem_lattice_move(&sc->body, 0.0, (const double[2]){0.0, -0.9 * gap});
-    }
-}
-
-static void random_scene(gsl_rng *rng, scene *sc)
-{
-    static const double restitutions[5] = {0.0, 0.0, 0.5, 0.9, 1.0};
-    *sc = (scene){.n = 1, .options = dem_options_default()};
-    random_terrain(rng, &sc->solids[0]);
-    if (gsl_rng_uniform(rng) < 0.5)
-        random_block(rng, &sc->solids[sc->n++], uniform(rng, -0.1, 0.1), uniform(rng, 0.2, 0.4));
-    for (int k = 0; k < sc->n; k++)
-        sc->obstacles[k] = (dem_obstacle){.n_points = sc->solids[k].n_exposed,
-                                          .points = sc->solids[k].points,
-                                          .restitution = restitutions[gsl_rng_uniform_int(rng, 5)]};
-    sc->options.gravity[1] = gsl_rng_uniform(rng) < 0.5 ? -9.81 : -2000.0;
-    sc->options.rtol = 1e-6;
-    random_body(rng, sc);
-    lower_body(sc);
-}
-
-/* ---- judging ---- */
-
-/* Depth of x in a polygon: 0 outside, else the distance to the nearest edge. */
-static double depth_in(const solid *s, const double x[2])
-{
-    int inside = 0;
-    double nearest = INFINITY;
-    for (dem_index k = 0; k < s->n; k++) {
-        const double *a = &s->points[2 * k], *b = &s->points[2 * ((k + 1) % s->n)];
-        const double dx = b[0] - a[0], dy = b[1] - a[1], px = x[0] - a[0], py = x[1] - a[1];
-        const double u = fmin(1.0, fmax(0.0, (px * dx + py * dy) / (dx * dx + dy * dy)));
-        nearest = fmin(nearest, hypot(px - u * dx, py - u * dy));
-        if ((a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * dx) inside = !inside;
-    }
-    return inside ? nearest : 0.0;
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    print_message("# seed %lu: %s\n", seed, text);
+    n_faults++;
 }
 
 static dem_status look(void *context, const dem_simulation *simulation)
@@ -145,88 +57,257 @@ static dem_status look(void *context, const dem_simulation *simulation)
     verdict *v = context;
     dem_state state;
     dem_simulation_state(simulation, &state);
-    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    v->looks++;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        for (int k = 0; k < v->scene->n && (l->flags[i] & DEM_NODE_CONTACT); k++)
-            if (fabs(state.x[2 * i]) < 0.29)
-                v->deepest = fmax(v->deepest, depth_in(&v->scene->solids[k], &state.x[2 * i]));
+    v->node_depth = fmax(v->node_depth, judge_nodes(v->scene, state.x));
+    v->vertex_depth = fmax(v->vertex_depth, judge_vertices(v->scene, &v->boundary, state.x));
     return DEM_OK;
 }
 
-static dem_status weigh(void *context, const dem_simulation *simulation, const dem_event *impact)
+/* The ledger is read at accepted steps: what friction and damping take is known there. */
+static dem_status step(void *context, const dem_simulation *simulation)
 {
     verdict *v = context;
-    const double m = dem_model_lattice(dem_simulation_model(simulation))->mass[impact->node];
-    const double before = impact->before[0] * impact->before[0] + impact->before[1] * impact->before[1];
-    const double after = impact->after[0] * impact->after[0] + impact->after[1] * impact->after[1];
-    v->gained = fmax(v->gained, 0.5 * m * (after - before) / (1e-300 + 0.5 * m * before));
+    const dem_energy e = dem_simulation_energy(simulation);
+    v->fall = fmax(v->fall, v->taken - e.impact);
+    v->taken = e.impact;
+    v->open = fmax(v->open, fabs(dem_energy_ledger(e) - v->start));
+    v->scale = fmax(v->scale, e.kinetic + e.elastic + e.guard + e.impact + e.friction + e.damping);
+    return look(context, simulation);
+}
+
+static void keep_hit(verdict *v, const dem_event *e)
+{
+    const dem_index node = v->old ? v->old[e->node] : e->node,
+                    other = e->other < 0 || v->old == NULL ? e->other : v->old[e->other];
+    if (v->n_hits < kept)
+        v->hits[v->n_hits] = (hit){.t = e->t, .after = {e->after[0], e->after[1]}, .node = node, .other = other};
+    v->n_hits++;
+}
+
+/* What an impact gave is judged by the energy of what struck, at its speed and at the run's. */
+static dem_status weigh(void *context, const dem_simulation *simulation, const dem_event *e)
+{
+    verdict *v = context;
+    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
+    const double m = l->mass[e->node] + (e->other >= 0 ? l->mass[e->other] : 0.0);
+    const double scale = dem_simulation_options(simulation).v_scale;
+    const dem_obstacle *o = &v->scene->obstacles[e->obstacle];
+    const int grips = o->friction_law == DEM_FRICTION_COULOMB && o->friction > 0.0;
+    v->stuck |= e->state == DEM_CONTACT_STICK;
+    v->slid |= e->state == DEM_CONTACT_SLIP && grips;
+    if (e->kind != DEM_EVENT_IMPACT) return DEM_OK;
+    const double before = e->before[0] * e->before[0] + e->before[1] * e->before[1];
+    v->gained = fmax(v->gained, -e->energy / (0.5 * m * (before + scale * scale)));
     return DEM_OK;
 }
 
-static void total_energy(support_run *run, double *total, double *scale)
+/* An impact without an approach, of rounding size, is none. */
+static dem_status listen(void *context, const dem_simulation *simulation, const dem_event *e)
 {
-    const dem_energy e = dem_simulation_energy(run->simulation);
-    *total = dem_energy_ledger(e);
-    *scale = e.kinetic + e.elastic + e.guard + e.impact;
+    verdict *v = context;
+    const double approach = -(e->before[0] * e->normal[0] + e->before[1] * e->normal[1]);
+    (void)simulation;
+    if (e->kind == DEM_EVENT_IMPACT && approach > 1e-9 * v->v_scale) keep_hit(v, e);
+    return v->n_hits < kept ? DEM_OK : DEM_STOPPED;
 }
 
-static void run_case(long seed, dem_counts *sum)
+/* ---- the same in another order ---- */
+
+/* How far a hit of the shuffled run is from this one: 1 is t_end in time, v_scale in velocity. */
+static double apart(const hit *a, const hit *b, double t_scale, double v_scale)
+{
+    const double dv = hypot(a->after[0] - b->after[0], a->after[1] - b->after[1]);
+    return a->node == b->node && a->other == b->other ? fmax(fabs(a->t - b->t) / t_scale, dv / v_scale) : INFINITY;
+}
+
+/* The largest distance between one of the first hits and that of the shuffled run that is nearest to it. */
+static double compare_hits(const verdict *a, verdict *b, double t_scale)
+{
+    double worst = 0.0;
+    for (int i = 0; i < a->n_hits && i < compared; i++) {
+        int best = -1;
+        double nearest = INFINITY;
+        for (int k = 0; k < b->n_hits && k < kept; k++) {
+            const double d = b->hits[k].taken ? INFINITY : apart(&a->hits[i], &b->hits[k], t_scale, a->v_scale);
+            if (d >= nearest) continue;
+            nearest = d;
+            best = k;
+        }
+        worst = fmax(worst, nearest);
+        if (best >= 0) b->hits[best].taken = 1;
+    }
+    return worst;
+}
+
+/* The impacts of the scene; `old` numbers its nodes, or NULL. Steps are of one length: the step size that is adapted in
+ * rigid flight listens to rounding errors, which another order changes. */
+static void listen_to(const scene *sc, const dem_index *old, double step_length, unsigned long seed, verdict *v)
+{
+    support_run run;
+    dem_options options = sc->options;
+    *v = (verdict){.scene = sc, .old = old};
+    const dem_observer observer = {.event = listen, .context = v};
+    options.fixed_step = step_length;
+    support_open(&run, &sc->body, sc->obstacles, sc->n, &options);
+    assert_ok(dem_simulation_observe(run.simulation, &observer));
+    v->v_scale = dem_simulation_options(run.simulation).v_scale;
+    const dem_status status = dem_simulation_advance(run.simulation, sc->t_end);
+    if (status < DEM_OK) fault(seed, "%s: %s", old ? "in another order" : "with fixed steps", dem_status_message());
+    support_close(&run);
+}
+
+/* By how much another order of nodes and obstacles changes the first impacts. */
+static double reorder(const scene *sc, unsigned long seed, double step_length, const verdict *here)
+{
+    scene other;
+    verdict there;
+    dem_index *old = malloc((size_t)sc->body.n_nodes * sizeof *old);
+    assert_non_null(old);
+    scene_shuffle(&other, sc, seed, old);
+    listen_to(&other, old, step_length, seed, &there);
+    scene_free(&other);
+    free(old);
+    return compare_hits(here, &there, sc->t_end);
+}
+
+/* By how much a change of the velocities in the last digits changes them: the most of a few changes. */
+static double nudge(unsigned long seed, double step_length, const verdict *here)
+{
+    double worst = 0.0;
+    for (int k = 1; k <= 16; k++) {
+        scene other;
+        verdict there;
+        scene_random(&other, seed);
+        for (dem_index i = 0; i < 2 * other.body.n_nodes; i++)
+            other.body.velocity[i] *= 1.0 + 1e-14 * (double)((7919 * i * k) % 17 - 8);
+        listen_to(&other, NULL, step_length, seed, &there);
+        worst = fmax(worst, compare_hits(here, &there, other.t_end));
+        scene_free(&other);
+    }
+    return worst;
+}
+
+/* Another order changes rounding errors, which grow from impact to impact as any difference does, and may turn what
+ * hangs in the balance (rest or hop, one side of an apex or the other). So 1e-9 after 20 impacts, or no more than a
+ * hundred times what the last digits of the velocities do. Such cases are counted. */
+static void judge_order(unsigned long seed, census *all, const scene *sc, double step_length)
+{
+    verdict here;
+    listen_to(sc, NULL, step_length, seed, &here);
+    const double parted = reorder(sc, seed, step_length, &here);
+    if (parted <= 1e-9) {
+        all->parted = fmax(all->parted, parted);
+        return;
+    }
+    const double nudged = nudge(seed, step_length, &here);
+    all->chaotic++;
+    print_message("# seed %lu: another order parts the runs by %.2g, last digits by %.2g\n", seed, parted, nudged);
+    if (!(parted <= 100.0 * nudged))
+        fault(seed, "another order parts the runs by %g, last digits by %g", parted, nudged);
+}
+
+/* ---- cases ---- */
+
+static void add_up(census *all, const verdict *v, const dem_counts *c)
+{
+    all->cases++;
+    all->stick += v->stuck;
+    all->slip += v->slid;
+    all->vertex += c->vertex_impacts > 0;
+    all->sum.impacts += c->impacts;
+    all->sum.vertex_impacts += c->vertex_impacts;
+    all->sum.early += c->early;
+    all->sum.closings += c->closings;
+    all->sum.releases += c->releases;
+    all->sum.sticks += c->sticks;
+    all->sum.slips += c->slips;
+    all->sum.passings += c->passings;
+    all->sum.late += c->late;
+    all->sum.behind += c->behind;
+    all->gained = fmax(all->gained, v->gained);
+}
+
+/* A node or vertex may be as deep as the skin and what rounding adds, and an interpolated state a little more: five
+ * skins. The ledger: 2e-3 is what the paper's bodies are asked to hold at rtol 1e-6. */
+static void judge_case(unsigned long seed, census *all, const scene *sc, const verdict *v, const support_run *run)
+{
+    const dem_options o = dem_simulation_options(run->simulation);
+    const double closure = v->open / v->scale, scale = v->scale;
+    all->deepest = fmax(all->deepest, v->node_depth / o.skin);
+    all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.skin);
+    all->closure = fmax(all->closure, closure);
+    if (!(v->node_depth <= 5.0 * o.skin)) fault(seed, "a node %g skins deep", v->node_depth / o.skin);
+    if (!(v->vertex_depth <= 5.0 * o.skin)) fault(seed, "a vertex %g skins deep", v->vertex_depth / o.skin);
+    if (!(v->gained <= 1e-12)) fault(seed, "an impact gave %g of its energy", v->gained);
+    if (!(v->fall <= 1e-12 * scale)) fault(seed, "impacts gave %g J", v->fall);
+    if (!(closure <= 2e-3)) fault(seed, "ledger open by %g", closure);
+    judge_order(seed, all, sc, o.max_step);
+}
+
+static void run_case(unsigned long seed, census *all)
 {
     scene sc;
     support_run run;
-    double start, end, scale, scale_end;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    assert_non_null(rng);
-    gsl_rng_set(rng, (unsigned long)seed);
-    random_scene(rng, &sc);
+    scene_random(&sc, seed);
     verdict v = {.scene = &sc};
-    const dem_observer observer = {2e-6, look, look, weigh, &v};
+    judge_boundary(&v.boundary, &sc.body);
+    const dem_observer observer = {sc.interval, look, step, weigh, &v};
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    total_energy(&run, &start, &scale);
-    if (dem_simulation_advance(run.simulation, 8e-3) != DEM_OK) fail_msg("seed %ld: %s", seed, dem_status_message());
-    total_energy(&run, &end, &scale_end);
-    const dem_counts c = dem_simulation_counts(run.simulation);
-    if (!(v.deepest <= 1e-5 * sc.spacing)) fail_msg("seed %ld: %g spacings deep", seed, v.deepest / sc.spacing);
-    if (!(v.gained <= 1e-12)) fail_msg("seed %ld: an impact gave %g of its energy", seed, v.gained);
-    if (!(fabs(end - start) <= 2e-3 * fmax(scale, scale_end))) /* as for the paper's bodies at rtol 1e-6 */
-        fail_msg("seed %ld: ledger open by %g", seed, (end - start) / fmax(scale, scale_end));
-    sum->impacts += c.impacts;
-    sum->closings += c.closings;
-    sum->releases += c.releases;
-    sum->passings += c.passings;
-    sum->late += c.late;
-    sum->behind += c.behind;
+    v.start = dem_energy_ledger(dem_simulation_energy(run.simulation));
+    const dem_status status = dem_simulation_advance(run.simulation, sc.t_end);
+    if (status == DEM_OK) {
+        const dem_counts counts = dem_simulation_counts(run.simulation);
+        add_up(all, &v, &counts);
+        judge_case(seed, all, &sc, &v, &run);
+    } else
+        fault(seed, "%s", dem_status_message());
     support_close(&run);
-    dem_lattice_free(&sc.body);
-    gsl_rng_free(rng);
+    free(v.boundary.ends);
+    scene_free(&sc);
 }
 
-static void random_bodies_neither_sink_in_nor_gain_energy(void **unused)
+static void print_census(const census *all)
 {
-    dem_counts sum = {0};
-    (void)unused;
-    for (long seed = first_seed; seed < first_seed + n_cases; seed++) run_case(seed, &sum);
-    print_message("# %ld cases: %lld impacts, %lld closings, %lld releases, %lld ends passed, %lld late, %lld behind\n",
-                  n_cases, (long long)sum.impacts, (long long)sum.closings, (long long)sum.releases,
-                  (long long)sum.passings, (long long)sum.late, (long long)sum.behind);
-    assert_true(sum.impacts >= 5 * n_cases);
-    assert_true(sum.closings >= n_cases);
+    const dem_counts *s = &all->sum;
+    print_message("# %ld cases: %lld impacts, %lld on vertices, %lld early, %lld closings, %lld releases, %lld sticks, "
+                  "%lld slips, %lld passings, %lld late, %lld behind\n",
+                  all->cases, (long long)s->impacts, (long long)s->vertex_impacts, (long long)s->early,
+                  (long long)s->closings, (long long)s->releases, (long long)s->sticks, (long long)s->slips,
+                  (long long)s->passings, (long long)s->late, (long long)s->behind);
+    print_message("# with stick %ld, slip %ld, vertices %ld; nodes %.2g and vertices %.2g skins deep, gained %.1e, "
+                  "closure %.1e, order parts by %.1e, chaotic %ld\n",
+                  all->stick, all->slip, all->vertex, all->deepest, all->deepest_vertex, all->gained, all->closure,
+                  all->parted, all->chaotic);
 }
 
-/* Seeds that once failed: a corner of two obstacles, a shallow valley, and two dips between samples of a step. */
+static void random_bodies_neither_sink_in_nor_gain_energy_in_any_order(void **unused)
+{
+    census all = {0};
+    (void)unused;
+    for (long seed = first_seed; seed < first_seed + n_cases; seed++) run_case((unsigned long)seed, &all);
+    print_census(&all);
+    assert_int_equal(n_faults, 0);
+    assert_true(100 * all.chaotic <= n_cases + 100);
+    assert_true(all.sum.impacts >= 5 * n_cases);
+    assert_true(5 * all.stick >= n_cases);
+    assert_true(5 * all.slip >= n_cases);
+    assert_true(5 * all.vertex >= n_cases);
+}
+
+/* Corners of bodies cut within a step, storms of rounding, notches, second vertices on an edge, sweeps by number. */
 static void what_once_failed_stays_mended(void **unused)
 {
-    static const long seeds[4] = {1022, 1476, 2794, 4265};
-    dem_counts sum = {0};
+    static const unsigned long seeds[] = {2, 3, 17, 56, 79, 92, 132, 2536, 2723, 3299, 3511, 3570};
+    census all = {0};
     (void)unused;
-    for (int k = 0; k < 4; k++) run_case(seeds[k], &sum);
+    n_faults = 0;
+    for (size_t k = 0; k < sizeof seeds / sizeof *seeds; k++) run_case(seeds[k], &all);
+    assert_int_equal(n_faults, 0);
 }
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy_in_any_order),
                                        cmocka_unit_test(what_once_failed_stays_mended)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
