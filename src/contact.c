@@ -100,18 +100,15 @@ static dem_status pass_node(contact_sites *c, dem_index k, bool backwards, conta
     return DEM_OK;
 }
 
-/* The edge that goes on behind the end of edge k at the node, and could take over its vertex; -1: none. */
+/* The edge that goes on behind the end of edge k, and could take over its vertex; -1: none. */
 static dem_index edge_beyond(const contact_sites *c, dem_index k, bool backwards, dem_index feature)
 {
     const surface *s = &c->scene.model->surface;
-    const dem_index node = backwards ? c->list[k].node : c->list[k].other;
-    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++) {
-        const dem_index next = sites_of_edge(c, s->at[p]);
-        const contact_site *edge = &c->list[next];
-        const bool taken = edge->n_closed == 2 || (edge->n_closed == 1 && edge->closed[0].feature == feature);
-        if (next != k && (backwards ? edge->other : edge->node) == node && !taken) return next;
-    }
-    return -1;
+    const dem_index own = k - c->scene.model->n_sites, beyond = backwards ? s->previous[own] : s->next[own];
+    if (beyond < 0) return -1;
+    const contact_site *edge = &c->list[sites_of_edge(c, beyond)];
+    const bool taken = edge->n_closed == 2 || (edge->n_closed == 1 && edge->closed[0].feature == feature);
+    return taken ? -1 : sites_of_edge(c, beyond);
 }
 
 /* A vertex that has come to the end of an edge: its node is put there, and the next edge takes over. The vertex

@@ -323,7 +323,6 @@ static bool out_of_question(const obstacle_set *o, const obstacle_edge *edge, de
     return k == edge->except[0] || k == edge->except[1] || obstacle == edge->without[0] || obstacle == edge->without[1];
 }
 
-/* Takes vertex k if it is deeper than the deepest so far. */
 /* Signed distance of x in front of the edge from p to q, if its foot is on it; else -infinity. */
 static double distance_beside(vec2 p, vec2 q, vec2 x)
 {
@@ -360,6 +359,7 @@ static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
     return vec2_cross(previous, way) < 0.0 && vec2_dot(previous, vec2_sub(x, edge->a)) > 0.0;
 }
 
+/* Takes vertex k if it is deeper than the deepest so far. */
 static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
 {
     const obstacle_edge *edge = l->edge;
@@ -391,13 +391,18 @@ static double shallowest(const box *b, const line *l)
     return beside || distance + across < -edge->depth ? INFINITY : distance - across;
 }
 
-obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
+static line line_along(const obstacle_edge *edge)
 {
-    const box_tree *tree = &o->vertex_tree;
     const vec2 way = vec2_sub(edge->b, edge->a);
     const double length = vec2_norm(way);
     const vec2 tangent = vec2_scale(1.0 / length, way);
-    const line l = {edge, tangent, {-tangent.y, tangent.x}, length};
+    return (line){edge, tangent, {-tangent.y, tangent.x}, length};
+}
+
+obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const box_tree *tree = &o->vertex_tree;
+    const line l = line_along(edge);
     obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
     box_tree_walk walk;
     for (dem_index node = box_tree_start(&walk, fmin(edge->reach, DBL_MAX)); node > 0;) {
@@ -412,6 +417,45 @@ obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
         node = box_tree_back(&walk);
     }
     return deepest;
+}
+
+/* A distance from the edge below which nothing in the box is. */
+static double apart_by(const box *b, const line *l)
+{
+    const vec2 half = {0.5 * (b->high.x - b->low.x), 0.5 * (b->high.y - b->low.y)};
+    const vec2 centre = vec2_sub((vec2){0.5 * (b->low.x + b->high.x), 0.5 * (b->low.y + b->high.y)}, l->edge->a);
+    const double rounding = BOX_TREE_ROUNDING * (fabs(centre.x) + fabs(centre.y) + half.x + half.y);
+    const double tx = fabs(l->tangent.x), ty = fabs(l->tangent.y), place = vec2_dot(centre, l->tangent);
+    const double beyond = fabs(place - 0.5 * l->length) - 0.5 * l->length - tx * half.x - ty * half.y;
+    const double across = fabs(vec2_dot(centre, l->normal)) - ty * half.x - tx * half.y;
+    return fmax(0.0, fmax(beyond, across) - rounding);
+}
+
+static double distance_of(const obstacle_set *o, dem_index k, const line *l)
+{
+    const vec2 from = vec2_sub(o->vertices[k].at, l->edge->a);
+    const double place = vec2_dot(from, l->tangent), beyond = place - fmin(fmax(place, 0.0), l->length);
+    return out_of_question(o, l->edge, k) ? INFINITY : hypot(beyond, vec2_dot(from, l->normal));
+}
+
+double obstacles_clearance(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const box_tree *tree = &o->vertex_tree;
+    const line l = line_along(edge);
+    box_tree_walk walk;
+    double nearest = edge->reach;
+    for (dem_index node = box_tree_start(&walk, nearest); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, apart_by(&children[0], &l), apart_by(&children[1], &l));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            nearest = fmin(nearest, distance_of(o, k, &l));
+        walk.limit = nearest;
+        node = box_tree_back(&walk);
+    }
+    return nearest;
 }
 
 /* ---- compiling ---- */

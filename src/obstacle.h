@@ -93,6 +93,9 @@ typedef struct obstacle_poke {
  *  the edge and its neighbour between their feet, is. */
 obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge);
 
+/** Distance of the edge to the nearest convex vertex, at most its `reach`, m. */
+double obstacles_clearance(const obstacle_set *o, const obstacle_edge *edge);
+
 /** Whether two segments are neighbours, and the vertex that they share. */
 bool obstacles_share(const obstacle_set *o, dem_index s, dem_index other, vec2 *vertex);
 

@@ -114,11 +114,19 @@ static bool node_is_clear(const contact_site *site, const path *p, double reach,
     return fmin(first->guard, last->guard) > bend(site, p);
 }
 
+/* Whether a site ends the step so near to where it was clear that it was so all the way. */
+static bool stays_clear(const contact_site *site, const path *p, double reach)
+{
+    const contact_spot spot = site_spot_on(site, p, p->end);
+    return site_moved(site, &spot) + reach < site->clear;
+}
+
 double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
 {
     enum { n = 8 };
     const double h = p->end - p->t0;
     const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
+    if (stays_clear(site, p, reach)) return INFINITY;
     if (site_is_edge(site) && edge_is_clear(scene, site, p, reach)) return INFINITY;
     const sample last = sample_at(scene, site, p, p->end);
     sample s = sample_at(scene, site, p, p->t0);

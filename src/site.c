@@ -55,9 +55,17 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_site *site
     return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
+double site_moved(const contact_site *site, const contact_spot *spot)
+{
+    const double a = vec2_norm(vec2_sub(spot->a, site->clear_at[0]));
+    return site_is_edge(site) ? fmax(a, vec2_norm(vec2_sub(spot->b, site->clear_at[1]))) : a;
+}
+
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
 {
     if (site->n_closed == 2 || site->asleep) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
+    const double left = site->clear > 0.0 ? site->clear - site_moved(site, spot) : 0.0;
+    if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
     return site_is_edge(site) ? edge_gap(scene, site, spot) : node_gap(scene, site, spot->a);
 }
 
@@ -71,25 +79,20 @@ contact_gap site_around(const contact_scene *scene, const contact_site *site, co
     return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
-/* An edge is as far from all vertices as its node is from the obstacles, less its length; one that is nearer looks at
- * the vertices around it. */
-static double edge_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
-                             double enough)
+/* An edge that no vertex is near is as far from all as its node is from the obstacles, less its length. */
+static double edge_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot)
 {
+    const obstacle_set *o = &scene->model->obstacles;
     const obstacle_edge edge = edge_query(scene, site, spot);
-    const double node =
-        obstacles_gap(&scene->model->obstacles, spot->a, 0.0, site->behind[0], site->behind[1]).distance;
-    const double far = node - edge.reach / edge_reach;
-    if (far > edge.reach) return far;
-    const contact_gap around = site_around(scene, site, spot, edge.reach);
-    if (around.distance > 0.0) return fmin(around.distance, edge.reach);
-    return site_around(scene, site, spot, enough).feature < 0 ? enough : 0.0;
+    const double near = obstacles_clearance(o, &edge);
+    if (near < edge.reach) return near;
+    return fmax(near, obstacles_gap(o, spot->a, 0.0, site->behind[0], site->behind[1]).distance - near / edge_reach);
 }
 
-double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double enough,
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
                       dem_index *nearest)
 {
-    if (site_is_edge(site)) return edge_clearance(scene, site, spot, enough);
+    if (site_is_edge(site)) return edge_clearance(scene, site, spot);
     const contact_gap gap = node_gap(scene, site, spot->a);
     *nearest = gap.feature;
     return gap.distance;

@@ -13,7 +13,7 @@ enum { SITE_GUARDS = 4 };
 /** Distance to what a site is not in contact with. */
 typedef struct contact_gap {
     double distance;   /* m, > 0 in front; infinity: nothing there */
-    dem_index feature; /* segment, or vertex; -1: none */
+    dem_index feature; /* segment, or vertex; -1: none, or the distance is a lower bound */
     double place;      /* of a vertex on the edge, 0 to 1 */
     vec2 normal;       /* unit, the way in which the distance grows */
 } contact_gap;
@@ -26,7 +26,10 @@ typedef struct contact_spot {
 contact_spot site_spot(const contact_site *site, const double *x);
 contact_spot site_spot_on(const contact_site *site, const path *p, double t);
 
-/** Gap of a site, infinity for one that sleeps. What it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends
+/** How far a site has moved since it was seen to be clear, m. */
+double site_moved(const contact_site *site, const contact_spot *spot);
+
+/** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends
  *  are guarded by themselves; of an edge its vertex. */
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
 
@@ -34,9 +37,8 @@ contact_gap site_gap(const contact_scene *scene, const contact_site *site, const
 contact_gap site_around(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
 
 /** How far at least a site is from everything else that it can touch, m; < 0 inside.
- *  \param enough  m, a distance that is looked into if larger ones give nothing
  *  \param[out] nearest  of a node, the nearest segment */
-double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double enough,
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
                       dem_index *nearest);
 
 /** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */

@@ -10,12 +10,9 @@ static void list_edges(contact_sites *c)
 {
     const surface *s = &c->scene.model->surface;
     for (dem_index e = 0; e < c->n - c->scene.model->n_sites; e++) {
-        const dem_index a = s->ends[2 * e], b = s->ends[2 * e + 1];
-        contact_site site = {.node = a, .other = b, .previous = -1, .next = -1, .behind = {-1, -1}};
-        for (dem_index p = s->row[a]; p < s->row[a + 1]; p++)
-            if (s->ends[2 * s->at[p] + 1] == a) site.previous = s->ends[2 * s->at[p]];
-        for (dem_index p = s->row[b]; p < s->row[b + 1]; p++)
-            if (s->ends[2 * s->at[p]] == b) site.next = s->ends[2 * s->at[p] + 1];
+        contact_site site = {.node = s->ends[2 * e], .other = s->ends[2 * e + 1], .behind = {-1, -1}};
+        site.previous = s->previous[e] >= 0 ? s->ends[2 * s->previous[e]] : -1;
+        site.next = s->next[e] >= 0 ? s->ends[2 * s->next[e] + 1] : -1;
         c->list[sites_of_edge(c, e)] = site;
     }
 }
@@ -82,11 +79,11 @@ void sites_go_behind(contact_sites *c, dem_index k, dem_index obstacle)
     const dem_index node = c->list[k].node;
     c->books.counts.behind += obstacle >= 0 ? 1 : -1;
     c->list[k].behind[0] = obstacle;
-    c->list[k].asleep = false;
+    sites_disturb(&c->list[k]);
     for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_sites; p++) {
         contact_site *edge = &c->list[sites_of_edge(c, s->at[p])];
         edge->behind[edge->node == node ? 0 : 1] = obstacle;
-        edge->asleep = false;
+        sites_disturb(edge);
     }
 }
 
@@ -130,7 +127,7 @@ dem_status sites_close(contact_sites *c, dem_index k, contact_touch touch)
 {
     contact_site *site = &c->list[k];
     site->closed[site->n_closed++] = touch;
-    site->asleep = false;
+    sites_disturb(site);
     return sites_regroup(c);
 }
 
@@ -139,7 +136,7 @@ dem_status sites_open(contact_sites *c, dem_index k, int q)
     contact_site *site = &c->list[k];
     if (q == 0) site->closed[0] = site->closed[1];
     site->n_closed--;
-    site->asleep = false;
+    sites_disturb(site);
     return sites_regroup(c);
 }
 

@@ -19,6 +19,13 @@ typedef struct contact_sites {
 dem_status sites_create(contact_sites *out, const dem_model *model, const contact_rule *rule);
 void sites_destroy(contact_sites *c);
 
+/** What was known of a site's distance to other things holds no more. */
+static inline void sites_disturb(contact_site *site)
+{
+    site->asleep = false;
+    site->clear = 0.0;
+}
+
 /** The site of the k-th edge of the surface. */
 static inline dem_index sites_of_edge(const contact_sites *c, dem_index edge)
 {

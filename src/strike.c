@@ -121,7 +121,7 @@ static dem_status hold_on(contact_sites *c, dem_index k, contact_hit held, const
 {
     contact_site *site = &c->list[k];
     site->n_closed = 0;
-    site->asleep = false;
+    sites_disturb(site);
     for (int q = 0; q < held.n; q++) {
         const segment *s = scene_segment(&c->scene, held.feature[q]);
         const double speed = vec2_dot(vec2_at(now->v, site->node), s->tangent);
@@ -330,7 +330,7 @@ static void keep_struck(contact_sites *c, dem_index group)
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
 static void part(contact_site *site)
 {
-    site->asleep = false;
+    sites_disturb(site);
     if (site->n_closed == 2 && site->closed[0].opens && !site->closed[1].opens) {
         const contact_touch first = site->closed[0];
         site->closed[0] = site->closed[1];

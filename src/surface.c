@@ -6,6 +6,7 @@
 
 #include "sides.h"
 #include "status.h"
+#include "vec2.h"
 
 /* An edge may be touched if both its nodes may and one of them moves. */
 static bool may_touch(const dem_lattice *l, dem_index a, dem_index b)
@@ -47,30 +48,44 @@ static void list_by_node(surface *s, dem_index n_nodes)
     s->row[n_nodes] = 2 * s->n_edges;
 }
 
-/* The first edge not yet walked that starts at the node, or -1. */
-static dem_index next_edge(const surface *s, const unsigned char *walked, dem_index node)
+/* Angle by which one turns clockwise at the end of edge e from the way back to the way along edge f, in (0, 2 pi]. */
+static double turn_at_end(const surface *s, const double *x, dem_index e, dem_index f)
 {
-    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
-        if (!walked[s->at[p]] && s->ends[2 * s->at[p]] == node) return s->at[p];
-    return -1;
+    const vec2 at = vec2_at(x, s->ends[2 * e + 1]), back = vec2_sub(vec2_at(x, s->ends[2 * e]), at),
+               on = vec2_sub(vec2_at(x, s->ends[2 * f + 1]), at);
+    const double turn = -atan2(vec2_cross(back, on), vec2_dot(back, on));
+    return turn > 0.0 ? turn : turn + 2.0 * acos(-1.0);
 }
 
-/* Whether an edge ends where this one starts. */
-static bool has_previous(const surface *s, dem_index edge)
+/* The body is on the left, so that it is turned through first: the nearest edge belongs to the same fan of triangles. */
+static dem_index next_of(const surface *s, const double *x, dem_index e)
 {
-    const dem_index node = s->ends[2 * edge];
-    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
-        if (s->ends[2 * s->at[p] + 1] == node) return true;
-    return false;
+    const dem_index node = s->ends[2 * e + 1];
+    dem_index next = -1;
+    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++) {
+        const dem_index f = s->at[p];
+        if (s->ends[2 * f] == node && (next < 0 || turn_at_end(s, x, e, f) < turn_at_end(s, x, e, next))) next = f;
+    }
+    return next;
 }
 
+static void link_edges(surface *s, const double *x)
+{
+    for (dem_index e = 0; e < s->n_edges; e++) s->previous[e] = -1;
+    for (dem_index e = 0; e < s->n_edges; e++) {
+        s->next[e] = next_of(s, x, e);
+        if (s->next[e] >= 0) s->previous[s->next[e]] = e;
+    }
+}
+
+/* Open chains from where they begin, then closed ones. */
 static void walk(const surface *s, unsigned char *walked, dem_index *ends)
 {
     dem_index n = 0;
-    for (dem_index k = 0; k < 2 * s->n_edges; k++) { /* open chains from where they begin, then closed ones */
+    for (dem_index k = 0; k < 2 * s->n_edges; k++) {
         const dem_index start = k % s->n_edges;
-        if (walked[start] || (k < s->n_edges && has_previous(s, start))) continue;
-        for (dem_index e = start; e >= 0; e = next_edge(s, walked, s->ends[2 * e + 1])) {
+        if (k < s->n_edges && s->previous[start] >= 0) continue;
+        for (dem_index e = start; e >= 0 && !walked[e]; e = s->next[e]) {
             walked[e] = 1;
             ends[2 * n] = s->ends[2 * e];
             ends[2 * n + 1] = s->ends[2 * e + 1];
@@ -80,7 +95,7 @@ static void walk(const surface *s, unsigned char *walked, dem_index *ends)
 }
 
 /* Puts the edges in the order of a walk along each boundary. */
-static dem_status sort_edges(surface *s, dem_index n_nodes)
+static dem_status sort_edges(surface *s, const dem_lattice *l)
 {
     unsigned char *walked = calloc((size_t)s->n_edges + 1, 1);
     dem_index *ends = malloc((2 * (size_t)s->n_edges + 1) * sizeof *ends);
@@ -89,13 +104,15 @@ static dem_status sort_edges(surface *s, dem_index n_nodes)
         free(ends);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld boundary edges", (long long)s->n_edges);
     }
-    list_by_node(s, n_nodes);
+    list_by_node(s, l->n_nodes);
+    link_edges(s, l->x);
     walk(s, walked, ends);
     free(walked);
     free(s->ends);
     s->ends = ends;
-    for (dem_index i = 0; i <= n_nodes; i++) s->row[i] = 0;
-    list_by_node(s, n_nodes);
+    for (dem_index i = 0; i <= l->n_nodes; i++) s->row[i] = 0;
+    list_by_node(s, l->n_nodes);
+    link_edges(s, l->x);
     return DEM_OK;
 }
 
@@ -104,9 +121,11 @@ static dem_status allocate(surface *s, const dem_lattice *l)
     const size_t most = 6 * (size_t)l->n_triangles + 1;
     s->ends = malloc(most * sizeof *s->ends);
     s->at = malloc(most * sizeof *s->at);
+    s->next = malloc(most * sizeof *s->next);
+    s->previous = malloc(most * sizeof *s->previous);
     s->row = calloc((size_t)l->n_nodes + 1, sizeof *s->row);
-    CHECK(s->ends && s->at && s->row, DEM_ERROR_MEMORY, "out of memory for the boundary of %lld triangles",
-          (long long)l->n_triangles);
+    CHECK(s->ends && s->at && s->next && s->previous && s->row, DEM_ERROR_MEMORY,
+          "out of memory for the boundary of %lld triangles", (long long)l->n_triangles);
     return DEM_OK;
 }
 
@@ -118,7 +137,7 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice)
     if (status == DEM_OK && lattice->n_triangles > 0) {
         status = sides_create(&list, lattice);
         if (status == DEM_OK) s.n_edges = find_edges(lattice, &list, s.ends);
-        if (status == DEM_OK) status = sort_edges(&s, lattice->n_nodes);
+        if (status == DEM_OK) status = sort_edges(&s, lattice);
         sides_free(&list);
     }
     if (status == DEM_OK)
@@ -133,5 +152,7 @@ void surface_free(surface *s)
     free(s->ends);
     free(s->row);
     free(s->at);
+    free(s->next);
+    free(s->previous);
     *s = (surface){0};
 }

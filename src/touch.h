@@ -34,8 +34,10 @@ typedef struct contact_site {
     contact_touch closed[2];
     bool stirred;       /* it takes part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
+    vec2 clear_at[2];   /* m, where its nodes were when all that it could touch besides */
+    double clear;       /* m, was this far away */
     bool asleep;        /* it is far from all that it could touch besides, */
-    double wake;        /* m, until the bodies may have gone this far since the start; then it is looked at */
+    double wake;        /* m, until the bodies may have gone this far since the start */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
 } contact_site;

@@ -30,9 +30,6 @@ double watch_speed(const contact_sites *c, const double *v)
     return sqrt(square);
 }
 
-/* What is awake is looked at again when the bodies may have gone this many times as far as in a step. */
-static const double look_again = 8.0;
-
 /* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */
 static void come_back(contact_sites *c, dem_index k, vec2 x)
 {
@@ -47,15 +44,26 @@ static void look_at(contact_watch *w, contact_sites *c, dem_index k, const doubl
     contact_site *site = &c->list[k];
     const contact_spot spot = site_spot(site, x);
     dem_index nearest;
-    double clear = site_clearance(&c->scene, site, &spot, 8.0 * reach, &nearest);
+    double clear = site_clearance(&c->scene, site, &spot, &nearest);
     const bool untouched = site->asleep && site->wake > w->travelled;
     if (clear < 0.0 && untouched && site->n_closed == 0 && !site_is_edge(site)) {
         sites_go_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
-        clear = site_clearance(&c->scene, site, &spot, 8.0 * reach, &nearest);
+        clear = site_clearance(&c->scene, site, &spot, &nearest);
     }
     clear -= 2.0 * scene_margin(&c->scene);
     site->asleep = clear > reach;
-    site->wake = w->travelled + (site->asleep ? clear : look_again * reach);
+    site->wake = w->travelled + clear;
+    site->clear = fmax(0.0, clear);
+    site->clear_at[0] = spot.a;
+    site->clear_at[1] = spot.b;
+}
+
+/* What sleeps until it may wake, and what is awake until it has moved half as far as it was clear. */
+static bool worth_a_look(const contact_watch *w, const contact_site *site, const double *x, double reach)
+{
+    if (site->asleep) return site->wake <= w->travelled + reach;
+    const contact_spot spot = site_spot(site, x);
+    return site_moved(site, &spot) >= 0.5 * site->clear;
 }
 
 void watch_look(contact_watch *w, contact_sites *c, const double *x, double speed)
@@ -66,7 +74,7 @@ void watch_look(contact_watch *w, contact_sites *c, const double *x, double spee
         if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(x, c->list[k].node));
     for (dem_index k = 0; k < c->n; k++) {
         const contact_site *site = &c->list[k];
-        if (site->wake <= w->travelled + reach) look_at(w, c, k, x, reach);
+        if (worth_a_look(w, site, x, reach)) look_at(w, c, k, x, reach);
         if (site->n_closed > 0 || !site->asleep) w->awake[w->n++] = k;
     }
 }

@@ -73,35 +73,35 @@ static dem_model *make_model(long columns, long rows, long segments)
 
 /* ---- the functions of contact detection, timed ---- */
 
-static double spent; /* s, in this step */
+static double spent[3]; /* s, in this step */
 
-void __real_contact_guards(contact *c, const double *y, double *g);
+void __real_contact_guards(contact *c, double t, const double *y, double *g);
 bool __real_contact_check(contact *c, path *p, bool rooted, double *state);
-void __real_contact_follow(contact *c, const path *p, const double *y, double *state);
-void __wrap_contact_guards(contact *c, const double *y, double *g);
+void __real_contact_follow(contact *c, const path *p, const double *y);
+void __wrap_contact_guards(contact *c, double t, const double *y, double *g);
 bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state);
-void __wrap_contact_follow(contact *c, const path *p, const double *y, double *state);
+void __wrap_contact_follow(contact *c, const path *p, const double *y);
 
-void __wrap_contact_guards(contact *c, const double *y, double *g)
+void __wrap_contact_guards(contact *c, double t, const double *y, double *g)
 {
     const double start = seconds();
-    __real_contact_guards(c, y, g);
-    spent += seconds() - start;
+    __real_contact_guards(c, t, y, g);
+    spent[0] += seconds() - start;
 }
 
 bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state)
 {
     const double start = seconds();
     const bool late = __real_contact_check(c, p, rooted, state);
-    spent += seconds() - start;
+    spent[1] += seconds() - start;
     return late;
 }
 
-void __wrap_contact_follow(contact *c, const path *p, const double *y, double *state)
+void __wrap_contact_follow(contact *c, const path *p, const double *y)
 {
     const double start = seconds();
-    __real_contact_follow(c, p, y, state);
-    spent += seconds() - start;
+    __real_contact_follow(c, p, y);
+    spent[2] += seconds() - start;
 }
 
 /* ---- the run ---- */
@@ -109,7 +109,7 @@ void __wrap_contact_follow(contact *c, const path *p, const double *y, double *s
 typedef struct tally {
     const dem_model *model;
     dem_index columns, events, contacts;
-    double contact[most], force[most], sum;
+    double part[3][most], contact[most], force[most], sum;
     size_t n;
 } tally;
 
@@ -125,11 +125,12 @@ static dem_status after_step(void *context, const dem_simulation *simulation)
         for (dem_index i = 0; i < t->model->lattice.n_nodes; i++)
             t->sum += springs_force(&t->model->springs, i, state.x).x;
         t->force[t->n] = seconds() - start;
-        t->contact[t->n++] = spent;
+        for (int k = 0; k < 3; k++) t->part[k][t->n] = spent[k];
+        t->contact[t->n++] = spent[0] + spent[1] + spent[2];
         t->contacts = state.n_contacts;
     }
     t->events = counts.events;
-    spent = 0.0;
+    spent[0] = spent[1] = spent[2] = 0.0;
     return DEM_OK;
 }
 
@@ -154,8 +155,9 @@ int main(int argc, char **argv)
     (void)printf("%lld nodes, %ld segments, %lld contacts on %ld columns, %lld steps, %lld events, %zu steps counted\n",
                  (long long)model->lattice.n_nodes, segments, (long long)t.contacts, columns, (long long)counts.steps,
                  (long long)counts.events, t.n);
-    (void)printf("forces %.3f ms, contact %.3f ms, ratio %.4f (sum %g)\n", 1e3 * force, 1e3 * contact_time,
-                 contact_time / force, t.sum);
+    (void)printf("forces %.3f ms, contact %.3f ms (guards %.3f, check %.3f, follow %.3f), ratio %.4f (sum %g)\n",
+                 1e3 * force, 1e3 * contact_time, 1e3 * median(t.part[0], t.n), 1e3 * median(t.part[1], t.n),
+                 1e3 * median(t.part[2], t.n), contact_time / force, t.sum);
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
     return 0;

@@ -553,7 +553,7 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
         const contact_site site = free_site();
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
         const contact_spot here = site_spot(&site, x);
-        const double clear = site_clearance(world, &site, &here, 0.0, &nearest) - 10.0 * skin;
+        const double clear = site_clearance(world, &site, &here, &nearest) - 10.0 * skin;
         assert_int_equal(nearest, obstacles_gap(&world->model->obstacles, here.a, 10.0 * skin, -1, -1).segment);
         for (int q = 0; q < 50; q++) {
             const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
@@ -582,7 +582,7 @@ static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
         const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
         const double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
         const contact_spot here = site_spot(&edge, at);
-        const double clear = site_clearance(world, &edge, &here, k % 2 == 0 ? 0.05 : 0.0, &nearest);
+        const double clear = site_clearance(world, &edge, &here, &nearest);
         for (int q = 0; q < 50; q++) {
             double to[6], way = 0.0;
             for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
@@ -607,7 +607,7 @@ static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(v
     for (int k = 0; k < 4; k++) {
         move_all(&s, -1.5, y[k], 0.0);
         const contact_spot spot = site_spot(edge, s.y);
-        assert_close(site_clearance(&s.c.sites.scene, edge, &spot, 0.0, &nearest), clear[k], 1e-14);
+        assert_close(site_clearance(&s.c.sites.scene, edge, &spot, &nearest), clear[k], 1e-14);
     }
     scene_close(&s);
 }
@@ -620,9 +620,9 @@ static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
     const contact_site *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
     const contact_spot spot = site_spot(edge, s.y);
     assert_int_equal(site_gap(&s.c.sites.scene, edge, &spot).feature, -1);
-    assert_true(site_near(&s.c.sites.scene, edge, &spot, 0.5));
-    assert_false(site_near(&s.c.sites.scene, edge, &spot, 0.29));
-    assert_false(site_near(&s.c.sites.scene, edge, &spot, 0.39));
+    assert_true(site_around(&s.c.sites.scene, edge, &spot, 0.5).feature >= 0);
+    assert_false(site_around(&s.c.sites.scene, edge, &spot, 0.29).feature >= 0);
+    assert_false(site_around(&s.c.sites.scene, edge, &spot, 0.39).feature >= 0);
     scene_close(&s);
 }
 
