@@ -233,20 +233,29 @@ static void straighten_nodes(contact_sites *c, double *x)
     }
 }
 
+/* Whether a site comes to touch within the window if it goes on straight: near a vertex it may pass by. */
+static bool arrives(const contact_sites *c, const contact_site *site, const contact_spot *x, const contact_spot *v)
+{
+    const double window = c->scene.rule.window;
+    const contact_spot ahead = {vec2_along(x->a, window, v->a), vec2_along(x->b, window, v->b),
+                                vec2_along(x->previous, window, v->previous), vec2_along(x->next, window, v->next)};
+    return site_gap(&c->scene, site, &ahead).distance < -c->scene.rule.skin;
+}
+
 /* Reflects now what would touch within the window. */
 static void reflect_early(contact_sites *c, contact_moment *now)
 {
     for (dem_index k = 0; k < c->n; k++) {
-        const contact_site *site = &c->list[k];
+        contact_site *site = &c->list[k];
         if (site->n_closed > 0 || site->asleep || sites_coupled(c, k)) continue;
-        const contact_spot spot = site_spot(site, now->x);
+        const contact_spot spot = site_spot(site, now->x), v = site_spot(site, now->v);
+        site->clear = 0.0; /* a lower bound will not do */
         const contact_gap gap = site_gap(&c->scene, site, &spot);
         if (gap.feature < 0) continue;
-        vec2 v = vec2_at(now->v, site->node);
-        if (site_is_edge(site))
-            v = vec2_add(vec2_scale(1.0 - gap.place, v), vec2_scale(gap.place, vec2_at(now->v, site->other)));
-        const double speed = -vec2_dot(v, gap.normal);
-        if (speed > 0.0 && gap.distance + c->scene.rule.skin < speed * c->scene.rule.window)
+        const vec2 at = vec2_add(vec2_scale(1.0 - gap.place, v.a), vec2_scale(gap.place, v.b));
+        const double speed = -vec2_dot(at, gap.normal);
+        if (speed > 0.0 && gap.distance + c->scene.rule.skin < speed * c->scene.rule.window &&
+            arrives(c, site, &spot, &v))
             strike_early(c, k, &gap, now);
     }
 }

@@ -13,7 +13,7 @@
 
 enum { max_observers = 8 };
 
-static const double window_share = 0.0; /* of 1/omega_max: default window */
+static const double window_share = 0.1; /* of 1/omega_max: default window, by the table in docs/method.md */
 
 typedef struct watcher {
     dem_observer observer;

@@ -958,6 +958,109 @@ static void an_edge_is_reflected_early_too(void **state)
     scene_close(&s);
 }
 
+/* The node above the ridge nears it with 0.6 m/s and would be there in 0.083 s; it goes on with 8 m/s along, where the
+ * roof falls away: it passes. Straight down it does not. */
+static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state)
+{
+    const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
+                                 {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const double along = k == 0 ? 8.0 : 0.0;
+        scene s;
+        open_scene(&s, 2, two, 2);
+        s.c.sites.scene.rule.window = 0.1;
+        scene_put(&s, 0, -6.0, -4.0 - skin, 0.0, -2.0);
+        scene_put(&s, 1, 0.0, 0.05, along, -0.6);
+        assert_ok(scene_resolve(&s, 0.25));
+        scene_check(&s, 1, 0.0, 0.05, along, k == 0 ? -0.6 : 0.3);
+        assert_int_equal(s.c.sites.books.counts.early, k);
+        scene_close(&s);
+    }
+}
+
+/* The same three in any order, by both laws of friction: the same velocities, and the books close. Of 2 kg that near
+ * with (3, -4) m/s, eta = 1/2 and mu = 1/4 leave 1.5 m/s along by Coulomb's law and 0.75 by the paper's. */
+static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **state)
+{
+    static const double height[3] = {-1e-6, 0.3, 0.35};
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const bool paper = k >= 3;
+        const dem_obstacle gritty = {.n_points = 2,
+                                     .points = floor_points,
+                                     .restitution = 0.5,
+                                     .friction = 0.25,
+                                     .friction_law = paper ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        scene s;
+        open_scene(&s, 3, &gritty, 1);
+        s.c.sites.scene.rule.window = 0.1;
+        for (dem_index i = 0; i < 3; i++) scene_put(&s, i, (double)i, height[(i + k) % 3], 3.0, -4.0);
+        assert_ok(scene_resolve(&s, 0.25));
+        const double u = paper ? 0.75 : 1.5;
+        for (dem_index i = 0; i < 3; i++) {
+            const double y = height[(i + k) % 3];
+            scene_check(&s, i, (double)i, fmax(y, 0.0), u, 2.0);
+            assert_close(s.impacts[i].energy, 25.0 - u * u - 4.0, 1e-13);
+        }
+        assert_close(s.c.sites.books.impact, 3.0 * (25.0 - u * u - 4.0), 1e-12);
+        assert_close(s.c.sites.books.impulse[1], 3.0 * 12.0, 1e-13);
+        assert_close(s.c.sites.books.friction_impulse[0], 3.0 * 2.0 * (u - 3.0), 1e-13);
+        assert_close(s.c.sites.books.projection, 2.0 * g * skin, 1e-15);
+        assert_int_equal(s.c.sites.books.counts.early, 2);
+        scene_close(&s);
+    }
+}
+
+/* Plastic: stopped where it is, and free; closed when it comes as deep as the skin. */
+static void what_is_reflected_early_without_rebound_closes_at_the_skin(void **state)
+{
+    scene s;
+    (void)state;
+    open_scene(&s, 2, &plastic, 1);
+    s.c.sites.scene.rule.window = 0.1;
+    scene_put(&s, 0, 0.0, -skin, 0.0, -1.0);
+    scene_put(&s, 1, 1.0, 0.05, 0.5, -1.0);
+    assert_ok(scene_resolve(&s, 0.25));
+    scene_check(&s, 1, 1.0, 0.05, 0.5, 0.0);
+    assert_int_equal(s.c.sites.list[0].n_closed, 1);
+    assert_int_equal(s.c.sites.list[1].n_closed, 0);
+    scene_put(&s, 1, 1.25, -skin, 0.5, -0.5);
+    assert_ok(scene_resolve(&s, 0.5));
+    scene_check(&s, 1, 1.25, 0.0, 0.5, 0.0);
+    assert_int_equal(s.c.sites.list[1].n_closed, 1);
+    scene_close(&s);
+}
+
+/* An edge rests on the ridge. Its first node nears a floor below it within the window: it is left to the group. */
+static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(void **state)
+{
+    const double low_points[4] = {-3.0, -0.05, -0.5, -0.05};
+    const dem_obstacle two[3] = {{.n_points = 3, .points = roof_points, .restitution = 0.0},
+                                 {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5},
+                                 {.n_points = 2, .points = low_points, .restitution = 0.5}};
+    const double x[8] = {-1.0, 0.0, 1.0, 0.0, 0.0, 1.0, -6.0, 0.0}, mass[4] = {2.0, 2.0, 2.0, 2.0};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 3);
+        s.c.sites.scene.rule.window = 0.1;
+        if (k == 0) {
+            launch(&s, 0.0, 0.0);
+            assert_ok(scene_take_up(&s));
+            assert_int_equal(s.c.sites.list[scene_edge(&s, 0, 1)].n_closed, 1);
+        }
+        vec2_put(scene_v(&s), 0, (vec2){0.0, -1.0});
+        vec2_put(scene_v(&s), 1, (vec2){0.0, 1.0});
+        scene_put(&s, 3, -6.0, -4.0 - skin, 0.0, -1.0);
+        s.n_impacts = 0;
+        assert_ok(scene_resolve(&s, 0.25));
+        assert_int_equal(s.c.sites.books.counts.early, k == 0 ? 0 : 1);
+        assert_close(scene_v(&s)[1], k == 0 ? -1.0 : 0.5, 1e-14);
+        scene_close(&s);
+    }
+}
+
 /* ---- behind a free end ---- */
 
 static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
@@ -1132,6 +1235,10 @@ int main(void)
         cmocka_unit_test(events_that_change_nothing_end_the_run_after_a_while),
         cmocka_unit_test(what_arrives_within_the_window_of_an_impact_is_reflected_with_it),
         cmocka_unit_test(an_edge_is_reflected_early_too),
+        cmocka_unit_test(what_passes_a_vertex_within_the_window_is_not_reflected),
+        cmocka_unit_test(an_early_reflection_takes_what_an_impact_takes_in_any_order),
+        cmocka_unit_test(what_is_reflected_early_without_rebound_closes_at_the_skin),
+        cmocka_unit_test(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early),
         cmocka_unit_test(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front),
         cmocka_unit_test(a_step_is_cut_at_the_first_contact_that_was_overlooked),
         cmocka_unit_test(a_contact_at_the_root_that_ends_a_step_is_no_other),
