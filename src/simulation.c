@@ -290,7 +290,8 @@ static dem_status fill_options(dem_simulation *s)
     if (o->max_step == 0.0 && s->model->omega_max > 0.0) o->max_step = 0.5 / fmax(s->model->omega_max, damping_rate(s));
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
     if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
-    if (o->window < 0.0) o->window = s->model->omega_max > 0.0 ? window_share / s->model->omega_max : 0.0;
+    if (o->window < 0.0)
+        o->window = s->model->omega_max > 0.0 ? window_share * fmin(1.0 / s->model->omega_max, 2.0 * o->max_step) : 0.0;
     if (o->v_scale == 0.0) o->v_scale = default_v_scale(s);
     CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
     return DEM_OK;
