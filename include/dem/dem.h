@@ -230,7 +230,8 @@ typedef struct dem_options {
                                by skin/|v_n|, and the node put back on the surface */
     double rest_speed;     /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
                                becomes a lasting contact */
-    dem_index max_impacts; /**< default 10000: impacts of one node within 1/omega_max that count as a storm */
+    dem_index max_impacts; /**< default 10000: changes of the contacts of one node or edge within
+                               1/omega_max that count as a storm */
     double window;         /**< s, default < 0: see docs/method.md. At an impact, what would arrive within this time
                                is reflected at once, and hops of less than twice this become lasting contacts;
                                0: every impact by itself */
@@ -256,7 +257,7 @@ typedef struct dem_energy {
     double elastic;    /**< of the springs                                                               (1) */
     double guard;      /**< of the folding guard */
     double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
-    double impact;     /**< taken by impacts so far, >= 0                                          (9), (10) */
+    double impact;     /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
     double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
     double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
     double projection; /**< put in by returning nodes from the skin to the surface so far */
@@ -367,7 +368,7 @@ typedef struct dem_strain {
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
- *  DEM_ERROR_MODEL names the node. The model is borrowed and must outlive the simulation. */
+ *  DEM_ERROR_MODEL names the node or the vertex. The model is borrowed and must outlive the simulation. */
 DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
 
 /** Accepts NULL. */

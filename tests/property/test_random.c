@@ -62,7 +62,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-/* The ledger is read at accepted steps: what friction and damping take is known there. */
+/* The ledger is read at accepted steps. */
 static dem_status step(void *context, const dem_simulation *simulation)
 {
     verdict *v = context;

@@ -198,7 +198,7 @@ static void open_triangle(support_run *run, const triangle *q, const double *y, 
     dem_lattice_free(&lattice);
 }
 
-/* Worst of the ledger at accepted steps: a frame's books are those of the last step. */
+/* Worst of the ledger at accepted steps. */
 typedef struct ledger {
     double start, worst;
 } ledger;
