@@ -26,20 +26,21 @@ static int sign_of(const contact_sites *c, dem_index k, dem_index feature, doubl
     return speed < 0.0 ? -1 : 1;
 }
 
-/* Hops in a notch that this many skins hold up: it is passed a skin beyond its bottom. */
-static const double notch_skins = 8.0;
+/* Hops of this many skins are kept up where one contact's impact opens another that shares a node, or the other side of
+ * a notch: each is taken a skin deep. */
+static const double shared_skins = 8.0;
 
 /* Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
  * position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
- * the skin keep up (`on`: the surface, NULL: a notch); or it would be shorter than twice the window. Nothing is at rest
+ * the skin keep up; or it would be shorter than twice the window. Nothing is at rest
  * (-1) that does not return. */
-static double resting_speed(const contact_sites *c, vec2 x, double back, const impact_surface *on)
+static double resting_speed(const contact_sites *c, vec2 x, double back, const impact_surface *on, bool shared)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     if (rule->rest_speed > 0.0) return rule->rest_speed;
     const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
-    const double skins = on != NULL ? 2.0 * impact_kept_up(on) : notch_skins;
+    const double skins = fmax(shared ? shared_skins : 0.0, 2.0 * impact_kept_up(on));
     const double height = fmax(fmax(rule->position_error, rounding), skins * rule->skin);
     return fmax(sqrt(2.0 * back * height), back * rule->window);
 }
@@ -87,13 +88,13 @@ static contact_hit lasting(const contact_sites *c, dem_index k, contact_hit hit,
     }
     const int holding = impact_holding(wall, hit.n, a, push);
     const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
-    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= resting_speed(c, at, back, &wall[0])))) {
+    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= resting_speed(c, at, back, &wall[0], false)))) {
         for (int q = 0; q < hit.n; q++)
             if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
         return held;
     }
     const int along = hit.n == 2 && away[1] < away[0] ? 1 : 0;
-    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal), &wall[along]))
+    if (away[along] <= resting_speed(c, at, -vec2_dot(a, wall[along].normal), &wall[along], false))
         held = (contact_hit){1, {hit.feature[along]}};
     return held;
 }
@@ -273,6 +274,7 @@ static bool sweep(contact_sites *c, dem_index k, double tolerance, contact_momen
 static void judge(contact_sites *c, dem_index group, double tolerance, const contact_moment *now)
 {
     const reactions *r = &c->reactions;
+    const bool shared = r->row[group + 1] - r->row[group] > 1;
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         const dem_index k = r->members[p];
         for (int q = 0; q < c->list[k].n_closed; q++) {
@@ -284,7 +286,7 @@ static void judge(contact_sites *c, dem_index group, double tolerance, const con
                 back -= f.weight[e] * vec2_dot(f.normal, model_acceleration(c->scene.model, &c->scene.rule.load,
                                                                             f.node[e], now->x, now->v));
             const impact_surface wall = surface_of(c, k, touch->feature, f.normal);
-            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, &wall);
+            const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, &wall, shared);
             touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
             touch->rests = rest > 0.0 && away <= rest;
             const int sign = sign_of(c, k, touch->feature, fabs(speed) <= tolerance ? 0.0 : speed);
@@ -470,7 +472,7 @@ bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const 
     if (impact_holding(sides, 2, a, push_on) != 3) return false;
     const vec2 after = impact_rebound(&sides[1], 1, vec2_at(now->v, node), &kick);
     const double speed = vec2_norm(after), back = speed > 0.0 ? -vec2_dot(a, after) / speed : 0.0;
-    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, NULL);
+    return speed == 0.0 || speed <= resting_speed(c, vec2_at(now->x, node), back, &sides[0], true);
 }
 
 void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now)

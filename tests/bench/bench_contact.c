@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What contact detection costs per accepted step without event, in units of one evaluation of the forces by the plain
- * loop over CSR: a body of COLUMNS x ROWS nodes comes down on a ground of SEGMENTS segments, and every step without
- * event counts in which its lower face is in contact. The functions are timed where simulation.c calls them.
- * `bench_contact [COLUMNS ROWS SEGMENTS SECONDS]` */
+ * loop over CSR: a body of COLUMNS x ROWS nodes is pressed on a ground of SEGMENTS segments, flat or with bumps of
+ * ROUGHNESS times the spacing, and every step without event counts in which its lower face is in contact. The functions
+ * are timed where simulation.c calls them; what ARKODE does with the values of the guards is not counted.
+ * `bench_contact [COLUMNS ROWS SEGMENTS SECONDS ROUGHNESS]` */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -39,25 +40,25 @@ static double median(double *times, size_t n)
     return n > 0 ? times[n / 2] : NAN;
 }
 
-/* Bumps of a thousandth of the spacing, by a fixed generator. */
-static double *make_ground(long segments, double width)
+/* Bumps of `roughness` times the spacing, by a fixed generator. */
+static double *make_ground(long segments, double width, double roughness)
 {
     double *points = malloc(2 * ((size_t)segments + 1) * sizeof *points);
     unsigned long long random = 1;
     for (long k = 0; points != NULL && k <= segments; k++) {
         random = random * 6364136223846793005ULL + 1442695040888963407ULL;
-        const double bump = (double)(random >> 33) / 2147483648.0;
         points[2 * k] = width * ((double)k / (double)segments - 0.5);
-        points[2 * k + 1] = 1e-2 * spacing * sin(points[2 * k] / (6.0 * spacing)) + 0.0 * bump;
+        points[2 * k + 1] = roughness * spacing * (double)(random >> 33) / 2147483648.0;
     }
     return points;
 }
 
-static dem_model *make_model(long columns, long rows, long segments)
+static dem_model *make_model(long columns, long rows, long segments, double roughness)
 {
     const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1}, lift[2] = {0.0, 1.1e-2 * spacing};
-    double *points = make_ground(segments, 1.2 * width);
+    const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1},
+                 lift[2] = {0.0, (roughness + 1e-3) * spacing};
+    double *points = make_ground(segments, 1.2 * width, roughness);
     const dem_obstacle ground = {.n_points = segments + 1, .points = points, .friction = 0.3};
     dem_lattice lattice;
     dem_model *model;
@@ -139,7 +140,7 @@ int main(int argc, char **argv)
     const long columns = argc > 1 ? atol(argv[1]) : 447, rows = argc > 2 ? atol(argv[2]) : 224,
                segments = argc > 3 ? atol(argv[3]) : 10000;
     static tally t;
-    dem_model *model = make_model(columns, rows, segments);
+    dem_model *model = make_model(columns, rows, segments, argc > 5 ? atof(argv[5]) : 0.0);
     const dem_observer observer = {.step = after_step, .context = &t};
     dem_options options = dem_options_default();
     dem_simulation *simulation;
