@@ -233,6 +233,13 @@ static void straighten_nodes(contact_sites *c, double *x)
     }
 }
 
+/* Whether a site may come to touch within the window: what it is known to be clear of may be further than it gets. */
+static bool may_arrive(const contact_sites *c, const contact_site *site, const contact_spot *x, const contact_spot *v)
+{
+    const double way = c->scene.rule.window * fmax(vec2_norm(v->a), vec2_norm(v->b));
+    return site->clear - site_moved(site, x) < way;
+}
+
 /* Whether a site comes to touch within the window if it goes on straight: near a vertex it may pass by. */
 static bool arrives(const contact_sites *c, const contact_site *site, const contact_spot *x, const contact_spot *v)
 {
@@ -246,16 +253,16 @@ static bool arrives(const contact_sites *c, const contact_site *site, const cont
 static void reflect_early(contact_sites *c, contact_moment *now)
 {
     for (dem_index k = 0; k < c->n; k++) {
-        contact_site *site = &c->list[k];
-        if (site->n_closed > 0 || site->asleep || sites_coupled(c, k)) continue;
-        const contact_spot spot = site_spot(site, now->x), v = site_spot(site, now->v);
-        site->clear = 0.0; /* a lower bound will not do */
-        const contact_gap gap = site_gap(&c->scene, site, &spot);
+        contact_site site = c->list[k];
+        const contact_spot spot = site_spot(&site, now->x), v = site_spot(&site, now->v);
+        if (site.n_closed > 0 || sites_coupled(c, k) || !may_arrive(c, &site, &spot, &v)) continue;
+        sites_disturb(&site); /* its true gap */
+        const contact_gap gap = site_gap(&c->scene, &site, &spot);
         if (gap.feature < 0) continue;
         const vec2 at = vec2_add(vec2_scale(1.0 - gap.place, v.a), vec2_scale(gap.place, v.b));
         const double speed = -vec2_dot(at, gap.normal);
         if (speed > 0.0 && gap.distance + c->scene.rule.skin < speed * c->scene.rule.window &&
-            arrives(c, site, &spot, &v))
+            arrives(c, &site, &spot, &v))
             strike_early(c, k, &gap, now);
     }
 }

@@ -1012,26 +1012,6 @@ static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **s
     }
 }
 
-/* Plastic: stopped where it is, and free; closed when it comes as deep as the skin. */
-static void what_is_reflected_early_without_rebound_closes_at_the_skin(void **state)
-{
-    scene s;
-    (void)state;
-    open_scene(&s, 2, &plastic, 1);
-    s.c.sites.scene.rule.window = 0.1;
-    scene_put(&s, 0, 0.0, -skin, 0.0, -1.0);
-    scene_put(&s, 1, 1.0, 0.05, 0.5, -1.0);
-    assert_ok(scene_resolve(&s, 0.25));
-    scene_check(&s, 1, 1.0, 0.05, 0.5, 0.0);
-    assert_int_equal(s.c.sites.list[0].n_closed, 1);
-    assert_int_equal(s.c.sites.list[1].n_closed, 0);
-    scene_put(&s, 1, 1.25, -skin, 0.5, -0.5);
-    assert_ok(scene_resolve(&s, 0.5));
-    scene_check(&s, 1, 1.25, 0.0, 0.5, 0.0);
-    assert_int_equal(s.c.sites.list[1].n_closed, 1);
-    scene_close(&s);
-}
-
 /* An edge rests on the ridge. Its first node nears a floor below it within the window: it is left to the group. */
 static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(void **state)
 {
