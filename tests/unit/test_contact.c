@@ -1215,7 +1215,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_edge_is_reflected_early_too),
     cmocka_unit_test(what_passes_a_vertex_within_the_window_is_not_reflected),
     cmocka_unit_test(an_early_reflection_takes_what_an_impact_takes_in_any_order),
-    cmocka_unit_test(what_is_reflected_early_without_rebound_closes_at_the_skin),
     cmocka_unit_test(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early),
     cmocka_unit_test(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front),
     cmocka_unit_test(a_step_is_cut_at_the_first_contact_that_was_overlooked),
