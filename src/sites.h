@@ -15,8 +15,8 @@ typedef struct contact_sites {
     dem_index *of_node; /* [n_nodes] site of a node, or -1 */
 } contact_sites;
 
-/** `out` must stay where it is. */
-dem_status sites_create(contact_sites *out, const dem_model *model, const contact_rule *rule);
+/** `c` must stay where it is. */
+dem_status sites_create(contact_sites *c, const dem_model *model, const contact_rule *rule);
 void sites_destroy(contact_sites *c);
 
 /** What was known of a site's distance to other things holds no more. */

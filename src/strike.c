@@ -567,7 +567,7 @@ static bool in_cone(const contact_sites *c, const obstacle_vertex *at, vec2 n)
            vec2_cross(n, scene_segment(&c->scene, at->after)->normal) <= 0.0;
 }
 
-dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment *now, dem_index *at)
+dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment *now, dem_index *vertex)
 {
     const surface *s = &c->scene.model->surface;
     const dem_index node = c->list[k].node;
@@ -585,7 +585,7 @@ dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment 
         if (speed <= fastest) continue;
         fastest = speed;
         best = e;
-        *at = gap.feature;
+        *vertex = gap.feature;
     }
     return best;
 }
