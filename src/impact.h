@@ -23,7 +23,8 @@ typedef struct impact_surface {
 vec2 impact_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick);
 
 /** Height of the hop that impacts keep up which are taken at a depth of 1 and put back on the surface, under a constant
- *  push: v'^2 = eta^2 (v^2 + 2 a) tends to 2 a eta^2/(1 - eta^2). At most 50, and 0 for eta = 1, where there is no limit. */
+ *  push: v'^2 = eta^2 (v^2 + 2 a) tends to 2 a eta^2/(1 - eta^2). At most 50, and 0 for eta = 1, where there is no
+ *  limit. */
 double impact_kept_up(const impact_surface *surface);
 
 /** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls

@@ -331,8 +331,8 @@ static double distance_beside(vec2 p, vec2 q, vec2 x)
     return along >= 0.0 && along <= square && square > 0.0 ? -vec2_cross(way, from) / sqrt(square) : -INFINITY;
 }
 
-/* Whether x, behind the edge by -distance, belongs to the neighbour from p to q round a convex corner of the body: it is
- * nearer to that, and outside the body in front of it, or inside with the obstacle's corner pointing against it. */
+/* Whether x, behind the edge by -distance, belongs to the neighbour from p to q round a convex corner of the body: it
+ * is nearer to that, and outside the body in front of it, or inside with the obstacle's corner pointing against it. */
 static bool belongs(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
 {
     const double beside = distance_beside(p, q, x);

@@ -89,8 +89,8 @@ typedef struct obstacle_poke {
 
 /** Of the convex vertices whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and whose
  *  mean normal points into the body: the one with the smallest distance, the first of equals. One behind the edge that
- *  is nearer to a neighbouring edge, round a convex corner of the body, is not meant; one in a notch of the body, behind
- *  the edge and its neighbour between their feet, is. */
+ *  is nearer to a neighbouring edge, round a convex corner of the body, is not meant; one in a notch of the body,
+ *  behind the edge and its neighbour between their feet, is. */
 obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge);
 
 /** Distance of the edge to the nearest convex vertex, at most its `reach`, m. */

@@ -14,9 +14,10 @@ typedef enum aim { FORCE, IMPULSE, SHIFT } aim;
 
 /* ---- groups ---- */
 
-static dem_index root_of(const reactions *r, dem_index node)
+/* Halves the way for the next one. */
+static dem_index root_of(reactions *r, dem_index node)
 {
-    while (r->root[node] != node) node = r->root[node];
+    for (; r->root[node] != node; node = r->root[node]) r->root[node] = r->root[r->root[node]];
     return node;
 }
 

@@ -74,8 +74,8 @@ static double fastest(const path *p, double t, const contact_site *site)
     return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
 }
 
-/* How far a site may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of its
- * nodes there, four times what a constant one does; an edge turns besides. */
+/* How far a site may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
+ * its nodes there, four times what a constant one does; an edge turns besides. */
 static double bend(const contact_site *site, const path *p)
 {
     const double h = p->t1 - p->t0;
@@ -91,8 +91,8 @@ static double bend(const contact_site *site, const path *p)
     return 0.5 * h * h * (a + turn);
 }
 
-/* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the nearest is
- * further in front than the edge can have come from there. */
+/* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the
+ * nearest is further in front than the edge can have come from there. */
 static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const path *p, double reach)
 {
     const contact_spot spot = site_spot_on(site, p, p->end);

@@ -29,8 +29,9 @@ contact_spot site_spot_on(const contact_site *site, const path *p, double t);
 /** How far a site has moved since it was seen to be clear, m. */
 double site_moved(const contact_site *site, const contact_spot *spot);
 
-/** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends
- *  are guarded by themselves; of an edge its vertex. */
+/** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it
+ *  is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
+ *  themselves; of an edge its vertex. */
 contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
 
 /** The nearest vertex within reach (m) of an edge, in front of it, behind it or beside it. */

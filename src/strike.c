@@ -320,7 +320,8 @@ static bool take_back(contact_sites *c, dem_index group, contact_moment *now)
     return any;
 }
 
-/* What still strikes after all sweeps is held for now: it stops exactly with the others, and opens if nothing presses. */
+/* What still strikes after all sweeps is held for now: it stops exactly with the others, and opens if nothing
+ * presses. */
 static void keep_struck(contact_sites *c, dem_index group)
 {
     const reactions *r = &c->reactions;

@@ -57,7 +57,7 @@ static double turn_at_end(const surface *s, const double *x, dem_index e, dem_in
     return turn > 0.0 ? turn : turn + 2.0 * acos(-1.0);
 }
 
-/* The body is on the left, so that it is turned through first: the nearest edge belongs to the same fan of triangles. */
+/* The body is on the left, so that it is turned through first: the nearest edge belongs to the same fan. */
 static dem_index next_of(const surface *s, const double *x, dem_index e)
 {
     const dem_index node = s->ends[2 * e + 1];

@@ -223,7 +223,7 @@ static hsize_t frame_bytes(const dem_trajectory *t)
 static hsize_t start_bytes(const dem_model *model)
 {
     const dem_model_size size = dem_model_sizes(model);
-    return 104 * (hsize_t)size.n_nodes + 57 * (hsize_t)size.n_springs + 32 * (hsize_t)size.n_triangles +
+    return 104 * (hsize_t)size.n_nodes + 65 * (hsize_t)size.n_springs + 32 * (hsize_t)size.n_triangles +
            32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles;
 }
 

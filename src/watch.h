@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The broad phase: which sites are near enough to touch something else. One that is far from everything sleeps until the
- * bodies may have gone as far. */
+/* The broad phase: which sites are near enough to touch something else. One that is far from everything sleeps until
+ * the bodies may have gone as far. */
 #ifndef DEM_WATCH_H
 #define DEM_WATCH_H
 

@@ -117,7 +117,8 @@ DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *conte
 
 /** Springs, masses and guard of a triangulation by the finite-element rule: a triangle of area A gives each edge e the
  *  stiffness E h A/|e|^2 times the edge's length, in N, and each corner a third of its mass. A block of equilateral
- *  triangles then has exactly E and nu = 1/3 in plane stress.                                                  (1) */
+ *  triangles then has exactly E and nu = 1/3 in plane stress. With a damping time each spring gets the viscosity
+ *  damping_time times its stiffness.                                                                           (1) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 
 /** Number of parts that springs do not connect.
@@ -374,8 +375,8 @@ DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *
 /** Accepts NULL. */
 DEM_API void dem_simulation_destroy(dem_simulation *simulation);
 
-/** Integrates (4) to t_end, with (9) and friction at every impact. The state there is interpolated, never stepped to, so a run to
- *  t1 continued to t2 is a run to t2.
+/** Integrates (4) to t_end, with (9) and friction at every impact. The state there is interpolated, never stepped to,
+ *  so a run to t1 continued to t2 is a run to t2.
  *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state */
 DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the impact window costs and saves: the paper's three decks, each impact by itself against windows of kappa/omega_max.
- * First come the errors that a run has anyway, single impacts at rtol 1e-8 and at half the spacing; every row is compared
- * with single impacts at rtol 1e-6: the centre of mass and its velocity after the last contact, the nodes at t_end (root
- * mean square over spacing). `bench_window INPUTS [SPACING [ETA]...]` */
+/* What the impact window costs and saves: the paper's three decks, each impact by itself against windows of
+ * kappa/omega_max. First come the errors that a run has anyway, single impacts at rtol 1e-8 and at half the spacing;
+ * every row is compared with single impacts at rtol 1e-6: the centre of mass and its velocity after the last contact,
+ * the nodes at t_end (root mean square over spacing). `bench_window INPUTS [SPACING [ETA]...]` */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

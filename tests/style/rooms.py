@@ -35,7 +35,7 @@ ROOMS = [  # pattern, files that may have it
     (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),
     (r"\b(TODO|FIXME|XXX|HACK)\b", set()),
 ]
-MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS = 600, 60, 6
+MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 
 faults = []
 
@@ -106,6 +106,9 @@ for source in sources:
     text = source.read_text(encoding="utf-8")
     if not text.startswith("/* SPDX-License-Identifier: BSD-3-Clause */\n"):
         complain(source, 1, "does not begin with its licence")
+    for number, row in enumerate(text.splitlines(), 1):
+        if len(row) > MAX_LINE:
+            complain(source, number, f"line of {len(row)} characters")
     rows = without_comments(text).splitlines()
     if len(rows) > MAX_FILE and source.relative_to(ROOT).parts[0] != "tests":
         complain(source, MAX_FILE, f"{len(rows)} lines")

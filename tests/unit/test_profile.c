@@ -159,9 +159,9 @@ static double product(const double *out, size_t n, size_t lag)
     return sum / (double)(n - lag);
 }
 
-/* Over n correlation lengths c the mean has the standard error sqrt(sqrt(pi)/n), the mean product at the distance d that
- * of sqrt(sqrt(pi/2) (1 + exp(-2 (d/c)^2))/n), both over the roughness: Bartlett's formula, its sums as integrals.
- * n = 10000, and four standard errors are allowed. */
+/* Over n correlation lengths c the mean has the standard error sqrt(sqrt(pi)/n), the mean product at the distance d
+ * that of sqrt(sqrt(pi/2) (1 + exp(-2 (d/c)^2))/n), both over the roughness: Bartlett's formula, its sums as
+ * integrals. n = 10000, and four standard errors are allowed. */
 static void a_long_profile_has_the_roughness_and_the_autocorrelation_asked_for(void **state)
 {
     (void)state;

@@ -125,8 +125,8 @@ static void edges_sleep_too(void **state)
     scene_close(&s);
 }
 
-/* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the crossing is
- * found all the same, and the node strikes. */
+/* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the
+ * crossing is found all the same, and the node strikes. */
 static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(void **state)
 {
     const double x[2] = {0.0, 2e-4};

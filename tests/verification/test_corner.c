@@ -222,7 +222,8 @@ static void a_node_coming_from_behind_passes_and_then_lands_on_the_front(void **
     support_close(&run);
 }
 
-/* Rest at the bottom of valleys from nearly straight to narrow, and in a right corner turned by any angle: held for ever. */
+/* Rest at the bottom of valleys from nearly straight to narrow, and in a right corner turned by any angle: held for
+ * ever. */
 static void a_node_at_rest_in_a_corner_stays(void **unused)
 {
     static const double slopes[4] = {1e-6, 4e-3, 1.0, 100.0};
@@ -247,7 +248,8 @@ static void a_node_at_rest_in_a_corner_stays(void **unused)
     }
 }
 
-/* Floor and wall are two obstacles, the wall stands on the floor or leans over it: at any tilt nothing slips through the joint. */
+/* Floor and wall are two obstacles, the wall stands on the floor or leans over it: at any tilt nothing slips through
+ * the joint. */
 static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
 {
     (void)unused;
