@@ -174,6 +174,7 @@ void search_state(const reactions *r, dem_index group, const path *p, double t, 
         if (site->previous >= 0) put_node(p, t, site->previous, state);
         if (site->next >= 0) put_node(p, t, site->next, state);
     }
+    if (r->scene->rule.load.boundaries != NULL) put_node(p, t, p->n_nodes - 1, state); /* the time */
 }
 
 double search_due(reactions *r, const contact_site *site, const path *p, double *state)
