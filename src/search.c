@@ -121,12 +121,11 @@ static bool stays_clear(const contact_site *site, const path *p, double reach)
     return site_moved(site, &spot) + reach < site->clear;
 }
 
-double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
+/* The first crossing of a site whose gap is the true one. */
+static double crossing_within(const contact_scene *scene, const contact_site *site, const path *p, double reach)
 {
     enum { n = 8 };
     const double h = p->end - p->t0;
-    const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
-    if (stays_clear(site, p, reach)) return INFINITY;
     if (site_is_edge(site) && edge_is_clear(scene, site, p, reach)) return INFINITY;
     const sample last = sample_at(scene, site, p, p->end);
     sample s = sample_at(scene, site, p, p->t0);
@@ -141,6 +140,16 @@ double search_crossing(const contact_scene *scene, const contact_site *site, con
         s = next;
     }
     return INFINITY;
+}
+
+double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
+{
+    const double h = p->end - p->t0;
+    const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
+    if (stays_clear(site, p, reach)) return INFINITY;
+    contact_site near = *site;
+    near.clear = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
+    return crossing_within(scene, &near, p, reach);
 }
 
 /* ---- closed contacts ---- */

@@ -108,6 +108,24 @@ static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
     }
 }
 
+/* Level with 1 m/s through the tip of the roof, 1 cm below it, in the first eighth of the step. That nothing was within
+ * 5 cm of its start says less about its gap than the roof does. */
+static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **state)
+{
+    const double at[2] = {-0.1, -0.01};
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
+    s.c.sites.list[0].clear = 0.05;
+    s.c.sites.list[0].clear_at[0] = vec2_at(at, 0);
+    scene_fly(&s, nothing, 0.0, 1.0, &f);
+    assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * skin, 1e-13);
+    scene_close(&s);
+}
+
 static void a_site_out_of_reach_never_crosses(void **state)
 {
     scene s;
@@ -290,6 +308,7 @@ int main(void)
         cmocka_unit_test(a_crossing_just_before_the_end_is_found),
         cmocka_unit_test(a_dip_within_the_step_is_found),
         cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
+        cmocka_unit_test(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap),
         cmocka_unit_test(a_site_out_of_reach_never_crosses),
         cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
         cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
