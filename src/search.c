@@ -74,16 +74,14 @@ static double fastest(const path *p, double t, const contact_site *site)
     return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
 }
 
-/* How far a site may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
- * its nodes there, four times what a constant one does; an edge turns besides. */
+/* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
+ * its nodes there, four times what a constant one does, and its turn. */
 static double bend(const contact_site *site, const path *p)
 {
     const double h = p->t1 - p->t0;
-    double a =
-        fmax(vec2_norm(vec2_at(p->f0, p->n_nodes + site->node)), vec2_norm(vec2_at(p->f1, p->n_nodes + site->node)));
-    if (!site_is_edge(site)) return 0.5 * h * h * a;
-    a = fmax(a, fmax(vec2_norm(vec2_at(p->f0, p->n_nodes + site->other)),
-                     vec2_norm(vec2_at(p->f1, p->n_nodes + site->other))));
+    const dem_index a0 = p->n_nodes + site->node, b0 = p->n_nodes + site->other;
+    const double a = fmax(fmax(vec2_norm(vec2_at(p->f0, a0)), vec2_norm(vec2_at(p->f1, a0))),
+                          fmax(vec2_norm(vec2_at(p->f0, b0)), vec2_norm(vec2_at(p->f1, b0))));
     const vec2 va = path_velocity(p, p->end, site->node), vb = path_velocity(p, p->end, site->other);
     const double length =
         vec2_norm(vec2_sub(path_position(p, p->end, site->other), path_position(p, p->end, site->node)));
@@ -104,16 +102,6 @@ static bool edge_is_clear(const contact_scene *scene, const contact_site *site, 
     return around.distance + scene->rule.skin > way + bend(site, p);
 }
 
-/* Whether a node cannot have touched between two clear ends of a step: it is further off than the step reaches, or than
- * it bends where the gap does not fall and rise again. */
-static bool node_is_clear(const contact_site *site, const path *p, double reach, const sample *first,
-                          const sample *last)
-{
-    if (last->guard > reach) return true;
-    if (first->slope < 0.0 && last->slope > 0.0) return false;
-    return fmin(first->guard, last->guard) > bend(site, p);
-}
-
 /* Whether a site ends the step so near to where it was clear that it was so all the way. */
 static bool stays_clear(const contact_site *site, const path *p, double reach)
 {
@@ -129,7 +117,8 @@ static double crossing_within(const contact_scene *scene, const contact_site *si
     if (site_is_edge(site) && edge_is_clear(scene, site, p, reach)) return INFINITY;
     const sample last = sample_at(scene, site, p, p->end);
     sample s = sample_at(scene, site, p, p->t0);
-    if (!site_is_edge(site) && node_is_clear(site, p, reach, &s, &last)) return INFINITY;
+    const bool on_its_way = s.guard + last.guard <= reach; /* no gap of a node changes faster than that moves */
+    if (!site_is_edge(site) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
         if (next.guard <= 0.0) return crossing(scene, site, p, s.t, next.t);

@@ -126,6 +126,22 @@ static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **st
     scene_close(&s);
 }
 
+/* Up from the floor with 2 m/s through a plate at 0.3 m, a fifth of the way thick: the gap grows at both ends. */
+static void a_plate_between_two_ends_that_recede_is_found(void **state)
+{
+    const double points[10] = {2.0, 0.3, 0.0, 0.3, 0.0, 0.5, 2.0, 0.5, 2.0, 0.3}, at[2] = {1.0, 0.05};
+    const dem_obstacle floor_and_plate[2] = {plane, {.n_points = 5, .points = points}};
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
+    scene_fly(&s, nothing, 0.0, 0.5, &f);
+    assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + skin), 1e-13);
+    scene_close(&s);
+}
+
 static void a_site_out_of_reach_never_crosses(void **state)
 {
     scene s;
@@ -309,6 +325,7 @@ int main(void)
         cmocka_unit_test(a_dip_within_the_step_is_found),
         cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
         cmocka_unit_test(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap),
+        cmocka_unit_test(a_plate_between_two_ends_that_recede_is_found),
         cmocka_unit_test(a_site_out_of_reach_never_crosses),
         cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
         cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
