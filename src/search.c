@@ -30,15 +30,22 @@ static double guard_at(const contact_scene *scene, const contact_site *site, con
     return fmin(site_gap(scene, site, &spot).distance, 1.0) + scene->rule.skin;
 }
 
-/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0
- * will do. */
-static double lowest(const contact_scene *scene, const contact_site *site, const path *p, double lo, double hi)
+/* Whether the guard is lower somewhere between two samples than at both; a vertex may be beside the edge at one. */
+static bool dips(const sample *s, const sample *next)
+{
+    return (s->slope < 0.0 || next->guard < s->guard) && (next->slope > 0.0 || s->guard < next->guard);
+}
+
+/* A time between two samples at which the guard is as low as it gets, by golden section; the first found at or below 0
+ * will do. Where nothing is near an edge its guard is level, and lower towards the lower sample. */
+static double lowest(const contact_scene *scene, const contact_site *site, const path *p, const sample *s,
+                     const sample *next)
 {
     const double ratio = 0.6180339887498949;
-    double a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double lo = s->t, hi = next->t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
     double ga = guard_at(scene, site, p, a), gb = guard_at(scene, site, p, b);
     for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
-        if (ga < gb) {
+        if (ga < gb || (ga == gb && s->guard < next->guard)) {
             hi = b;
             b = a;
             gb = ga;
@@ -122,8 +129,8 @@ static double crossing_within(const contact_scene *scene, const contact_site *si
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
         if (next.guard <= 0.0) return crossing(scene, site, p, s.t, next.t);
-        if (s.slope < 0.0 && next.slope > 0.0 && fmin(s.guard, next.guard) < reach / n) { /* a dip in between */
-            const double low = lowest(scene, site, p, s.t, next.t);
+        if (dips(&s, &next) && fmin(s.guard, next.guard) < reach / n) {
+            const double low = lowest(scene, site, p, &s, &next);
             if (guard_at(scene, site, p, low) <= 0.0) return crossing(scene, site, p, s.t, low);
         }
         s = next;

@@ -207,6 +207,21 @@ static void a_dip_of_an_edge_within_the_step_is_found(void **state)
     scene_close(&s);
 }
 
+/* Down and left with 1 m/s each way: the ridge goes in through the edge 1 cm before its end, and is beyond that by the
+ * next sample. */
+static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
+    scene_fly(&s, nothing, 0.0, 1.0, &f);
+    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + skin, 1e-13);
+    scene_close(&s);
+}
+
 /* Near node 1, at s = 0.9, the edge dips while node 0 rises all the time: h + a t^2/2 - 0.9 a b t is lowest at 0.9 b,
  * between two samples, where it is 1 mm deeper than the skin and nothing else would tell. */
 static void a_dip_at_one_end_of_a_turning_edge_is_found(void **state)
@@ -330,6 +345,7 @@ int main(void)
         cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
         cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
         cmocka_unit_test(a_dip_of_an_edge_within_the_step_is_found),
+        cmocka_unit_test(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found),
         cmocka_unit_test(a_dip_at_one_end_of_a_turning_edge_is_found),
         cmocka_unit_test(a_sliding_site_is_first_due_when_it_reaches_the_end),
         cmocka_unit_test(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end),
