@@ -10,6 +10,7 @@ static const table_column columns[] = {
     {"/history/h", HDF5_F64, RUN, 1},
     {"/history/kinetic", HDF5_F64, RUN, 1},
     {"/history/elastic", HDF5_F64, RUN, 1},
+    {"/history/area", HDF5_F64, RUN, 1},
     {"/history/guard", HDF5_F64, RUN, 1},
     {"/history/gravity", HDF5_F64, RUN, 1},
     {"/history/impact", HDF5_F64, RUN, 1},
@@ -20,6 +21,7 @@ static const table_column columns[] = {
     {"/history/strain_max", HDF5_F64, RUN, 1},
     {"/history/area_min", HDF5_F64, RUN, 1},
     {"/history/guarded", HDF5_I64, RUN, 1},
+    {"/history/inverted", HDF5_I64, RUN, 1},
     {"/history/contacts", HDF5_I64, RUN, 1},
     {"/history/impacts", HDF5_I64, RUN, 1},
     {"/history/vertex_impacts", HDF5_I64, RUN, 1},
@@ -51,11 +53,11 @@ static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, c
     const dem_energy *e = &state->energy;
     const dem_strain s = dem_simulation_strain(simulation);
     const dem_counts n = dem_simulation_counts(simulation);
-    const double reals[] = {state->t,    state->step, e->kinetic,    e->elastic, e->guard, e->gravity, e->impact,
-                            e->friction, e->damping,  e->projection, s.min,      s.max,    s.area_min};
-    const dem_index counts[] = {s.guarded,  state->n_contacts, n.impacts,  n.vertex_impacts, n.early,      n.closings,
-                                n.releases, n.slips,           n.sticks,   n.passings,       n.late,       n.behind,
-                                n.events,   n.steps,           n.rejected, n.retries,        n.evaluations};
+    const double reals[] = {state->t,  state->step, e->kinetic, e->elastic,    e->area, e->guard, e->gravity,
+                            e->impact, e->friction, e->damping, e->projection, s.min,   s.max,    s.area_min};
+    const dem_index counts[] = {s.guarded,  s.inverted, state->n_contacts, n.impacts,  n.vertex_impacts, n.early,
+                                n.closings, n.releases, n.slips,           n.sticks,   n.passings,       n.late,
+                                n.behind,   n.events,   n.steps,           n.rejected, n.retries,        n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }

@@ -54,9 +54,10 @@ static const struct array_layout {
 
 /* In the order of field_values(). */
 static const char *const fields[] = {
-    GRID "FieldData/kinetic_energy", GRID "FieldData/elastic_energy",    GRID "FieldData/guard_energy",
-    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",     GRID "FieldData/friction_energy",
-    GRID "FieldData/damping_energy", GRID "FieldData/projection_energy", GRID "FieldData/contacts",
+    GRID "FieldData/kinetic_energy",  GRID "FieldData/elastic_energy", GRID "FieldData/area_energy",
+    GRID "FieldData/guard_energy",    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",
+    GRID "FieldData/friction_energy", GRID "FieldData/damping_energy", GRID "FieldData/projection_energy",
+    GRID "FieldData/contacts",
 };
 enum { N_FIELDS = sizeof fields / sizeof fields[0] };
 
@@ -79,6 +80,7 @@ static const struct offset {
     {STEPS "CellDataOffsets/broken", 1, SPRINGS},
     {STEPS "FieldDataOffsets/kinetic_energy", 1, ONE},
     {STEPS "FieldDataOffsets/elastic_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/area_energy", 1, ONE},
     {STEPS "FieldDataOffsets/guard_energy", 1, ONE},
     {STEPS "FieldDataOffsets/gravity_energy", 1, ONE},
     {STEPS "FieldDataOffsets/impact_energy", 1, ONE},
@@ -168,9 +170,8 @@ static dem_status append_arrays(const dem_trajectory *t, const hdf5_file *file, 
 static dem_status append_fields(const dem_trajectory *t, const hdf5_file *file, const dem_state *state)
 {
     const dem_energy *e = &state->energy;
-    const double values[] = {e->kinetic, e->elastic,    e->guard,
-                             e->gravity, e->impact,     e->friction,
-                             e->damping, e->projection, (double)state->n_contacts};
+    const double values[] = {e->kinetic, e->elastic,  e->area,    e->guard,      e->gravity,
+                             e->impact,  e->friction, e->damping, e->projection, (double)state->n_contacts};
     for (int f = 0; f < N_FIELDS; f++) {
         const hdf5_rows rows = frame_rows(fields[f], HDF5_F64, 1);
         TRY(hdf5_append(file, &rows, (hsize_t)t->frames, 1, &values[f]));

@@ -150,9 +150,9 @@ def check_history(history):
 
 def check_ledger(history):
     """Start and end, to the 2e-3 of the largest energy of motion that docs/verification.md asks for."""
-    energy = {name: history[name][...] for name in ("kinetic", "elastic", "guard", "gravity", "impact", "friction",
+    energy = {name: history[name][...] for name in ("kinetic", "elastic", "area", "guard", "gravity", "impact", "friction",
                                                     "damping", "projection")}
-    largest = np.max(energy["kinetic"] + energy["elastic"] + energy["guard"])
+    largest = np.max(energy["kinetic"] + energy["elastic"] + energy["area"] + energy["guard"])
     ledger = sum(energy.values()) - 2.0 * energy["projection"]
     close("history: ledger", ledger, ledger[0], 2e-3 * largest)
 
