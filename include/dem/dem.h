@@ -304,11 +304,16 @@ typedef struct dem_energy {
     double boundary;   /**< put in by boundaries so far: work of what prescribes motions, and of forces */
 } dem_energy;
 
+/** Of motion and strain: what the ledger is compared with. */
+static inline double dem_energy_motion(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.area + e.guard;
+}
+
 /** What stays constant in a run, up to the integrator's error. */
 static inline double dem_energy_ledger(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.area + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection -
-           e.boundary;
+    return dem_energy_motion(e) + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
 }
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
