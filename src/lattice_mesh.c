@@ -182,15 +182,28 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     lattice->stiffness = solid->stiffness;
     lattice->viscosity = solid->viscosity;
     lattice->guard = solid->guard;
+    lattice->thickness = solid->thickness;
+    lattice->modulus = solid->modulus;
     solid->mass = old.mass;
     solid->ends = old.ends;
     solid->rest_length = old.rest_length;
     solid->stiffness = old.stiffness;
     solid->viscosity = old.viscosity;
     solid->guard = old.guard;
+    solid->thickness = old.thickness;
+    solid->modulus = old.modulus;
 }
 
-/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, guard. */
+/* n times the same. */
+static dem_status fill_constant(double **out, dem_index n, double value)
+{
+    *out = lattice_zeros(n, sizeof **out);
+    CHECK_MEMORY(*out);
+    for (dem_index k = 0; k < n; k++) (*out)[k] = value;
+    return DEM_OK;
+}
+
+/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, what triangles have. */
 static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const dem_material *material)
 {
     const double modulus = material->youngs_modulus * material->thickness; /* E h */
@@ -198,11 +211,9 @@ static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const
     solid->mass = lattice_zeros(lattice->n_nodes, sizeof *solid->mass);
     CHECK_MEMORY(solid->mass);
     TRY(fill_masses(solid->mass, lattice, material));
-    if (material->guard > 0.0) {
-        solid->guard = lattice_zeros(lattice->n_triangles, sizeof *solid->guard);
-        CHECK_MEMORY(solid->guard);
-        for (dem_index t = 0; t < lattice->n_triangles; t++) solid->guard[t] = material->guard * modulus;
-    }
+    if (material->guard > 0.0) TRY(fill_constant(&solid->guard, lattice->n_triangles, material->guard * modulus));
+    TRY(fill_constant(&solid->thickness, lattice->n_triangles, material->thickness));
+    TRY(fill_constant(&solid->modulus, lattice->n_triangles, material->youngs_modulus));
     TRY(sides_create(&edges, lattice));
     solid->n_springs = count_edges(&edges, lattice->n_nodes);
     solid->ends = lattice_zeros(solid->n_springs, 2 * sizeof *solid->ends);

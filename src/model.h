@@ -5,6 +5,7 @@
 
 #include "obstacle.h"
 #include "springs.h"
+#include "stress.h"
 #include "surface.h"
 #include "triangles.h"
 
@@ -13,6 +14,7 @@ struct dem_model {
     springs springs;
     triangles triangles;
     surface surface; /* edges that may touch */
+    stress_map stress;
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
     dem_index n_sites;

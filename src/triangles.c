@@ -56,6 +56,14 @@ vec2 triangles_force(const triangles *t, dem_index i, const double *x)
     return force;
 }
 
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    const double A = area(t, i, p, x);
+    double energy, slope;
+    triangles_guard_law(A / t->rest_area[p], &energy, &slope);
+    return A * t->strength[p] * slope;
+}
+
 static double slot_energy(const triangles *t, dem_index i, dem_index p, const double *x)
 {
     double energy, slope;

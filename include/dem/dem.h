@@ -86,6 +86,9 @@ typedef struct dem_lattice {
     dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none */
     double *viscosity;     /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
     double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
+    double *thickness;     /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
+    double *modulus;       /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
+                                between them as modulus * thickness * area; NULL: equal */
     unsigned char *flags;  /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
     int32_t *body;         /**< [n_nodes]        body number from 0; NULL: one body */
@@ -115,7 +118,7 @@ DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spac
  *  \return DEM_ERROR_MODEL if nothing is left */
 DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
 
-/** Springs, masses and guard of a triangulation by the finite-element rule: a triangle of area A gives each edge e the
+/** Springs, masses and what triangles have, by the finite-element rule: a triangle of area A gives each edge e the
  *  stiffness E h A/|e|^2 times the edge's length, in N, and each corner a third of its mass. A block of equilateral
  *  triangles then has exactly E and nu = 1/3 in plane stress. With a damping time each spring gets the viscosity
  *  damping_time times its stiffness.                                                                           (1) */
@@ -203,6 +206,10 @@ DEM_API double dem_model_omega_max(const dem_model *model);
 
 /** Total mass, kg. */
 DEM_API double dem_model_mass(const dem_model *model);
+
+/** What each node has of the solid's rest volume, m^3: a third of its triangles' areas times their thickness; 0 where
+ *  it is in no triangle. [n_nodes], a view. */
+DEM_API const double *dem_model_volumes(const dem_model *model);
 
 /** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */
 DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
@@ -387,6 +394,16 @@ DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
 /** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
 DEM_API void dem_simulation_strains(const dem_simulation *simulation, double *strain);
 
+/** Force (1) along every spring, > 0 in tension; what damping adds to it is left out.
+ *  \param[out] force  [n_springs] N, in the order of the lattice */
+DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *force);
+
+/** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
+ *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
+ *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
+ *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
+DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 
 /** \param body  0 <= body < n_bodies */
@@ -399,6 +416,15 @@ DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
 
 /** The options in force: those of dem_simulation_create() with every default replaced by its value. */
 DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
+
+/* ---- stress ----------------------------------------------------------------------------------------------------- */
+
+/** Von Mises' equivalent of a plane stress xx, yy, xy: sqrt(xx^2 - xx yy + yy^2 + 3 xy^2). */
+DEM_API double dem_stress_von_mises(const double stress[3]);
+
+/** Principal values, the larger first, and the unit vector along which the first acts: to the right, or up; along x if
+ *  both are equal. */
+DEM_API void dem_stress_principal(const double stress[3], double value[2], double direction[2]);
 
 /* ---- observers -------------------------------------------------------------------------------------------------- */
 

@@ -12,7 +12,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 LAYERS = [
     {"vec2", "status", "commit"},
     {"lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"lattice_mesh", "surface", "obstacle", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"lattice_mesh", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
     {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "uses"},
     {"touch", "diagnostics", "integrator"},
     {"reaction", "books"},
