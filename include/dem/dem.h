@@ -301,8 +301,7 @@ typedef struct dem_energy {
 /** What stays constant in a run, up to the integrator's error. */
 static inline double dem_energy_ledger(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection -
-           e.boundary;
+    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
 }
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;

@@ -30,8 +30,8 @@ static double closure(const dem_simulation *simulation, double start)
 }
 
 /* Node 0 goes with V from t = 0: node 1 follows by V (t - sin(w t)/w), w^2 = E/(d0 m); the spring pulls the driven node
- * with m V w sin(w t), and the work is m V^2 (1 - cos(w t)). Errors of rtol 1e-11 of the spacing over 20 periods: twice that
- * of the way, 1e-8 of the rest. */
+ * with m V w sin(w t), and the work is m V^2 (1 - cos(w t)). Errors of rtol 1e-11 of the spacing over 20 periods: twice
+ * that of the way, 1e-8 of the rest. */
 static void a_mass_follows_a_driven_one(void **unused)
 {
     static const dem_index node[] = {0};
@@ -159,9 +159,9 @@ static void friction_holds_until_the_force_exceeds_it(void **unused)
 }
 
 /* A block of equilateral triangles, its foot on rollers, pulled by a traction at its head and damped to rest, is as
- * long and as wide as E and nu = 1/3 ask for. Its sides are zigzags, so the outermost nodes of its head carry the stress
- * of a quarter of a spacing: a half, less what their slanted edge would take if the stress went on beyond it. The
- * strain of 1e-7 is the error of small strains; rounding of the coordinates is 1e-9 of it. */
+ * long and as wide as E and nu = 1/3 ask for. Its sides are zigzags, so the outermost nodes of its head carry the
+ * stress of a quarter of a spacing: a half, less what their slanted edge would take if the stress went on beyond it.
+ * The strain of 1e-7 is the error of small strains; rounding of the coordinates is 1e-9 of it. */
 static void a_pulled_block_comes_to_rest_with_its_modulus(void **unused)
 {
     const dem_material rubber = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 0.5};
