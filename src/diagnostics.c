@@ -4,8 +4,8 @@
 
 dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v)
 {
-    dem_energy energy = {.elastic = springs_energy(&model->springs, x),
-                         .guard = triangles_energy(&model->triangles, x)};
+    dem_energy energy = {.elastic = springs_energy(&model->springs, x)};
+    triangles_energy(&model->triangles, x, &energy.area, &energy.guard);
     const vec2 g = {gravity[0], gravity[1]};
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const double m = model->lattice.mass[i];
@@ -54,6 +54,7 @@ static void measure_triangles(const dem_model *model, const double *x, dem_strai
         const double ratio = triangles_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
         strain->area_min = fmin(strain->area_min, ratio);
         strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
+        strain->inverted += ratio <= 0.0;
     }
 }
 

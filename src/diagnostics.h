@@ -6,7 +6,7 @@
 #include "model.h"
 #include "path.h"
 
-/** Kinetic, elastic, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
+/** Kinetic, elastic, area, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
 dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v);
 
 /** Power that damping takes, of springs and masses, W, >= 0. */

@@ -92,6 +92,7 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
     const dem_index n = lattice->n_triangles;
     lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
     pack(lattice->guard, sizeof *lattice->guard, n, whole);
+    pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
     pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
     pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
 }
@@ -216,9 +217,14 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
     TRY(join_ones(&out->thickness, a->thickness, n, b->thickness, m));
     TRY(join_ones(&out->modulus, a->modulus, n, b->modulus, m));
-    if (a->guard == NULL && b->guard == NULL) return DEM_OK;
-    out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
-    CHECK_MEMORY(out->guard);
+    if (a->guard != NULL || b->guard != NULL) {
+        out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
+        CHECK_MEMORY(out->guard);
+    }
+    if (a->area_stiffness != NULL || b->area_stiffness != NULL) {
+        out->area_stiffness = join(a->area_stiffness, n, b->area_stiffness, m, sizeof *out->area_stiffness);
+        CHECK_MEMORY(out->area_stiffness);
+    }
     return DEM_OK;
 }
 
@@ -267,6 +273,7 @@ void dem_lattice_free(dem_lattice *lattice)
     free(lattice->viscosity);
     free(lattice->triangles);
     free(lattice->guard);
+    free(lattice->area_stiffness);
     free(lattice->thickness);
     free(lattice->modulus);
     free(lattice->flags);

@@ -23,6 +23,7 @@ enum array {
     VISCOSITY,
     CORNERS,
     GUARD,
+    AREA_STIFFNESS,
     THICKNESS,
     MODULUS,
     BODY,
@@ -49,6 +50,7 @@ static const struct dataset {
     [VISCOSITY] = {"/lattice/viscosity", HDF5_F64, SPRINGS, 1, 0},
     [CORNERS] = {"/lattice/triangles", HDF5_I64, TRIANGLES, 3, 0},
     [GUARD] = {"/lattice/guard", HDF5_F64, TRIANGLES, 1, 0},
+    [AREA_STIFFNESS] = {"/lattice/area_stiffness", HDF5_F64, TRIANGLES, 1, 0},
     [THICKNESS] = {"/lattice/thickness", HDF5_F64, TRIANGLES, 1, 0},
     [MODULUS] = {"/lattice/modulus", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
@@ -309,6 +311,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->viscosity = r->data[VISCOSITY];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
+    lattice->area_stiffness = r->data[AREA_STIFFNESS];
     lattice->thickness = r->data[THICKNESS];
     lattice->modulus = r->data[MODULUS];
     lattice->body = r->data[BODY];
@@ -388,6 +391,7 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, VISCOSITY, deflate, m, lattice->viscosity));
     TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
     TRY(write_array(file, GUARD, deflate, t, lattice->guard));
+    TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
     TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
     TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
     TRY(write_array(file, BODY, deflate, n, lattice->body));

@@ -34,7 +34,7 @@ typedef struct model_load {
     dem_index clock;              /* where the time stands among the velocities */
 } model_load;
 
-/** Force of springs and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
+/** Force of springs, area term and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
 static inline vec2 model_force(const dem_model *model, dem_index i, const double *x, const double *v)
 {
     vec2 bonds = springs_force(&model->springs, i, x);

@@ -55,13 +55,21 @@ DEM_API const char *dem_version_sundials(void);
 
 /* ---- lattice: what the body is made of ------------------------------------------------------------------------ */
 
-/** An isotropic plate in plane stress. */
+typedef enum dem_plane {
+    DEM_PLANE_STRESS = 0, /**< a thin plate, free to change its thickness */
+    DEM_PLANE_STRAIN      /**< a slice of a long body, which keeps its thickness */
+} dem_plane;
+
+/** An isotropic solid; `plane` says how it is a body in the plane. */
 typedef struct dem_material {
     double youngs_modulus; /**< E, Pa, > 0 */
-    double density;        /**< rho, kg/m^3, > 0 */
-    double thickness;      /**< h, m, > 0 */
-    double guard;          /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
-    double damping_time;   /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
+    double poissons_ratio; /**< nu, in (-1, 1) in plane stress, in (-1, 0.5) in plane strain. Springs alone have 1/3 in
+                                plane stress, 1/4 in plane strain; any other needs the area term */
+    dem_plane plane;
+    double density;      /**< rho, kg/m^3, > 0 */
+    double thickness;    /**< h, m, > 0 */
+    double guard;        /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
+    double damping_time; /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
                                 damping_time e'; 0: none */
 } dem_material;
 
@@ -73,27 +81,29 @@ enum {
 /** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
  *  comes from malloc; dem_lattice_free() frees them all. */
 typedef struct dem_lattice {
-    size_t struct_size;    /**< set by dem_lattice_init() */
-    int dim;               /**< 2; 3 is reserved */
-    dem_index n_nodes;     /**< > 0 */
-    dem_index n_springs;   /**< >= 0 */
-    dem_index n_triangles; /**< >= 0 */
-    double *x;             /**< [n_nodes][2]     rest position, m */
-    double *mass;          /**< [n_nodes]        m_i > 0, kg */
-    dem_index *ends;       /**< [n_springs][2]   the two nodes, distinct */
-    double *rest_length;   /**< [n_springs]      d0_ij > 0, m                                   (1) */
-    double *stiffness;     /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
-    dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none */
-    double *viscosity;     /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
-    double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
-    double *thickness;     /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
-    double *modulus;       /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
+    size_t struct_size;     /**< set by dem_lattice_init() */
+    int dim;                /**< 2; 3 is reserved */
+    dem_index n_nodes;      /**< > 0 */
+    dem_index n_springs;    /**< >= 0 */
+    dem_index n_triangles;  /**< >= 0 */
+    double *x;              /**< [n_nodes][2]     rest position, m */
+    double *mass;           /**< [n_nodes]        m_i > 0, kg */
+    dem_index *ends;        /**< [n_springs][2]   the two nodes, distinct */
+    double *rest_length;    /**< [n_springs]      d0_ij > 0, m                                   (1) */
+    double *stiffness;      /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
+    dem_index *triangles;   /**< [n_triangles][3] counter-clockwise; NULL: none */
+    double *viscosity;      /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
+    double *guard;          /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
+    double *area_stiffness; /**< [n_triangles]   kappa of the area term, of any sign, N/m: the energy
+                                kappa/2 (A - A0)^2/A0 of a triangle of area A; NULL: none */
+    double *thickness;      /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
+    double *modulus;        /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
                                 between them as modulus * thickness * area; NULL: equal */
-    unsigned char *flags;  /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
+    unsigned char *flags;   /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
-    int32_t *body;         /**< [n_nodes]        body number from 0; NULL: one body */
-    double *position;      /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
-    double *velocity;      /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
+    int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
+    double *position;       /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
+    double *velocity;       /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
 } dem_lattice;
 
 /** An empty lattice: no nodes, all arrays NULL. */
@@ -119,9 +129,10 @@ DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spac
 DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
 
 /** Springs, masses and what triangles have, by the finite-element rule: a triangle of area A gives each edge e the
- *  stiffness E h A/|e|^2 times the edge's length, in N, and each corner a third of its mass. A block of equilateral
- *  triangles then has exactly E and nu = 1/3 in plane stress. With a damping time each spring gets the viscosity
- *  damping_time times its stiffness.                                                                           (1) */
+ *  stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
+ *  stiffness is (lambda - G) h. G = E/(2 (1 + nu)) and lambda = E nu/(1 - nu^2) are those of plane stress; a solid in
+ *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
+ *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 
 /** Number of parts that springs do not connect.
@@ -204,7 +215,8 @@ DEM_API dem_model_size dem_model_sizes(const dem_model *model);
 DEM_API double dem_model_spacing(const dem_model *model);
 
 /** Rigorous upper bound of the highest angular frequency about the rest shape, rad/s; 0 without springs:
- *  omega^2 <= max over nodes of 2 |S_i| / m_i, S_i = sum over j of (E_ij/d0_ij) n n^T, |.| the largest eigenvalue. */
+ *  omega^2 <= max over nodes of |B_i| / m_i, B_i = 2 sum over springs of (E_ij/d0_ij) n n^T
+ *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
 DEM_API double dem_model_omega_max(const dem_model *model);
 
 /** Total mass, kg. */
@@ -289,6 +301,7 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
 typedef struct dem_energy {
     double kinetic;
     double elastic;    /**< of the springs                                                               (1) */
+    double area;       /**< of the area term; < 0 where nu < 1/3 in plane stress */
     double guard;      /**< of the folding guard */
     double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
     double impact;     /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
@@ -298,10 +311,16 @@ typedef struct dem_energy {
     double boundary;   /**< put in by boundaries so far: work of what prescribes motions, and of forces */
 } dem_energy;
 
+/** Of motion and strain: what the ledger is compared with. */
+static inline double dem_energy_motion(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.area + e.guard;
+}
+
 /** What stays constant in a run, up to the integrator's error. */
 static inline double dem_energy_ledger(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
+    return dem_energy_motion(e) + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
 }
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
@@ -404,6 +423,7 @@ typedef struct dem_strain {
     dem_index spring_min, spring_max; /**< where; -1 without springs */
     double area_min;                  /**< smallest area over rest area; 1 without triangles, < 0: inverted */
     dem_index guarded;                /**< triangles on which the guard acts */
+    dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
 typedef struct dem_simulation dem_simulation;

@@ -70,7 +70,7 @@ static dem_status step(void *context, const dem_simulation *simulation)
     v->fall = fmax(v->fall, v->taken - e.impact);
     v->taken = e.impact;
     v->open = fmax(v->open, fabs(dem_energy_ledger(e) - v->start));
-    v->scale = fmax(v->scale, e.kinetic + e.elastic + e.guard + e.impact + e.friction + e.damping);
+    v->scale = fmax(v->scale, e.kinetic + e.elastic + e.area + e.guard + e.impact + e.friction + e.damping);
     return look(context, simulation);
 }
 

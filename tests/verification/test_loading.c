@@ -164,7 +164,8 @@ static void friction_holds_until_the_force_exceeds_it(void **unused)
  * The strain of 1e-7 is the error of small strains; rounding of the coordinates is 1e-9 of it. */
 static void a_pulled_block_comes_to_rest_with_its_modulus(void **unused)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 0.5};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 0.5};
     const double a = 0.01, width = 0.08, traction = 1.0; /* Pa: a strain of 1e-7 */
     dem_lattice lattice;
     dem_index foot[32], head[32], corner[1] = {0}, n_foot = 0, n_head = 0;
