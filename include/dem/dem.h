@@ -503,6 +503,46 @@ typedef struct dem_observer {
 /** Copies `observer`. At most 8; to be called before the first advance. */
 DEM_API dem_status dem_simulation_observe(dem_simulation *simulation, const dem_observer *observer);
 
+/* ---- peaks: the most stressed places of a run ------------------------------------------------------------------- */
+
+/** Where and when a node was stressed most. */
+typedef struct dem_node_peak {
+    double von_mises; /**< Pa, the largest so far; 0: none */
+    double t;         /**< s, when */
+    double stress[3]; /**< Pa, at that instant: xx, yy, xy */
+} dem_node_peak;
+
+typedef struct dem_spring_peak {
+    double strain; /**< that of the largest size so far, with its sign */
+    double t;      /**< s, when */
+} dem_spring_peak;
+
+/** The largest von Mises stress of every node and the largest |strain| of every spring, an observer: it looks at t = 0
+ *  and at every `every`-th accepted step. */
+typedef struct dem_peaks dem_peaks;
+
+/** \param every  >= 1. A look costs about an eighth of a step; between looks every 4 steps of 0.5/omega_max the
+ *                 fastest wave of a lattice passes a third of its period. */
+DEM_API dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every);
+
+/** Accepts NULL. */
+DEM_API void dem_peaks_destroy(dem_peaks *peaks);
+
+/** The observer to hand to dem_simulation_observe(), of a simulation of the same model; borrows the peaks. */
+DEM_API dem_observer dem_peaks_observer(dem_peaks *peaks);
+
+/** Peaks so far, [n_nodes] and [n_springs]: views. */
+DEM_API const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks);
+DEM_API const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks);
+
+/** The n nodes of the largest stresses so far, the largest first, equal ones in the order of their numbers.
+ *  \param[out] nodes  [n]
+ *  \return how many there are: less than n where less have been stressed at all */
+DEM_API dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes);
+
+/** The same of the springs and their strains. */
+DEM_API dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *springs);
+
 #ifdef __cplusplus
 }
 #endif
