@@ -49,21 +49,31 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
+/* dW/dA, N/m */
+static double slope_at(const triangles *t, dem_index p, double A)
+{
+    const double J = A / t->rest_area[p];
+    double slope = 0.0, unused, rise;
+    if (t->area_stiffness != NULL) slope = t->area_stiffness[p] * (J - 1.0);
+    if (!(J < TRIANGLES_GUARD_ONSET)) return slope;
+    triangles_guard_law(J, &unused, &rise);
+    return slope + t->guard[p] * rise;
+}
+
 vec2 triangles_force(const triangles *t, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
-        const bool squeezed = A < TRIANGLES_GUARD_ONSET * A0;
-        double slope = 0.0, unused, rise;
-        if (t->area_stiffness != NULL) slope = t->area_stiffness[p] * (A / A0 - 1.0);
-        if (squeezed) {
-            triangles_guard_law(A / A0, &unused, &rise);
-            slope += t->guard[p] * rise;
-        }
+        const double slope = slope_at(t, p, area_at(t, i, p, x));
         if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
     return force;
+}
+
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    const double A = area_at(t, i, p, x);
+    return A * slope_at(t, p, A);
 }
 
 static double slot_area_energy(const triangles *t, dem_index i, dem_index p, const double *x)

@@ -27,6 +27,10 @@ void triangles_free(triangles *t);
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, dem_index i, const double *x);
 
+/** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
+ *  unit tensor. */
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x);
+
 /** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, dem_index i, const double *x);
 

@@ -12,8 +12,8 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 LAYERS = [
     {"vec2", "status", "commit"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"lattice_mesh", "surface", "obstacle", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
-    {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "loading", "uses"},
+    {"lattice_mesh", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"model", "peaks", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "loading", "uses"},
     {"touch", "diagnostics", "integrator"},
     {"reaction", "books"},
     {"site"},
