@@ -332,6 +332,26 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
     return DEM_OK;
 }
 
+dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
+{
+    TRY(lattice_check(lattice));
+    CHECK(n >= 0 && (n == 0 || nodes != NULL), DEM_ERROR_ARGUMENT, "%lld nodes to exclude, the list is %s",
+          (long long)n, nodes != NULL ? "given" : "NULL");
+    for (dem_index k = 0; k < n; k++)
+        CHECK(nodes[k] >= 0 && nodes[k] < lattice->n_nodes, DEM_ERROR_ARGUMENT, "node %lld is not in 0 to %lld",
+              (long long)nodes[k], (long long)(lattice->n_nodes - 1));
+    if (lattice->flags == NULL) {
+        unsigned char *flags = lattice_zeros(lattice->n_nodes, sizeof *flags);
+        CHECK_MEMORY(flags);
+        const dem_status status = sides_contact_flags(flags, lattice);
+        if (status != DEM_OK) free(flags);
+        TRY(status);
+        lattice->flags = flags;
+    }
+    for (dem_index k = 0; k < n; k++) lattice->flags[nodes[k]] &= (unsigned char)~DEM_NODE_CONTACT;
+    return DEM_OK;
+}
+
 dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
 {
     dem_lattice joined;

@@ -146,6 +146,9 @@ DEM_API void dem_lattice_move(dem_lattice *lattice, double angle, const double o
 /** Adds `velocity` (m/s) to the initial velocity of every node. */
 DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2]);
 
+/** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
+DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
+
 /** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
 DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);
 
@@ -230,6 +233,27 @@ typedef enum dem_method {
     DEM_METHOD_BS23
 } dem_method;
 
+/** What is done to nodes from outside. */
+typedef enum dem_boundary_kind {
+    DEM_BOUNDARY_VELOCITY = 0, /**< components of the velocity are `value` times the ramp; 0 holds them still */
+    DEM_BOUNDARY_DISPLACEMENT, /**< components of the way from the initial position are `value` times the ramp */
+    DEM_BOUNDARY_FORCE         /**< node k feels the force share[k] * `value` times the ramp */
+} dem_boundary_kind;
+
+enum { DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2 };
+
+/** The ramp is 10 s^3 - 15 s^4 + 6 s^5, s = t/ramp, up to s = 1 and 1 from there; 1 at all times for ramp = 0. Nodes
+ *  with prescribed components do not touch obstacles: dem_lattice_exclude(). */
+typedef struct dem_boundary {
+    dem_boundary_kind kind;
+    int32_t components; /**< which are prescribed, DEM_COMPONENT_X | DEM_COMPONENT_Y; a force has both */
+    dem_index n_nodes;
+    const dem_index *nodes; /**< [n_nodes] distinct; a component of a node is prescribed only once */
+    const double *share;    /**< [n_nodes] of a force; NULL: 1/n_nodes each */
+    double value[2];        /**< m/s, m, or N */
+    double ramp;            /**< s, >= 0; > 0 for a displacement */
+} dem_boundary;
+
 typedef struct dem_options {
     size_t struct_size;    /**< set by dem_options_default() */
     dem_method method;     /**< default DEM_METHOD_FEHLBERG45 */
@@ -250,6 +274,8 @@ typedef struct dem_options {
                                0: every impact by itself */
     double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
     int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    dem_index n_boundaries;         /**< default 0 */
+    const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -275,12 +301,14 @@ typedef struct dem_energy {
     double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
     double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
     double projection; /**< put in by returning nodes from the skin to the surface so far */
+    double boundary;   /**< put in by boundaries so far: work of what prescribes motions, and of forces */
 } dem_energy;
 
 /** What stays constant in a run, up to the integrator's error. */
 static inline double dem_energy_ledger(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.area + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection;
+    return e.kinetic + e.elastic + e.area + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection -
+           e.boundary;
 }
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
@@ -355,6 +383,12 @@ typedef struct dem_obstacle_load {
     dem_index contacts;         /**< closed now */
 } dem_obstacle_load;
 
+/** What a boundary does to its nodes. */
+typedef struct dem_boundary_load {
+    double force[2];        /**< N, on its nodes now: given, or what the prescribed motion takes */
+    double displacement[2]; /**< m, mean way of its nodes from where they started */
+} dem_boundary_load;
+
 typedef struct dem_counts {
     dem_index steps;              /**< accepted by the integrator */
     dem_index rejected;           /**< by its error test */
@@ -409,9 +443,18 @@ DEM_API dem_body_motion dem_simulation_body(const dem_simulation *simulation, de
 /** \param obstacle  0 <= obstacle < n_obstacles */
 DEM_API dem_obstacle_load dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle);
 
+/** \param boundary  0 <= boundary < n_boundaries */
+DEM_API dem_boundary_load dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary);
+
+/** How far from equilibrium: the largest force on a node that may move, without drag and with what contacts give, over
+ *  the largest force of a spring; 0 where there is neither. Known after an accepted step without contact event, else
+ *  infinity. */
+DEM_API double dem_simulation_residual(const dem_simulation *simulation);
+
 DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
 
-/** The options in force: those of dem_simulation_create() with every default replaced by its value. */
+/** The options in force: those of dem_simulation_create() with every default replaced by its value, and
+ *  `boundaries` NULL. */
 DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
 
 /* ---- observers -------------------------------------------------------------------------------------------------- */

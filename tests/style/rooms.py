@@ -11,7 +11,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
     {"lattice_mesh", "surface", "obstacle", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
     {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "uses"},
     {"touch", "diagnostics", "integrator"},

@@ -310,9 +310,9 @@ static void by_default_the_boundary_may_touch(void **state)
     dem_index n = 0;
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double y = lattice.x[2 * i + 1];
-        const int boundary = fabs(lattice.x[2 * i]) > 1.4 || y < 0.1 || y > top - 0.1; /* rows end at 2.0 or 1.5 */
-        assert_int_equal(dem_model_lattice(model)->flags[i], boundary ? DEM_NODE_CONTACT : 0);
-        if (boundary) assert_int_equal(model->sites[n++], i);
+        const int outer = fabs(lattice.x[2 * i]) > 1.4 || y < 0.1 || y > top - 0.1; /* rows end at 2.0 or 1.5 */
+        assert_int_equal(dem_model_lattice(model)->flags[i], outer ? DEM_NODE_CONTACT : 0);
+        if (outer) assert_int_equal(model->sites[n++], i);
     }
     assert_int_equal(dem_model_sizes(model).n_contact_nodes, n);
     assert_true(n < lattice.n_nodes);
