@@ -42,7 +42,7 @@ static void follow_energy(report *r, const dem_state *state)
 {
     const dem_energy e = state->energy;
     if (state->t == 0.0) r->energy_start = dem_energy_ledger(e);
-    r->energy_max = fmax(r->energy_max, e.kinetic + e.elastic + e.area + e.guard);
+    r->energy_max = fmax(r->energy_max, dem_energy_motion(e));
     const double share = r->energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->energy_max : 0.0;
     if (share <= r->elastic_share_max) return;
     r->elastic_share_max = share;
@@ -267,7 +267,7 @@ static void print_taken(FILE *out, const char *by, double energy)
 static void print_ledger(const report *r, dem_energy e)
 {
     (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->energy_start,
-                  e.kinetic + e.elastic + e.area + e.guard + e.gravity, e.impact);
+                  dem_energy_motion(e) + e.gravity, e.impact);
     print_taken(r->out, "friction", e.friction);
     print_taken(r->out, "damping", e.damping);
     (void)fprintf(r->out, " - projection %.3g; closure %+.2e\n", e.projection,

@@ -106,7 +106,7 @@ static double stiffness_of(const loading *l, const double *u, const double *forc
 
 /* ---- what follows from C ---- */
 
-/* 1/E along (c, s) is a.C^-1 a with a = (c^2, s^2, c s), strain of uniaxial stress; a.adj(C) a up to the determinant. */
+/* 1/E along (c, s) is a.C^-1 a with a = (c^2, s^2, c s), of uniaxial stress; a.adj(C) a up to the determinant. */
 static double compliance_along(double C[3][3], double angle)
 {
     const double c = cos(angle), s = sin(angle), a[3] = {c * c, s * s, c * s};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The highest frequency about the rest shape, by Lanczos iteration on M^-1/2 K M^-1/2: in the basis q_1, q_2, ... of the
- * iterates this matrix is tridiagonal, with `diagonal` and `beside` it; its largest eigenvalue theta rises to that of
- * the whole. Some eigenvalue is within the residual beside_m |s_m| of theta, s its unit eigenvector. */
+/* The highest frequency about the rest shape, by Lanczos iteration on M^-1/2 K M^-1/2: in the basis q_1, q_2, ... of
+ * the iterates this matrix is tridiagonal, with `diagonal` and `beside` it; its largest eigenvalue theta rises to that
+ * of the whole. Some eigenvalue is within the residual beside_m |s_m| of theta, s its unit eigenvector. */
 #include <stdlib.h>
 
 #include "lattice.h"
@@ -96,7 +96,7 @@ static void apply(lanczos *l)
         vec2_put(l->image, i, vec2_scale(sqrt(model->inverse_mass[i]), vec2_at(l->image, i)));
 }
 
-/* Takes out of the image what it has of q_m and q_(m-1); the rest, made a unit vector, is the next. Returns its size. */
+/* Takes out of the image what it has of q_m and q_(m-1); what is left, made a unit vector, is the next. Its size. */
 static double next(lanczos *l)
 {
     const dem_index n = 2 * l->model->lattice.n_nodes;

@@ -27,7 +27,7 @@ void triangles_free(triangles *t);
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, dem_index i, const double *x);
 
-/** Minus the change of that force, N, when the nodes move from x by u: K u with K the second derivative of the energy. */
+/** Minus the change of that force, N, when the nodes move from x by u: K u, K the second derivative of the energy. */
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
 
 /** Energy of the triangles at node i, J. */

@@ -233,10 +233,10 @@ typedef struct dem_constants {
     double area;               /**< m^2, of the triangles */
 } dem_constants;
 
-/** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by a
- *  uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the area
- *  of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at the rims of
- *  its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
+/** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
+ *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
+ *  area of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
  *  \param body  0 <= body < n_bodies
  *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
 DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out);
@@ -329,11 +329,16 @@ typedef struct dem_energy {
     double boundary;   /**< put in by boundaries so far: work of what prescribes motions, and of forces */
 } dem_energy;
 
+/** Of motion and strain: what the ledger is compared with. */
+static inline double dem_energy_motion(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.area + e.guard;
+}
+
 /** What stays constant in a run, up to the integrator's error. */
 static inline double dem_energy_ledger(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.area + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection -
-           e.boundary;
+    return dem_energy_motion(e) + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
 }
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;

@@ -71,8 +71,8 @@ static void its_slope_is_the_derivative_of_its_energy(void **state)
                      1e-6 + 1e-15 * energy_at(ratio) / d);
 }
 
-/* Central differences of the slope over d = 1e-6: d^2 w''''/6 with |w''''| < 3e7 at 0.05, and rounding of 1e-15 w'/d; not
- * across 0.05, where the third derivative jumps. */
+/* Central differences of the slope over d = 1e-6: d^2 w''''/6 with |w''''| < 3e7 at 0.05, and rounding of 1e-15 w'/d;
+ * not across 0.05, where the third derivative jumps. */
 static void its_curvature_is_the_derivative_of_its_slope(void **state)
 {
     const double d = 1e-6;

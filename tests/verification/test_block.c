@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free blocks under uniform tension, transverse tension and shear, by the tractions on their edges: every spring then has
- * the strain of Hooke's law, for any Poisson's ratio, in plane stress and plane strain; and so measured, too. The
+/* Free blocks under uniform tension, transverse tension and shear, by the tractions on their edges: every spring then
+ * has the strain of Hooke's law, for any Poisson's ratio, in plane stress and plane strain; and so measured, too. The
  * equilibrium is a linear solve with the tangent about the rest shape. */
 #include <stdlib.h>
 
