@@ -95,6 +95,18 @@ static void watch_ledger(report *r, const dem_state *state)
                   r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
 }
 
+static void watch_overlap(report *r, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (r->overlapped || o.node < 0) return;
+    r->overlapped = true;
+    (void)fprintf(
+        r->out,
+        "%swarning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
+        "%.4e s\n",
+        r->terminal ? "\n" : "", (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+}
+
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
@@ -120,6 +132,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_strain(r, simulation, state.t);
     follow_contact(r, simulation, &state);
     watch_ledger(r, &state);
+    watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;
 }
@@ -361,6 +374,14 @@ static void print_boundaries(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "boundary   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
 }
 
+static void print_overlap(FILE *out, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (o.node >= 0)
+        (void)fprintf(out, "overlap    first at %.4e s, node %lld in triangle %lld; %lld at most, %lld now\n", o.t,
+                      (long long)o.node, (long long)o.triangle, (long long)o.most, (long long)o.now);
+}
+
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = dem_simulation_counts(simulation);
@@ -370,6 +391,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_energy(r, dem_simulation_energy(simulation));
     print_obstacles(r->out, simulation);
     print_boundaries(r->out, simulation);
+    print_overlap(r->out, simulation);
     print_events(r->out, &c);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,

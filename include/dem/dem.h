@@ -459,6 +459,16 @@ typedef struct dem_strain {
     dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
+/** Bodies that run into each other, or into themselves: nothing prevents it, contact is with obstacles only. Nodes on
+ *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
+ *  every 16th accepted step. */
+typedef struct dem_overlap {
+    dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
+    double t;                 /**< s, of the first; 0 without one */
+    dem_index node, triangle; /**< of the first; -1 without one */
+    double x[2];              /**< m, where that node was */
+} dem_overlap;
+
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
@@ -489,6 +499,8 @@ DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *for
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
  *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
 DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+
+DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
 
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 

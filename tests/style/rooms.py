@@ -12,7 +12,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 LAYERS = [
     {"vec2", "status", "commit"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"lattice_mesh", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"lattice_mesh", "surface", "obstacle", "overlap", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
     {"model", "peaks", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "loading", "uses"},
     {"touch", "diagnostics", "integrator", "tangent"},
     {"reaction", "books", "spectrum", "constants"},
