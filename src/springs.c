@@ -141,6 +141,13 @@ void springs_strains(const springs *s, const double *x, double *strain)
             if (s->neighbour[p] > i) strain[s->spring[p]] = springs_strain(s, i, p, x);
 }
 
+void springs_forces(const springs *s, const double *x, double *force)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (s->neighbour[p] > i) force[s->spring[p]] = s->stiffness[p] * springs_strain(s, i, p, x);
+}
+
 /* Of the spring in slot p of row i, 1/s. */
 static double strain_rate(const springs *s, dem_index i, dem_index p, const double *x, const double *v)
 {

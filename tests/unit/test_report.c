@@ -46,7 +46,8 @@ static void follow(logged *l, bool terminal, double t_end)
 {
     l->file = tmpfile();
     assert_non_null(l->file);
-    report_start(&l->report, l->file, terminal, t_end);
+    const deck d = {.t_end = t_end, .closure = 1e-2};
+    report_start(&l->report, l->file, terminal, &d);
     const dem_observer observer = report_observer(&l->report);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
 }
