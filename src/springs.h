@@ -46,10 +46,6 @@ static inline vec2 springs_damping(const springs *s, dem_index i, const double *
     return force;
 }
 
-/** Minus the change of the force on node i, N, when the nodes move from x by u: the stiffness of the springs, that of
- *  their turning under tension included. */
-vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
-
 /** r x f of spring k of a lattice, N m: xx, yy, xy of E_ij (d - d0)/d0 d n n^T, symmetric; the damping left out. Not
  *  finite where its ends coincide. */
 static inline void springs_virial(const dem_lattice *lattice, dem_index k, const double *x, double virial[3])
@@ -61,6 +57,10 @@ static inline void springs_virial(const dem_lattice *lattice, dem_index k, const
     virial[1] = tension * d.y * d.y;
     virial[2] = tension * d.x * d.y;
 }
+
+/** Minus the change of the force on node i, N, when the nodes move from x by u: the stiffness of the springs, that of
+ *  their turning under tension included. */
+vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
 
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, dem_index i, const double *x);

@@ -46,12 +46,12 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
-/* dW/dA of area term and guard together, N/m */
+/* w'(J) of area term and guard together, N/m */
 static double slope_at(const triangles *t, dem_index p, double A)
 {
-    const double J = A / t->rest_area[p];
-    double slope = t->area_stiffness != NULL ? t->area_stiffness[p] * (J - 1.0) : 0.0;
-    if (J < TRIANGLES_GUARD_ONSET) slope += t->guard[p] * triangles_guard_law(J).slope;
+    const double A0 = t->rest_area[p];
+    double slope = t->area_stiffness != NULL ? t->area_stiffness[p] * (A / A0 - 1.0) : 0.0;
+    if (A < TRIANGLES_GUARD_ONSET * A0) slope += t->guard[p] * triangles_guard_law(A / A0).slope;
     return slope;
 }
 
@@ -71,6 +71,12 @@ vec2 triangles_force(const triangles *t, dem_index i, const double *x)
     return force;
 }
 
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    const double A = area_at(t, i, p, x);
+    return A * slope_at(t, p, A);
+}
+
 /* dA/dx_i is linear in the positions, so that its change is itself, of u. */
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u)
 {
@@ -85,12 +91,6 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
         out = vec2_along(out, slope_at(t, p, A), gradient(t, p, u));
     }
     return out;
-}
-
-double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
-{
-    const double A = area_at(t, i, p, x);
-    return A * slope_at(t, p, A);
 }
 
 static double slot_area_energy(const triangles *t, dem_index i, dem_index p, const double *x)

@@ -27,12 +27,12 @@ void triangles_free(triangles *t);
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, dem_index i, const double *x);
 
-/** Minus the change of that force, N, when the nodes move from x by u: K u, K the second derivative of the energy. */
-vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
-
 /** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
  *  unit tensor. */
 double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x);
+
+/** Minus the change of that force, N, when the nodes move from x by u: K u, K the second derivative of the energy. */
+vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
 
 /** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, dem_index i, const double *x);
