@@ -232,21 +232,21 @@ DEM_API double dem_model_omega_max(const dem_model *model);
  *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL if it is not found in 2000 iterations */
 DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
 
-/** Elastic constants of a body about its rest shape. Those with N/m are times the thickness, which a model does not
- *  know. */
+/** Elastic constants of a body about its rest shape, read as a plate in plane stress: a solid in plane strain has
+ *  E/(1 - nu^2) and nu/(1 - nu). */
 typedef struct dem_constants {
-    double stiffness[3][3];    /**< C in s = C e, N/m: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
-    double youngs_modulus;     /**< E h, N/m, of the isotropic plate nearest to C: the average over all directions */
-    double poissons_ratio;     /**< nu of the same, in plane stress */
+    double stiffness[3][3];    /**< C in s = C e, Pa: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
+    double youngs_modulus;     /**< E, Pa, of the isotropic plate nearest to C: the average over all directions */
+    double poissons_ratio;     /**< nu of the same */
     double anisotropy;         /**< largest over smallest Young's modulus along a direction; 1: isotropic */
-    double longitudinal_speed; /**< m/s, of long waves, with E h, nu and the mass per area */
+    double longitudinal_speed; /**< m/s, of long waves, with E, nu and the density */
     double transverse_speed;   /**< m/s */
-    double area;               /**< m^2, of the triangles */
+    double volume;             /**< m^3, of the triangles */
 } dem_constants;
 
 /** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
  *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
- *  area of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  volume of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
  *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
  *  \param body  0 <= body < n_bodies
  *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
