@@ -115,6 +115,21 @@ DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spac
  *  \return DEM_ERROR_MODEL if nothing is left */
 DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
 
+/** Keeps the triangles for which keep[t] != 0, and the nodes that have one of them. For triangulations not yet
+ *  assembled; a lattice that has springs is refused.
+ *  \param keep  [n_triangles]
+ *  \return DEM_ERROR_MODEL if nothing is left */
+DEM_API dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep);
+
+/** Number of pieces of a triangulation. Triangles that share an edge are of one piece; those that share but a node, a
+ *  hinge, are not.
+ *  \param[out] piece  [n_triangles] the piece of each triangle, numbered by their lowest ones; may be NULL */
+DEM_API dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, dem_index *piece);
+
+/** Number of boundary edges at each node: 0 inside and without triangles, 2 on the boundary, more at a hinge.
+ *  \param[out] n_edges  [n_nodes] */
+DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges);
+
 /** Springs, masses and guard of a triangulation by the finite-element rule: a triangle of area A gives each edge e the
  *  stiffness E h A/|e|^2 times the edge's length, in N, and each corner a third of its mass. A block of equilateral
  *  triangles then has exactly E and nu = 1/3 in plane stress. With a damping time each spring gets the viscosity
