@@ -6,6 +6,7 @@
 
 #include <dem/dem.h>
 
+#include "body.h"
 #include "namelist.h"
 
 typedef enum deck_status {
@@ -19,11 +20,13 @@ typedef enum deck_status {
 typedef struct deck {
     char *path, *source;  /* the file's name and text */
     char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
-    uint64_t hash;     /* FNV-1a of `physics`, in which a lattice file stands as the hash of its bytes: the problem */
+    uint64_t hash;     /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
-    double t_end;            /* s */
-    dem_lattice lattice;     /* all bodies, in the order of the deck */
+    double t_end;        /* s */
+    dem_lattice lattice; /* all bodies, in the order of the deck */
+    body_facts *bodies;  /* [n_bodies], one for each group */
+    size_t n_bodies;
     dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
     dem_options options;   /* 0, of the window < 0, where the library is to choose */
