@@ -28,6 +28,7 @@ typedef struct body_start {
     double x[2];        /* of the node, m */
     double rest_length; /* m, of its shortest spring; infinity without springs */
     clearance_spike spike;
+    double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
 } body_start;
 
 /* What is to be told of a body. */

@@ -24,12 +24,16 @@ typedef struct deck {
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
     double t_end;        /* s */
+    double residual;     /* > 0: a quasi-static run ends there */
+    double closure;      /* share of the energy from which on the log warns */
     dem_lattice lattice; /* all bodies, in the order of the deck */
     body_facts *bodies;  /* [n_bodies], one for each group */
     size_t n_bodies;
     dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
-    dem_options options;   /* 0, of the window < 0, where the library is to choose */
+    dem_boundary *boundaries; /* [n_boundaries] */
+    dem_index n_boundaries;
+    dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` */
     double frame_interval; /* s */
     int double_precision, deflate, events;
 } deck;

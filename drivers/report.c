@@ -42,8 +42,8 @@ static void follow_energy(report *r, const dem_state *state)
 {
     const dem_energy e = state->energy;
     if (state->t == 0.0) r->energy_start = dem_energy_ledger(e);
-    r->energy_max = fmax(r->energy_max, e.kinetic + e.elastic + e.guard);
-    const double share = r->energy_max > 0.0 ? (e.elastic + e.guard) / r->energy_max : 0.0;
+    r->energy_max = fmax(r->energy_max, dem_energy_motion(e));
+    const double share = r->energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->energy_max : 0.0;
     if (share <= r->elastic_share_max) return;
     r->elastic_share_max = share;
     r->elastic_share_t = state->t;
@@ -65,6 +65,7 @@ static void follow_strain(report *r, const dem_simulation *simulation, double t)
         r->area_min_t = t;
     }
     if (strain.guarded > r->guarded_max) r->guarded_max = strain.guarded;
+    if (strain.inverted > r->inverted_max) r->inverted_max = strain.inverted;
 }
 
 static void follow_contact(report *r, const dem_simulation *simulation, const dem_state *state)
@@ -80,19 +81,33 @@ static void follow_contact(report *r, const dem_simulation *simulation, const de
     r->speed_after = rising_speed(simulation);
 }
 
+/* What the ledger has gained, over the largest energy so far. */
+static double closure_of(const report *r, dem_energy e)
+{
+    return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
+}
+
+static void watch_ledger(report *r, const dem_state *state)
+{
+    if (r->warned || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
+    r->warned = true;
+    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a smaller 'rtol' closes it\n",
+                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
+}
+
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
     const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
     if (!due || !(done > 0.0)) return;
     const dem_counts counts = dem_simulation_counts(simulation);
-    const double error = (dem_energy_ledger(state->energy) - r->energy_start) / fmax(r->energy_max, 1e-300);
     r->wall_shown = now;
     r->t_shown = state->t;
-    (void)fprintf(
-        r->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
-        r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts, error,
-        (double)counts.steps / fmax(spent, 1e-9), spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
+    (void)fprintf(r->out,
+                  "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
+                  r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps,
+                  (long long)state->n_contacts, closure_of(r, state->energy), (double)counts.steps / fmax(spent, 1e-9),
+                  spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
     (void)fflush(r->out);
 }
 
@@ -104,6 +119,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
     follow_contact(r, simulation, &state);
+    watch_ledger(r, &state);
     show_progress(r, simulation, &state);
     return DEM_OK;
 }
@@ -219,6 +235,22 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
         1e-6 * state_bytes);
 }
 
+static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
+{
+    static const char *const kinds[] = {[DEM_BOUNDARY_VELOCITY] = "velocity",
+                                        [DEM_BOUNDARY_DISPLACEMENT] = "displacement",
+                                        [DEM_BOUNDARY_FORCE] = "force"};
+    static const char *const units[] = {"m/s", "m", "N"};
+    static const char *const axes[] = {"", " x", " y", " x and y"};
+    double share = b->share == NULL;
+    for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
+    (void)fprintf(out, "boundary   %lld: %lld nodes, %s%s (%g, %g) %s", (long long)number, (long long)b->n_nodes,
+                  kinds[b->kind], b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
+                  share * b->value[1], units[b->kind]);
+    if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
+    (void)fprintf(out, "\n");
+}
+
 void report_versions(char *text, size_t size)
 {
     (void)snprintf(text, size, "dem %s (%s), compiler %s, SUNDIALS %s, HDF5 %s, GSL %s", dem_version(), DEM_COMMIT,
@@ -241,14 +273,15 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
     (void)fprintf(out, "time       t_end %.6g s, %s, rtol %.3g, largest step %.4g s\n", d->t_end,
                   deck_method_name(o.method), o.rtol, o.max_step);
+    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
     print_estimates(out, d, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);
 }
 
-void report_start(report *r, FILE *out, bool terminal, double t_end)
+void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
-    *r = (report){.out = out, .terminal = terminal, .t_end = t_end, .area_min = 1.0};
+    *r = (report){.out = out, .terminal = terminal, .t_end = d->t_end, .closure = d->closure, .area_min = 1.0};
     r->strain_min.spring_min = r->strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
 }
@@ -282,8 +315,9 @@ static void print_strain(const report *r)
         (void)fprintf(r->out, "strain     largest %+.4f in spring %lld at %.4e s\n", r->strain_max.max,
                       (long long)r->strain_max.spring_max, r->strain_max_t);
     if (r->area_min < 1.0)
-        (void)fprintf(r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most\n",
-                      r->area_min, r->area_min_t, (long long)r->guarded_max);
+        (void)fprintf(
+            r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most, %lld inverted\n",
+            r->area_min, r->area_min_t, (long long)r->guarded_max, (long long)r->inverted_max);
 }
 
 /* What took energy, beside impacts, if it did. */
@@ -295,17 +329,18 @@ static void print_taken(FILE *out, const char *by, double energy)
 static void print_ledger(const report *r, dem_energy e)
 {
     (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->energy_start,
-                  e.kinetic + e.elastic + e.guard + e.gravity, e.impact);
+                  dem_energy_motion(e) + e.gravity, e.impact);
     print_taken(r->out, "friction", e.friction);
     print_taken(r->out, "damping", e.damping);
-    (void)fprintf(r->out, " - projection %.3g; closure %+.2e\n", e.projection,
-                  (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300));
+    (void)fprintf(r->out, " - projection %.3g", e.projection);
+    if (e.boundary != 0.0) (void)fprintf(r->out, " - put in by boundaries %.4g", e.boundary);
+    (void)fprintf(r->out, "; closure %+.2e\n", closure_of(r, e));
 }
 
 static void print_energy(const report *r, dem_energy e)
 {
-    (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, guard %.4g, gravity %.4g J\n", e.kinetic, e.elastic,
-                  e.guard, e.gravity);
+    (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, gravity %.4g J\n", e.kinetic,
+                  e.elastic, e.area, e.guard, e.gravity);
     print_ledger(r, e);
     (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
                   r->elastic_share_max, r->elastic_share_t);
@@ -344,6 +379,18 @@ static void print_obstacles(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "obstacle   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
 }
 
+static void print_boundaries(FILE *out, const dem_simulation *simulation)
+{
+    const dem_index n = dem_simulation_options(simulation).n_boundaries;
+    for (dem_index k = 0; k < n && k < most_listed; k++) {
+        const dem_boundary_load load = dem_simulation_boundary(simulation, k);
+        (void)fprintf(out, "boundary   %lld: force (%.6g, %.6g) N, moved by (%.6g, %.6g) m\n", (long long)k + 1,
+                      load.force[0], load.force[1], load.displacement[0], load.displacement[1]);
+    }
+    if (n > most_listed)
+        (void)fprintf(out, "boundary   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
+}
+
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = dem_simulation_counts(simulation);
@@ -352,6 +399,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_strain(r);
     print_energy(r, dem_simulation_energy(simulation));
     print_obstacles(r->out, simulation);
+    print_boundaries(r->out, simulation);
     print_events(r->out, &c);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,

@@ -62,7 +62,7 @@ bool sides_edge_begins(const sides *s, dem_index i, dem_index p)
     return p == s->row[i] || s->list[p].upper != s->list[p - 1].upper;
 }
 
-bool sides_edge_is_rim(const sides *s, dem_index i, dem_index p)
+bool sides_edge_is_boundary(const sides *s, dem_index i, dem_index p)
 {
     return sides_edge_begins(s, i, p) && (p + 1 == s->row[i + 1] || sides_edge_begins(s, i, p + 1));
 }
@@ -76,7 +76,7 @@ dem_status sides_contact_flags(unsigned char *flags, const dem_lattice *lattice)
     TRY(sides_create(&s, lattice));
     for (dem_index i = 0; i < n; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
-            if (sides_edge_is_rim(&s, i, p)) flags[i] = flags[s.list[p].upper] = DEM_NODE_CONTACT;
+            if (sides_edge_is_boundary(&s, i, p)) flags[i] = flags[s.list[p].upper] = DEM_NODE_CONTACT;
     sides_free(&s);
     return DEM_OK;
 }

@@ -25,8 +25,8 @@ void sides_free(sides *s);
 /* Whether slot p of row i is the first of its edge. */
 bool sides_edge_begins(const sides *s, dem_index i, dem_index p);
 
-/* Whether slot p of row i is the only one of its edge: an edge on the boundary. */
-bool sides_edge_is_rim(const sides *s, dem_index i, dem_index p);
+/* Whether it is the only one: an edge of the boundary. */
+bool sides_edge_is_boundary(const sides *s, dem_index i, dem_index p);
 
 /* What flags = NULL stands for: DEM_NODE_CONTACT on the boundary, everywhere without triangles.
  * \param[out] flags  [n_nodes] */

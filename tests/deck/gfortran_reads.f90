@@ -15,15 +15,15 @@ contains
 
   subroutine read_run()
     character(4096) :: title
-    real(dp) :: t_end, gravity(2)
-    namelist /run/ title, t_end, gravity
+    real(dp) :: t_end, gravity(2), residual
+    namelist /run/ title, t_end, gravity, residual
     read (unit, nml=run, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_material()
-    character(4096) :: name
-    real(dp) :: youngs_modulus, density, thickness, guard, damping_time
-    namelist /material/ name, youngs_modulus, density, thickness, guard, damping_time
+    character(4096) :: name, plane
+    real(dp) :: youngs_modulus, poissons_ratio, density, thickness, guard, damping_time
+    namelist /material/ name, youngs_modulus, poissons_ratio, plane, density, thickness, guard, damping_time
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 
@@ -61,6 +61,15 @@ contains
     read (unit, nml=crack, iostat=status, iomsg=message)
   end subroutine
 
+  subroutine read_boundary()
+    integer :: body, nodes(10000)
+    character(4096) :: where, side, kind, components
+    real(dp) :: box(4), centre(2), radius, velocity(2), displacement(2), force(2), traction(2), ramp
+    namelist /boundary/ body, where, side, box, centre, radius, nodes, kind, components, velocity, displacement, &
+      force, traction, ramp
+    read (unit, nml=boundary, iostat=status, iomsg=message)
+  end subroutine
+
   subroutine read_obstacle()
     real(dp), save :: points(100000)
     real(dp) :: resolution, roughness, correlation, restitution, friction
@@ -88,10 +97,10 @@ contains
 
   subroutine read_output()
     character(4096) :: name, precision
-    real(dp) :: frame_interval
+    real(dp) :: frame_interval, closure
     integer :: deflate
     logical :: events
-    namelist /output/ name, frame_interval, precision, deflate, events
+    namelist /output/ name, frame_interval, precision, deflate, events, closure
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 
@@ -145,6 +154,7 @@ program gfortran_reads
   call read_all('void', read_void)
   call read_all('pores', read_pores)
   call read_all('crack', read_crack)
+  call read_all('boundary', read_boundary)
   call read_all('obstacle', read_obstacle)
   call read_all('contact', read_contact)
   call read_all('solver', read_solver)

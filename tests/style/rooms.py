@@ -11,18 +11,18 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile",
-     "file", "words", "image", "outline"},
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores",
+     "profile", "file", "words", "image", "outline"},
     {"lattice_mesh", "surface", "obstacle", "impact", "schema", "parts", "clearance", "grid", "table", "pgm", "png", "msh",
      "crack"},
     {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "uses", "mask"},
-    {"touch", "diagnostics", "integrator", "shape"},
+    {"touch", "diagnostics", "integrator", "shape", "loading"},
     {"reaction", "books", "area"},
     {"site", "form"},
     {"sites", "search", "body"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
-    {"simulation", "output", "report"},
+    {"simulation", "output", "relaxation", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.

@@ -46,7 +46,8 @@ static void follow(logged *l, bool terminal, double t_end)
 {
     l->file = tmpfile();
     assert_non_null(l->file);
-    report_start(&l->report, l->file, terminal, t_end);
+    const deck d = {.t_end = t_end, .closure = 1e-2};
+    report_start(&l->report, l->file, terminal, &d);
     const dem_observer observer = report_observer(&l->report);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
 }
@@ -315,7 +316,8 @@ static void without_springs_there_is_no_strain(void **state)
 static void the_smallest_triangle_is_told(void **state)
 {
     (void)state;
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);
