@@ -71,6 +71,20 @@ static void a_crack_along_a_row_takes_the_triangles_on_its_left(void **state)
     dem_lattice_free(&down);
 }
 
+/* Two triangles of each strip, on the left; the nodes that it passes through stay, on the right face. */
+static void a_crack_through_nodes_leaves_them_to_its_right(void **state)
+{
+    (void)state;
+    const double up[4] = {0.0, -1.0, 0.0, 9.0};
+    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    dem_index passed = 0;
+    assert_int_equal(cut(&lattice, up, 2), 12);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) passed += lattice.x[2 * i] == 0.0;
+    assert_int_equal(passed, 4);
+    expect_separate(&lattice);
+    dem_lattice_free(&lattice);
+}
+
 /* Through nodes, along edges, between them, bent at a node both ways, bent anywhere: two pieces, no common node. */
 static void a_crack_through_the_whole_body_separates_it(void **state)
 {
@@ -182,6 +196,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_crack_along_a_row_takes_the_triangles_on_its_left),
+        cmocka_unit_test(a_crack_through_nodes_leaves_them_to_its_right),
         cmocka_unit_test(a_crack_through_the_whole_body_separates_it),
         cmocka_unit_test(random_cracks_separate_left_from_right),
         cmocka_unit_test(a_crack_that_ends_inside_leaves_one_piece_with_two_faces),

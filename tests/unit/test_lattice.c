@@ -149,15 +149,16 @@ static void trimming_keeps_triangles_with_their_nodes(void **state)
     dem_lattice_free(&lattice);
 }
 
-/* A node can lose triangles and stay: here two of six, side by side. */
+/* Nodes can lose triangles and all stay: here two of six, opposite to each other. */
 static void a_node_stays_with_what_is_left_of_its_triangles(void **state)
 {
     (void)state;
-    const unsigned char keep[6] = {1, 1, 1, 1, 0, 0};
+    const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
     dem_lattice lattice;
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_trim(&lattice, keep), DEM_OK);
     assert_int_equal(lattice.n_triangles, 4);
+    assert_int_equal(lattice.n_nodes, 7);
     for (dem_index t = 0; t < 4; t++) assert_close(area_of(&lattice, t), sqrt(3.0) / 4.0, 1e-15);
     dem_lattice_free(&lattice);
 }
