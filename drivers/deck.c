@@ -425,7 +425,6 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
         places[k] = (loading_body){.first = first,
                                    .n_nodes = d->lattice.n_nodes - first,
                                    .angle = starts[k].angle,
-                                   .thickness = 1.0,
                                    .offset = {starts[k].offset[0], starts[k].offset[1]}};
     }
     good = good && check_starts(d, starts, &scene, errors);

@@ -176,11 +176,21 @@ static bool take_nodes(const target *t, dem_index *nodes, dem_index *n, namelist
 
 /* ---- what is done to them ---- */
 
+/* m; a body has one. */
+static double thickness_of(const target *t)
+{
+    const dem_lattice *l = t->lattice;
+    for (dem_index k = 0; k < l->n_triangles && l->thickness != NULL; k++)
+        if (l->triangles[3 * k] >= t->body->first && l->triangles[3 * k] < t->body->first + t->body->n_nodes)
+            return l->thickness[k];
+    return 1.0;
+}
+
 /* Shares of a traction, m^2: by the edges' lengths, of a side by what they have along it. */
 static bool share_traction(const target *t, const dem_boundary *b, double *share, namelist_errors *errors)
 {
     const double angle = t->body->angle, along[2] = {cos(angle), sin(angle)}, across[2] = {-sin(angle), cos(angle)};
-    const double *direction = NULL;
+    const double *direction = NULL, thickness = thickness_of(t);
     int axis = 0;
     double sense, sum = 0.0;
     if (is(t->group, "where", "side")) {
@@ -189,7 +199,7 @@ static bool share_traction(const target *t, const dem_boundary *b, double *share
     }
     if (dem_lattice_edge_shares(t->lattice, b->nodes, b->n_nodes, direction, share) != DEM_OK) return false;
     for (dem_index k = 0; k < b->n_nodes; k++) {
-        share[k] *= t->body->thickness;
+        share[k] *= thickness;
         sum += share[k];
     }
     if (!(sum > 0.0))

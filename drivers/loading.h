@@ -11,7 +11,6 @@
 typedef struct loading_body {
     dem_index first, n_nodes;
     double angle, offset[2];
-    double thickness; /* m; 0: not known */
 } loading_body;
 
 /* Faults that can be told without geometry. */

@@ -112,6 +112,8 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
     lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
     pack(lattice->guard, sizeof *lattice->guard, n, whole);
     pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
+    pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
+    pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
 }
 
 /* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. At least one node stays. */
@@ -162,6 +164,17 @@ static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t
     if (joined != NULL && a != NULL) memcpy(joined, a, (size_t)n * size);
     if (joined != NULL && b != NULL) memcpy(joined + (size_t)n * size, b, (size_t)m * size);
     return joined;
+}
+
+/* The same of triangles' numbers that are 1 where they are NULL; NULL if both are. */
+static dem_status join_ones(double **out, const double *a, dem_index n, const double *b, dem_index m)
+{
+    if (a == NULL && b == NULL) return DEM_OK;
+    *out = join(a, n, b, m, sizeof **out);
+    CHECK_MEMORY(*out);
+    for (dem_index k = 0; k < n && a == NULL; k++) (*out)[k] = 1.0;
+    for (dem_index k = n; k < n + m && b == NULL; k++) (*out)[k] = 1.0;
+    return DEM_OK;
 }
 
 static dem_index count_bodies(const dem_lattice *lattice)
@@ -249,6 +262,8 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     out->triangles = join(a->triangles, n, b->triangles, m, 3 * sizeof *out->triangles);
     CHECK_MEMORY(out->triangles);
     for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
+    TRY(join_ones(&out->thickness, a->thickness, n, b->thickness, m));
+    TRY(join_ones(&out->modulus, a->modulus, n, b->modulus, m));
     if (a->guard != NULL || b->guard != NULL) {
         out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
         CHECK_MEMORY(out->guard);
@@ -306,6 +321,8 @@ void dem_lattice_free(dem_lattice *lattice)
     free(lattice->triangles);
     free(lattice->guard);
     free(lattice->area_stiffness);
+    free(lattice->thickness);
+    free(lattice->modulus);
     free(lattice->flags);
     free(lattice->body);
     free(lattice->position);

@@ -471,6 +471,18 @@ void dem_simulation_strains(const dem_simulation *s, double *strain)
     springs_strains(&s->model->springs, s->seen, strain);
 }
 
+void dem_simulation_forces(const dem_simulation *s, double *force)
+{
+    springs_forces(&s->model->springs, s->seen, force);
+}
+
+void dem_simulation_stress(const dem_simulation *s, double *stress)
+{
+    const dem_model *m = s->model;
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
+        stress_of_node(&m->stress, &m->lattice, &m->triangles, i, s->seen, stress + 3 * i);
+}
+
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
     const dem_counts of_integrator = integrator_counts(s->integrator);

@@ -96,6 +96,9 @@ typedef struct dem_lattice {
     double *guard;          /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
     double *area_stiffness; /**< [n_triangles]   kappa of the area term, of any sign, N/m: the energy
                                 kappa/2 (A - A0)^2/A0 of a triangle of area A; NULL: none */
+    double *thickness;      /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
+    double *modulus;        /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
+                                between them as modulus * thickness * area; NULL: equal */
     unsigned char *flags;   /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
     int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
@@ -140,8 +143,8 @@ DEM_API dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_p
  *  \param[out] n_edges  [n_nodes] */
 DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges);
 
-/** Springs, masses, area term and guard of a triangulation by the finite-element rule: a triangle of area A gives each
- *  edge e the stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
+/** Springs, masses and what triangles have, by the finite-element rule: a triangle of area A gives each edge e the
+ *  stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
  *  stiffness is (lambda - G) h. G = E/(2 (1 + nu)) and lambda = E nu/(1 - nu^2) are those of plane stress; a solid in
  *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
@@ -239,8 +242,37 @@ DEM_API double dem_model_spacing(const dem_model *model);
  *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
 DEM_API double dem_model_omega_max(const dem_model *model);
 
+/** The highest angular frequency about the rest shape itself, rad/s, found by iteration from below, to 1e-6 of it or
+ *  better; 0 without springs. It takes some hundred evaluations of the forces.
+ *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL if it is not found in 2000 iterations */
+DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
+
+/** Elastic constants of a body about its rest shape. Those with N/m are times the thickness, which a model does not
+ *  know. */
+typedef struct dem_constants {
+    double stiffness[3][3];    /**< C in s = C e, N/m: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
+    double youngs_modulus;     /**< E h, N/m, of the isotropic plate nearest to C: the average over all directions */
+    double poissons_ratio;     /**< nu of the same, in plane stress */
+    double anisotropy;         /**< largest over smallest Young's modulus along a direction; 1: isotropic */
+    double longitudinal_speed; /**< m/s, of long waves, with E h, nu and the mass per area */
+    double transverse_speed;   /**< m/s */
+    double area;               /**< m^2, of the triangles */
+} dem_constants;
+
+/** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
+ *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
+ *  area of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
+ *  \param body  0 <= body < n_bodies
+ *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out);
+
 /** Total mass, kg. */
 DEM_API double dem_model_mass(const dem_model *model);
+
+/** What each node has of the solid's rest volume, m^3: a third of its triangles' areas times their thickness; 0 where
+ *  it is in no triangle. [n_nodes], a view. */
+DEM_API const double *dem_model_volumes(const dem_model *model);
 
 /** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */
 DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
@@ -463,6 +495,16 @@ DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
 /** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
 DEM_API void dem_simulation_strains(const dem_simulation *simulation, double *strain);
 
+/** Force (1) along every spring, > 0 in tension; what damping adds to it is left out.
+ *  \param[out] force  [n_springs] N, in the order of the lattice */
+DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *force);
+
+/** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
+ *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
+ *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
+ *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
+DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 
 /** \param body  0 <= body < n_bodies */
@@ -485,6 +527,15 @@ DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
  *  `boundaries` NULL. */
 DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
 
+/* ---- stress ----------------------------------------------------------------------------------------------------- */
+
+/** Von Mises' equivalent of a plane stress xx, yy, xy: sqrt(xx^2 - xx yy + yy^2 + 3 xy^2). */
+DEM_API double dem_stress_von_mises(const double stress[3]);
+
+/** Principal values, the larger first, and the unit vector along which the first acts: to the right, or up; along x if
+ *  both are equal. */
+DEM_API void dem_stress_principal(const double stress[3], double value[2], double direction[2]);
+
 /* ---- observers -------------------------------------------------------------------------------------------------- */
 
 /** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK
@@ -499,6 +550,46 @@ typedef struct dem_observer {
 
 /** Copies `observer`. At most 8; to be called before the first advance. */
 DEM_API dem_status dem_simulation_observe(dem_simulation *simulation, const dem_observer *observer);
+
+/* ---- peaks: the most stressed places of a run ------------------------------------------------------------------- */
+
+/** Where and when a node was stressed most. */
+typedef struct dem_node_peak {
+    double von_mises; /**< Pa, the largest so far; 0: none */
+    double t;         /**< s, when */
+    double stress[3]; /**< Pa, at that instant: xx, yy, xy */
+} dem_node_peak;
+
+typedef struct dem_spring_peak {
+    double strain; /**< that of the largest size so far, with its sign */
+    double t;      /**< s, when */
+} dem_spring_peak;
+
+/** The largest von Mises stress of every node and the largest |strain| of every spring, an observer: it looks at t = 0
+ *  and at every `every`-th accepted step. */
+typedef struct dem_peaks dem_peaks;
+
+/** \param every  >= 1. A look costs about an eighth of a step; between looks every 4 steps of 0.5/omega_max the
+ *                 fastest wave of a lattice passes a third of its period. */
+DEM_API dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every);
+
+/** Accepts NULL. */
+DEM_API void dem_peaks_destroy(dem_peaks *peaks);
+
+/** The observer to hand to dem_simulation_observe(), of a simulation of the same model; borrows the peaks. */
+DEM_API dem_observer dem_peaks_observer(dem_peaks *peaks);
+
+/** Peaks so far, [n_nodes] and [n_springs]: views. */
+DEM_API const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks);
+DEM_API const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks);
+
+/** The n nodes of the largest stresses so far, the largest first, equal ones in the order of their numbers.
+ *  \param[out] nodes  [n]
+ *  \return how many there are: less than n where less have been stressed at all */
+DEM_API dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes);
+
+/** The same of the springs and their strains. */
+DEM_API dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *springs);
 
 #ifdef __cplusplus
 }

@@ -24,7 +24,8 @@ static void make_block(dem_lattice *l, const loading_body *place)
     l->rest_length = calloc(1, sizeof *l->rest_length);
     l->stiffness = calloc(1, sizeof *l->stiffness);
     l->triangles = calloc(6 * (columns - 1) * (rows - 1), sizeof *l->triangles);
-    assert_true(l->x && l->ends && l->rest_length && l->stiffness && l->triangles);
+    l->thickness = calloc(2 * (columns - 1) * (rows - 1), sizeof *l->thickness);
+    assert_true(l->x && l->ends && l->rest_length && l->stiffness && l->triangles && l->thickness);
     l->n_springs = 1, l->ends[0] = first, l->ends[1] = first + 1, l->rest_length[0] = spacing, l->stiffness[0] = 1.0;
     const double c = cos(place->angle), s = sin(place->angle);
     for (dem_index k = 0; k < n_nodes; k++) {
@@ -37,6 +38,7 @@ static void make_block(dem_lattice *l, const loading_body *place)
             const dem_index a = first + j * columns + i, b = a + 1, u = a + columns, v = u + 1;
             const dem_index both[6] = {a, b, v, a, v, u};
             for (int q = 0; q < 6; q++) l->triangles[3 * l->n_triangles + q] = both[q];
+            l->thickness[l->n_triangles] = l->thickness[l->n_triangles + 1] = 0.25;
             l->n_triangles += 2;
         }
 }
@@ -49,8 +51,7 @@ typedef struct loaded {
     dem_index n;
 } loaded;
 
-static const loading_body place = {
-    .first = 3, .n_nodes = n_nodes, .angle = 1.5707963267948966, .offset = {7.0, -2.0}, .thickness = 0.25};
+static const loading_body place = {.first = 3, .n_nodes = n_nodes, .angle = 1.5707963267948966, .offset = {7.0, -2.0}};
 
 static void load(loaded *l, const char *text)
 {
