@@ -6,6 +6,7 @@
 
 #include <dem/dem.h>
 
+#include "body.h"
 #include "namelist.h"
 
 typedef enum deck_status {
@@ -19,14 +20,16 @@ typedef enum deck_status {
 typedef struct deck {
     char *path, *source;  /* the file's name and text */
     char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
-    uint64_t hash;     /* FNV-1a of `physics`, in which a lattice file stands as the hash of its bytes: the problem */
+    uint64_t hash;     /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
     double t_end;    /* s */
     double residual; /* > 0: a quasi-static run ends there */
     int stop_at_overlap;
-    double closure;          /* share of the energy from which on the log warns */
-    dem_lattice lattice;     /* all bodies, in the order of the deck */
+    double closure;      /* share of the energy from which on the log warns */
+    dem_lattice lattice; /* all bodies, in the order of the deck */
+    body_facts *bodies;  /* [n_bodies], one for each group */
+    size_t n_bodies;
     dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
     dem_boundary *boundaries; /* [n_boundaries] */

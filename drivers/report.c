@@ -244,6 +244,35 @@ static void print_measured(FILE *out, const dem_model *model)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }
 
+/* Numbered from 1, as decks are. */
+static void print_body(FILE *out, size_t number, const body_facts *b)
+{
+    char list[PARTS_LIST];
+    if (b->true_mass > 0.0)
+        (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
+                      b->true_mass, b->mass / b->true_mass);
+    if (b->form.n_pores > 0)
+        (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->form.n_pores,
+                      b->form.pore_area / (b->form.area + b->form.pore_area));
+    if (b->form.n_cracked > 0)
+        (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
+                      (long long)b->form.n_cracked);
+    parts_print(list, &b->loose, b->true_mass > 0.0 ? "triangle" : "node");
+    if (b->loose.n > 0)
+        (void)fprintf(out, "parts      body %zu: %lld %s, of %s m in its own coordinates\n", number,
+                      (long long)b->loose.n, b->removed ? "removed" : "apart from the largest", list);
+    if (b->hinges.n > 0)
+        (void)fprintf(out, "hinges     body %zu: %lld node%s between triangles that share no edge, one at (%g, %g) m\n",
+                      number, (long long)b->hinges.n, b->hinges.n == 1 ? "" : "s", b->hinges.x[0], b->hinges.x[1]);
+}
+
+static void print_bodies(FILE *out, const deck *d)
+{
+    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) print_body(out, k + 1, &d->bodies[k]);
+    if (d->n_bodies > most_listed)
+        (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
+}
+
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
@@ -293,6 +322,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
                   (unsigned long long)d->hash);
     print_sizes(out, model);
+    print_bodies(out, d);
     print_rules(out, &o, model);
     (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);

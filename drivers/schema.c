@@ -538,6 +538,26 @@ const char *schema_text(const schema_instance *instance, const char *key)
     return value->count > 0 ? value->texts[0] : "";
 }
 
+const double *schema_reals(const schema_instance *instance, const char *key)
+{
+    return schema_value_of(instance, key)->reals;
+}
+
+bool schema_is(const schema_instance *instance, const char *key, const char *text)
+{
+    return strcmp(schema_text(instance, key), text) == 0;
+}
+
+bool schema_given(const schema_instance *instance, const char *key)
+{
+    return schema_value_of(instance, key)->given;
+}
+
+namelist_place schema_place(const schema_instance *instance, const char *key)
+{
+    return schema_value_of(instance, key)->place;
+}
+
 bool schema_nearest(const char *word, const char *const *names, size_t n_names, size_t *nearest)
 {
     const size_t length = strlen(word);

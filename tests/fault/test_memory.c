@@ -59,6 +59,9 @@ static dem_status build(dem_lattice *lattice)
     dem_index parts;
     dem_status status = dem_lattice_rectangle(lattice, 0.05, 0.03, 0.01);
     if (status == DEM_OK) status = dem_lattice_cut(lattice, left_half, NULL);
+    dem_index pieces, rims[32];
+    if (status == DEM_OK) status = dem_lattice_pieces(lattice, &pieces, NULL);
+    if (status == DEM_OK && lattice->n_nodes <= 32) status = dem_lattice_rims(lattice, rims);
     if (status == DEM_OK) status = dem_lattice_assemble(lattice, &rubber);
     if (status == DEM_OK) status = dem_lattice_launch(lattice, down);
     if (status == DEM_OK) status = dem_lattice_parts(lattice, &parts, NULL);

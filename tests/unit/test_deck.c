@@ -348,8 +348,8 @@ static void disconnected_parts_are_refused_removed_or_kept(void **state)
 {
     (void)state;
     expect_errors(BAR(""),
-                  "3:1: body 1 has 1 part that no spring connects to its largest, of 6 nodes, one at (2, 0) m in its "
-                  "own coordinates; 'disconnected' can remove or keep such parts\n");
+                  "3:1: body 1 has 1 part that shares no edge with its largest, of 4 triangles at (2, 0) m in its own "
+                  "coordinates; 'disconnected' can remove or keep such parts\n");
     deck kept = good_deck(BAR(", disconnected = 'keep'")), removed = good_deck(BAR(", disconnected = 'remove'"));
     assert_int_equal(kept.lattice.n_nodes, removed.lattice.n_nodes + 6);
     for (dem_index i = 0; i < removed.lattice.n_nodes; i++) assert_true(removed.lattice.x[2 * i] < 1.0);
@@ -600,7 +600,7 @@ static void faults_of_geometry_are_reported_for_all_bodies(void **state)
         "4:35: body 2 would have more nodes than 2^40 with the spacing 1e-09 m\n"
         "5:89: 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 3; move "
         "it" REVERSED "\n"
-        "7:1: body 5: its voids and pores take all of its 367 nodes\n"
+        "7:1: body 5: its outline, voids and pores leave none of 367 nodes\n"
         "8:1: pore 2 of 2, of radius 0.3 m, finds no place in body 4 with walls of 0.1 m; take fewer or smaller ones, "
         "or a "
         "thinner 'wall'\n");
@@ -801,7 +801,7 @@ static void what_is_wrong_with_a_lattice_file_is_told_at_its_key(void **state)
     assert_int_equal(errors.list[0].place.column, 23);
     assert_non_null(strstr(errors.list[0].text, path_of("none.h5")));
     assert_string_equal(errors.list[1].text,
-                        "body 2 has 1 part that no spring connects to its largest, of 2 nodes, one at "
+                        "body 2 has 1 part that no spring connects to its largest, of 2 nodes at "
                         "(5, 0) m in its own coordinates; 'disconnected' can remove or keep such parts");
     assert_non_null(strstr(errors.list[2].text, "body 3: "));
     assert_non_null(strstr(errors.list[2].text, "mass"));

@@ -432,6 +432,55 @@ static void the_header_tells_what_was_measured_of_each_body(void **state)
     drop_logged(l);
 }
 
+/* A body with everything that there may be to tell, and one from a file. */
+static void the_header_tells_how_bodies_came_out(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[2] = {
+        {.mass = 2.5,
+         .true_mass = 4.0,
+         .form = {.area = 3.0, .pore_area = 1.0, .n_pores = 7, .n_cracked = 12},
+         .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
+         .removed = true,
+         .hinges = {.n = 1, .x = {6.0, 7.0}}},
+        {.mass = 1.0, .loose = {.n = 1, .size = {3}}},
+    };
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
+    logged *l = drop_node(false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nmass       body 1: 2.5 kg, of the true shape 4 kg (ratio 0.6250)\n"));
+    assert_non_null(strstr(l->text, "\npores      body 1: 7, of porosity 0.2500\n"));
+    assert_non_null(strstr(l->text, "\ncracks     body 1: through 12 triangles, which are taken away\n"));
+    assert_non_null(strstr(l->text, "\nparts      body 1: 2 removed, of 5 triangles at (0.5, 2), 1 at (3, 4) m in its "
+                                    "own coordinates\n"));
+    assert_non_null(
+        strstr(l->text, "\nhinges     body 1: 1 node between triangles that share no edge, one at (6, 7) m\n"));
+    assert_non_null(strstr(l->text, "\nparts      body 2: 1 apart from the largest, of 3 nodes at (0, 0) m in its own "
+                                    "coordinates\n"));
+    assert_null(strstr(l->text, "mass       body 2"));
+    drop_logged(l);
+}
+
+static void a_long_list_of_bodies_is_cut(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[17];
+    for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 17};
+    logged *l = drop_node(false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "mass       body 16: "));
+    assert_null(strstr(l->text, "mass       body 17: "));
+    assert_non_null(strstr(l->text, "\nbodies     of 17 the first 16 are listed\n"));
+    drop_logged(l);
+}
+
 static void without_an_output_none_is_told(void **state)
 {
     (void)state;
@@ -600,6 +649,8 @@ int main(void)
         cmocka_unit_test(on_a_terminal_progress_is_rewritten_in_place),
         cmocka_unit_test(the_header_tells_what_is_about_to_run),
         cmocka_unit_test(the_header_tells_what_was_measured_of_each_body),
+        cmocka_unit_test(the_header_tells_how_bodies_came_out),
+        cmocka_unit_test(a_long_list_of_bodies_is_cut),
         cmocka_unit_test(without_an_output_none_is_told),
         cmocka_unit_test(versions_are_those_in_use),
         cmocka_unit_test(the_header_tells_the_rules_of_impact),

@@ -259,7 +259,9 @@ static void the_reference_has_a_row_for_every_key(void **state)
         }
     }
     assert_contains(text, "| `gravity` | 2 reals | m/s^2 | `0, -9.81` |  | Acceleration of free fall, x and y. |");
-    assert_contains(text, "| `shape` | string | - | must be given | rectangle\\|disc\\|file | Shape");
+    assert_contains(
+        text,
+        "| `shape` | string | - | must be given | rectangle\\|disc\\|ring\\|polygon\\|mask\\|mesh\\|file | Shape");
     assert_contains(text, "| `points` | 4 or more reals | m | must be given |  | x and y");
     free(text);
 }
