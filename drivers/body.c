@@ -309,6 +309,7 @@ static dem_status put(builder *b)
     for (int c = 0; c < 2; c++) b->start.offset[c] = position[c];
     dem_lattice_move(&b->lattice, b->start.angle, position);
     dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
+    if (status == DEM_OK) status = report(b, dem_lattice_spin(&b->lattice, schema_real(b->body, "spin")), "spin");
     if (status == DEM_OK) status = check_place(b);
     if (status == DEM_OK)
         status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),

@@ -61,6 +61,8 @@ static const schema_key body_keys[] = {
      "If given, the body is then moved along gravity until the smallest gap of its nodes to an obstacle is this.",
      "2e-4"},
     {"velocity", SCHEMA_REAL, 2, 2, "m/s", "0, 0", ANY, NULL, PHYSICS, "Initial velocity, x and y.", "0, -10"},
+    {"spin", SCHEMA_REAL, 1, 1, "rad/s", "0", ANY, NULL, PHYSICS,
+     "Initial rotation about the centre of mass, counter-clockwise.", NULL},
     {"disconnected", SCHEMA_CHOICE, 1, 1, "-", "'refuse'", ANY, "refuse|remove|keep", PHYSICS,
      "What becomes of parts that share no edge with the largest one: an error, taken away, or kept.", NULL},
     {"file", SCHEMA_STRING, 1, 1, "-", NONE, ANY, NULL, PHYSICS,

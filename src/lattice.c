@@ -420,6 +420,27 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
     return DEM_OK;
 }
 
+dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
+{
+    TRY(lattice_check(lattice));
+    CHECK(isfinite(angular_velocity), DEM_ERROR_ARGUMENT, "the angular velocity %g rad/s is not finite",
+          angular_velocity);
+    CHECK(lattice->mass != NULL, DEM_ERROR_MODEL, "a lattice without masses has no centre of mass to turn about");
+    TRY(dem_lattice_launch(lattice, (const double[2]){0.0, 0.0})); /* there are velocities then */
+    const double *x = lattice->position != NULL ? lattice->position : lattice->x;
+    vec2 centre = {0.0, 0.0};
+    double mass = 0.0;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        centre = vec2_along(centre, lattice->mass[i], vec2_at(x, i));
+        mass += lattice->mass[i];
+    }
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        const vec2 arm = vec2_along(vec2_at(x, i), -1.0 / mass, centre), before = vec2_at(lattice->velocity, i);
+        vec2_put(lattice->velocity, i, vec2_along(before, angular_velocity, (vec2){-arm.y, arm.x}));
+    }
+    return DEM_OK;
+}
+
 static dem_status check_list(const dem_lattice *lattice, const dem_index *nodes, dem_index n)
 {
     TRY(lattice_check(lattice));

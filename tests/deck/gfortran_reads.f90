@@ -30,9 +30,9 @@ contains
   subroutine read_body()
     character(4096) :: shape, lattice, material, disconnected, file
     real(dp), save :: points(20000)
-    real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), scale, threshold
+    real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), spin, scale, threshold
     namelist /body/ shape, size, radius, inner_radius, points, lattice, spacing, material, position, angle, clearance, &
-      velocity, disconnected, file, scale, threshold
+      velocity, spin, disconnected, file, scale, threshold
     read (unit, nml=body, iostat=status, iomsg=message)
   end subroutine
 

@@ -169,6 +169,29 @@ static void a_node_stays_with_what_is_left_of_its_triangles(void **state)
 
 /* ---- move, launch, append ---- */
 
+/* Masses 1 and 3 kg at 0 and 4 m turn about 3 m: at 2 rad/s the first goes down with 6 m/s, the second up with 2. */
+static void spin_turns_about_the_centre_of_mass(void **state)
+{
+    (void)state;
+    double x[4] = {7.0, 0.0, 7.0, 0.0}, position[4] = {0.0, 5.0, 4.0, 5.0}, mass[2] = {1.0, 3.0};
+    const double v[2] = {0.5, 0.25};
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 2, lattice.x = x, lattice.position = position;
+    assert_refused(dem_lattice_spin(&lattice, 2.0), DEM_ERROR_MODEL,
+                   "a lattice without masses has no centre of mass to turn about");
+    lattice.mass = mass;
+    assert_refused(dem_lattice_spin(&lattice, (double)INFINITY), DEM_ERROR_ARGUMENT,
+                   "the angular velocity inf rad/s is not finite");
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    assert_int_equal(dem_lattice_spin(&lattice, 2.0), DEM_OK);
+    assert_close(lattice.velocity[0], 0.5, 1e-15);
+    assert_close(lattice.velocity[1], 0.25 - 6.0, 1e-15);
+    assert_close(lattice.velocity[2], 0.5, 1e-15);
+    assert_close(lattice.velocity[3], 0.25 + 2.0, 1e-15);
+    free(lattice.velocity);
+}
+
 static void move_turns_about_the_origin_then_shifts(void **state)
 {
     (void)state;
@@ -338,6 +361,7 @@ int main(void)
         cmocka_unit_test(a_hexagon_is_one_piece_without_a_rim_at_its_centre),
         cmocka_unit_test(trimming_keeps_triangles_with_their_nodes),
         cmocka_unit_test(a_node_stays_with_what_is_left_of_its_triangles),
+        cmocka_unit_test(spin_turns_about_the_centre_of_mass),
         cmocka_unit_test(move_turns_about_the_origin_then_shifts),
         cmocka_unit_test(launch_refuses_what_is_no_velocity),
         cmocka_unit_test(append_numbers_nodes_and_bodies_behind_the_others),
