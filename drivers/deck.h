@@ -23,8 +23,9 @@ typedef struct deck {
     uint64_t hash;     /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
-    double t_end;        /* s */
-    double residual;     /* > 0: a quasi-static run ends there */
+    double t_end;    /* s */
+    double residual; /* > 0: a quasi-static run ends there */
+    int stop_at_overlap;
     double closure;      /* share of the energy from which on the log warns */
     dem_lattice lattice; /* all bodies, in the order of the deck */
     body_facts *bodies;  /* [n_bodies], one for each group */

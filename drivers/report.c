@@ -11,7 +11,8 @@
 
 #include "commit.h"
 
-enum { most_listed = 16 }; /* obstacles, bodies */
+enum { most_listed = 16 };            /* obstacles, bodies */
+enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
 
 static double wall_clock(void)
 {
@@ -95,6 +96,18 @@ static void watch_ledger(report *r, const dem_state *state)
                   r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
 }
 
+static void watch_overlap(report *r, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (r->overlapped || o.node < 0) return;
+    r->overlapped = true;
+    (void)fprintf(
+        r->out,
+        "%swarning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
+        "%.4e s\n",
+        r->terminal ? "\n" : "", (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+}
+
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
@@ -120,6 +133,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_strain(r, simulation, state.t);
     follow_contact(r, simulation, &state);
     watch_ledger(r, &state);
+    watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;
 }
@@ -218,6 +232,47 @@ static void print_bodies(FILE *out, const deck *d)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
 }
 
+/* As the library measures them, by loading the model. */
+static void print_constants(FILE *out, const dem_model *model)
+{
+    const dem_index n_bodies = dem_model_sizes(model).n_bodies;
+    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
+        dem_constants c;
+        (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
+        if (dem_model_constants(model, b, &c) != DEM_OK)
+            (void)fprintf(out, "not measured: %s\n", dem_status_message());
+        else
+            (void)fprintf(out, "E %.6g Pa, nu %.5g, anisotropy %.4f, waves %.5g and %.5g m/s\n", c.youngs_modulus,
+                          c.poissons_ratio, c.anisotropy, c.longitudinal_speed, c.transverse_speed);
+    }
+    if (n_bodies > most_listed)
+        (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
+}
+
+static void print_frequency(FILE *out, const dem_model *model)
+{
+    double omega;
+    if (dem_model_omega(model, &omega) != DEM_OK)
+        (void)fprintf(out, "frequency  not measured: %s\n", dem_status_message());
+    else if (omega > 0.0)
+        (void)fprintf(out, "frequency  highest %.6g rad/s, the bound is %.3f times that\n", omega,
+                      dem_model_omega_max(model) / omega);
+}
+
+static void print_measured(FILE *out, const dem_model *model)
+{
+    const double start = wall_clock();
+    const dem_index n = dem_model_sizes(model).n_nodes;
+    if (n > most_measured) {
+        (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
+        return;
+    }
+    print_constants(out, model);
+    print_frequency(out, model);
+    if (wall_clock() - start > 1.0)
+        (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
+}
+
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
@@ -274,6 +329,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     (void)fprintf(out, "time       t_end %.6g s, %s, rtol %.3g, largest step %.4g s\n", d->t_end,
                   deck_method_name(o.method), o.rtol, o.max_step);
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
+    print_measured(out, model);
     print_estimates(out, d, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);
@@ -391,6 +447,14 @@ static void print_boundaries(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "boundary   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
 }
 
+static void print_overlap(FILE *out, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (o.node >= 0)
+        (void)fprintf(out, "overlap    first at %.4e s, node %lld in triangle %lld; %lld at most, %lld now\n", o.t,
+                      (long long)o.node, (long long)o.triangle, (long long)o.most, (long long)o.now);
+}
+
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = dem_simulation_counts(simulation);
@@ -400,6 +464,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_energy(r, dem_simulation_energy(simulation));
     print_obstacles(r->out, simulation);
     print_boundaries(r->out, simulation);
+    print_overlap(r->out, simulation);
     print_events(r->out, &c);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,

@@ -13,7 +13,7 @@ typedef struct report {
     bool terminal;  /* progress is rewritten in place */
     double t_end;   /* s */
     double closure; /* from which on the ledger is warned of */
-    bool warned;
+    bool warned, overlapped;
     double wall_start, wall_shown; /* s */
     double t_shown;                /* s */
     double energy_start;           /* J, total at t = 0 */

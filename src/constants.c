@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Elastic constants of a body, measured: its boundary is strained uniformly, three times, the inside finds its
- * equilibrium, and the stress is the derivative of the energy over the area. */
+ * equilibrium, and the stress is the derivative of the energy over the volume. */
 #include <stdlib.h>
 
 #include "lattice.h"
@@ -17,7 +17,7 @@ enum { XX, YY, XY, N_CASES };
 typedef struct loading {
     const dem_model *model;
     dem_index body;
-    double area, mass;      /* m^2, kg */
+    double volume, mass;    /* m^3, kg */
     vec2 centre;            /* m, of the nodes */
     unsigned char *held;    /* [n] all but the inside of the body */
     double *u[N_CASES];     /* [n][2] displacements of each case, m */
@@ -54,11 +54,12 @@ static dem_status measure(loading *l)
     dem_index n = 0;
     for (dem_index k = 0; k < lattice->n_triangles; k++) {
         const dem_index *c = &lattice->triangles[3 * k];
+        const double h = lattice->thickness != NULL ? lattice->thickness[k] : 1.0;
         if (is_of_body(l, c[0]))
-            l->area += triangles_area(vec2_at(lattice->x, c[0]), vec2_at(lattice->x, c[1]), vec2_at(lattice->x, c[2]));
+            l->volume +=
+                h * triangles_area(vec2_at(lattice->x, c[0]), vec2_at(lattice->x, c[1]), vec2_at(lattice->x, c[2]));
     }
-    CHECK(l->area > 0.0, DEM_ERROR_MODEL, "body %lld has no triangles, whose area its constants refer to",
-          (long long)l->body);
+    CHECK(l->volume > 0.0, DEM_ERROR_MODEL, "the body has no triangles, whose volume its constants refer to");
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if (!is_of_body(l, i)) continue;
         l->mass += lattice->mass[i];
@@ -96,12 +97,12 @@ static dem_status load(loading *l, int which)
     return DEM_OK;
 }
 
-/* Second derivative of the energy over the area, whose error is of second order in those of u and v. */
+/* Second derivative of the energy over the volume, whose error is of second order in those of u and v. */
 static double stiffness_of(const loading *l, const double *u, const double *force)
 {
     double sum = 0.0;
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) sum += u[k] * force[k];
-    return sum / l->area;
+    return sum / l->volume;
 }
 
 /* ---- what follows from C ---- */
@@ -137,15 +138,15 @@ static dem_status conclude(const loading *l, dem_constants *out)
 {
     double(*C)[3] = out->stiffness;
     const double bulk = 0.25 * (C[0][0] + C[1][1] + 2.0 * C[0][1]); /* lambda + G */
-    const double shear = 0.125 * (C[0][0] + C[1][1] - 2.0 * C[0][1] + 4.0 * C[2][2]), density = l->mass / l->area;
+    const double shear = 0.125 * (C[0][0] + C[1][1] - 2.0 * C[0][1] + 4.0 * C[2][2]), density = l->mass / l->volume;
     CHECK(bulk > 0.0 && shear > 0.0, DEM_ERROR_MODEL,
-          "body %lld is not stable: its bulk and shear modulus are %g and %g N/m", (long long)l->body, bulk, shear);
+          "the body is not stable: its bulk and shear modulus are %g and %g Pa", bulk, shear);
     out->youngs_modulus = 4.0 * bulk * shear / (bulk + shear);
     out->poissons_ratio = (bulk - shear) / (bulk + shear);
     out->anisotropy = anisotropy_of(C);
     out->longitudinal_speed = sqrt((bulk + shear) / density);
     out->transverse_speed = sqrt(shear / density);
-    out->area = l->area;
+    out->volume = l->volume;
     return DEM_OK;
 }
 

@@ -47,10 +47,8 @@ typedef enum dem_status {
 /** Text of the last failure in this thread; valid until the next failing call. Never NULL. */
 DEM_API const char *dem_status_message(void);
 
-/** Library version, "MAJOR.MINOR.PATCH". */
+/** Versions of this library and of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
 DEM_API const char *dem_version(void);
-
-/** Version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
 DEM_API const char *dem_version_sundials(void);
 
 /* ---- lattice: what the body is made of ------------------------------------------------------------------------ */
@@ -124,23 +122,16 @@ DEM_API dem_status dem_lattice_rectangle(dem_lattice *out, double width, double 
 DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing);
 
 /** Removes the nodes for which `keep` returns 0, the triangles that lose a corner, and nodes left without a triangle.
- *  For triangulations not yet assembled; a lattice that has springs is refused.
- *  \return DEM_ERROR_MODEL if nothing is left */
+ *  A lattice that has springs is refused.  \return DEM_ERROR_MODEL if nothing is left */
 DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
 
-/** Keeps the triangles for which keep[t] != 0, and the nodes that have one of them. For triangulations not yet
- *  assembled; a lattice that has springs is refused.
- *  \param keep  [n_triangles]
- *  \return DEM_ERROR_MODEL if nothing is left */
+/** Keeps triangles with keep[t] != 0, [n_triangles], and the nodes that have one; else like dem_lattice_cut(). */
 DEM_API dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep);
 
-/** Number of pieces of a triangulation. Triangles that share an edge are of one piece; those that share but a node, a
- *  hinge, are not.
- *  \param[out] piece  [n_triangles] the piece of each triangle, numbered by their lowest ones; may be NULL */
+/** Pieces that shared edges connect, by their lowest triangles.  \param[out] piece  [n_triangles]; may be NULL */
 DEM_API dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, dem_index *piece);
 
-/** Number of boundary edges at each node: 0 inside and without triangles, 2 on the boundary, more at a hinge.
- *  \param[out] n_edges  [n_nodes] */
+/** Boundary edges at each node: 0 inside, 2 on the boundary, more at a hinge.  \param[out] n_edges  [n_nodes] */
 DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges);
 
 /** Springs, masses and what triangles have, by the finite-element rule: a triangle of area A gives each edge e the
@@ -247,21 +238,21 @@ DEM_API double dem_model_omega_max(const dem_model *model);
  *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL if it is not found in 2000 iterations */
 DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
 
-/** Elastic constants of a body about its rest shape. Those with N/m are times the thickness, which a model does not
- *  know. */
+/** Elastic constants of a body about its rest shape, read as a plate in plane stress: a solid in plane strain has
+ *  E/(1 - nu^2) and nu/(1 - nu). */
 typedef struct dem_constants {
-    double stiffness[3][3];    /**< C in s = C e, N/m: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
-    double youngs_modulus;     /**< E h, N/m, of the isotropic plate nearest to C: the average over all directions */
-    double poissons_ratio;     /**< nu of the same, in plane stress */
+    double stiffness[3][3];    /**< C in s = C e, Pa: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
+    double youngs_modulus;     /**< E, Pa, of the isotropic plate nearest to C: the average over all directions */
+    double poissons_ratio;     /**< nu of the same */
     double anisotropy;         /**< largest over smallest Young's modulus along a direction; 1: isotropic */
-    double longitudinal_speed; /**< m/s, of long waves, with E h, nu and the mass per area */
+    double longitudinal_speed; /**< m/s, of long waves, with E, nu and the density */
     double transverse_speed;   /**< m/s */
-    double area;               /**< m^2, of the triangles */
+    double volume;             /**< m^3, of the triangles */
 } dem_constants;
 
 /** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
  *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
- *  area of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  volume of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
  *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
  *  \param body  0 <= body < n_bodies
  *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
@@ -474,6 +465,16 @@ typedef struct dem_strain {
     dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
+/** Bodies that run into each other, or into themselves: nothing prevents it, contact is with obstacles only. Nodes on
+ *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
+ *  every 16th accepted step. */
+typedef struct dem_overlap {
+    dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
+    double t;                 /**< s, of the first; 0 without one */
+    dem_index node, triangle; /**< of the first; -1 without one */
+    double x[2];              /**< m, where that node was */
+} dem_overlap;
+
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
@@ -504,6 +505,8 @@ DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *for
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
  *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
 DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+
+DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
 
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 
@@ -594,5 +597,4 @@ DEM_API dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_in
 #ifdef __cplusplus
 }
 #endif
-
 #endif

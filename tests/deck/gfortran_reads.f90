@@ -80,11 +80,11 @@ contains
   end subroutine
 
   subroutine read_contact()
-    character(4096) :: method
+    character(4096) :: method, overlap
     real(dp) :: window, skin, rest_speed
     logical :: vertices
     integer :: max_impacts
-    namelist /contact/ method, window, vertices, skin, rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, overlap, skin, rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 
