@@ -198,9 +198,6 @@ static void check_pores(const schema_instance *group, namelist_errors *errors)
     if (schema_real(group, "number") > PORES_MAX)
         namelist_errors_add(errors, schema_place(group, "number"), "'number' in &pores must be at most %d, got %.0f",
                             PORES_MAX, schema_real(group, "number"));
-    if (schema_real(group, "porosity") >= 1.0)
-        namelist_errors_add(errors, schema_place(group, "porosity"), "'porosity' in &pores must be less than 1, got %g",
-                            schema_real(group, "porosity"));
     if (number && porosity)
         namelist_errors_add(errors, schema_place(group, "porosity"), "'porosity' in &pores does not go with 'number'");
     else if (!number && !porosity && !faulty)

@@ -95,7 +95,7 @@ static const schema_key pores_keys[] = {
      "Number of the body that has the pores, in the order of the deck.", NULL},
     {"number", SCHEMA_INTEGER, 1, 1, "-", NONE, ">= 1", NULL, PHYSICS,
      "Number of round pores; it or the porosity must be given.", "3"},
-    {"porosity", SCHEMA_REAL, 1, 1, "-", NONE, "> 0", NULL, PHYSICS,
+    {"porosity", SCHEMA_REAL, 1, 1, "-", NONE, "(0, 1)", NULL, PHYSICS,
      "Area of the pores over that of the body, less its voids, without them: the nearest number of pores.", NULL},
     {"radius", SCHEMA_REAL, 2, 2, "m", REQUIRED, "> 0", NULL, PHYSICS, "Smallest and largest radius.", "0.006, 0.007"},
     {"distribution", SCHEMA_CHOICE, 1, 1, "-", "'uniform'", ANY, "uniform|lognormal|normal", PHYSICS,

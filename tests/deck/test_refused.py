@@ -502,7 +502,7 @@ DECKS = [
     ("pores with a number and a porosity", BASE + "&pores number = 1, porosity = 0.1, radius = 5e-3, 6e-3 /\n",
      ["27:20 'porosity' in &pores does not go with 'number'"]),
     ("porosity of 1", BASE + "&pores porosity = 1, radius = 5e-3, 6e-3 /\n",
-     ["27:8 'porosity' in &pores must be less than 1, got 1"]),
+     ["27:19 'porosity' in &pores must be in (0, 1), got 1"]),
     ("porosity that needs too many pores", BASE + "&pores porosity = 0.1, radius = 2*1e-5 /\n",
      ["27:8 'porosity' in &pores, 0.1, needs more than 10000 pores of such radii in body 1"]),
     ("porosity that finds no place", BASE + "&pores porosity = 0.5, radius = 5e-3, 6e-3, wall = 1e-3 /\n",

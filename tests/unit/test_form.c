@@ -290,7 +290,6 @@ static void pores_have_a_number_or_a_porosity(void **state)
     assert_checked(BLOCK "&pores number = 3, radius = 1.1, 1 /", 2, "radius");
     assert_checked(BLOCK "&pores radius = 1, 1 /", 2, "must be given");
     assert_checked(BLOCK "&pores number = 3, porosity = 0.3, radius = 1, 1 /", 2, "does not go with");
-    assert_checked(BLOCK "&pores porosity = 1, radius = 1, 1 /", 2, "less than 1");
     assert_checked(BLOCK "&pores number = 1, radius = 1, 1, mean = 1 /", 2, "'mean' in &pores is not used");
 }
 
