@@ -28,8 +28,8 @@ typedef struct body_start {
     double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */
     double x[2];        /* of the node, m */
     double rest_length; /* m, of its shortest spring; infinity without springs */
-    double shift[2];    /* m, of its own origin, with the clearance */
     clearance_spike spike;
+    double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
 } body_start;
 
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.
@@ -39,9 +39,6 @@ bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, si
 /* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `skin`, m. Returns false only when
  * memory runs out. */
 bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors);
-
-/* Turn of a body, rad. */
-double body_angle(const schema_instance *body);
 
 /* Path of the lattice file of a body of shape 'file', malloc'ed; NULL when memory runs out. */
 char *body_file(const body_scene *scene, const schema_instance *body);

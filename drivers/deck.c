@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "body.h"
+#include "loading.h"
 #include "probes.h"
 #include "profile.h"
 #include "schema.h"
@@ -236,6 +237,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     body_check_all(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
         check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
+    loading_check_all(groups, errors);
     probes_check(groups, errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
@@ -300,6 +302,9 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     const schema_instance *run = schema_get(groups, "run", 0), *output = schema_get(groups, "output", 0);
     set_options(&d->options, groups);
     d->t_end = schema_real(run, "t_end");
+    d->residual = schema_real(run, "residual");
+    d->closure = schema_real(output, "closure");
+    d->stop_at_overlap = strcmp(schema_text(schema_get(groups, "contact", 0), "overlap"), "stop") == 0;
     d->frame_interval = schema_real(output, "frame_interval");
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
@@ -447,13 +452,13 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     return true;
 }
 
-static bool set_probes(deck *d, const schema_deck *groups, const probes_body *bodies, namelist_errors *errors)
+static bool set_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "probe");
     d->probes = calloc(n + 1, sizeof *d->probes);
     if (d->probes == NULL) return false;
     d->n_probes = (dem_index)n;
-    return errors->n > 0 || probes_find(d->probes, groups, &d->lattice, bodies, errors);
+    return probes_find(d->probes, groups, &d->lattice, bodies, errors);
 }
 
 static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, namelist_errors *errors)
@@ -465,18 +470,24 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
     const size_t n = schema_count(groups, "body");
     body_start *starts = calloc(n + 1, sizeof *starts);
-    probes_body *bodies = calloc(n + 1, sizeof *bodies);
-    bool good = starts != NULL && bodies != NULL;
+    placement *places = calloc(n + 1, sizeof *places);
+    bool good = starts != NULL && places != NULL;
     for (size_t k = 0; k < n && good; k++) {
-        bodies[k].first = d->lattice.n_nodes;
+        const dem_index first = d->lattice.n_nodes;
         good = set_body(d, &starts[k], &scene, k, errors);
-        bodies[k].end = d->lattice.n_nodes;
-        bodies[k].angle = body_angle(schema_get(groups, "body", k));
-        memcpy(bodies[k].shift, starts[k].shift, sizeof bodies[k].shift);
+        places[k] = (placement){.first = first,
+                                .n_nodes = d->lattice.n_nodes - first,
+                                .angle = starts[k].angle,
+                                .offset = {starts[k].offset[0], starts[k].offset[1]}};
     }
-    good = good && check_starts(d, starts, &scene, errors) && set_probes(d, groups, bodies, errors);
-    free(bodies);
+    good = good && check_starts(d, starts, &scene, errors);
+    if (good && errors->n == 0)
+        good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
+    if (good && errors->n == 0) good = set_probes(d, groups, places, errors);
+    d->options.boundaries = d->boundaries;
+    d->options.n_boundaries = d->n_boundaries;
     free(starts);
+    free(places);
     return good;
 }
 
@@ -486,6 +497,7 @@ static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *erro
 {
     char *folder = folder_of(d->path);
     body_drop_unused(groups);
+    loading_drop_unused(groups);
     uses_drop(groups, &profile_uses);
     bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
     if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);
@@ -536,6 +548,7 @@ void deck_free(deck *d)
     free(d->obstacles);
     probes_free(d->probes, (size_t)d->n_probes);
     dem_lattice_free(&d->lattice);
+    loading_free(d->boundaries, d->n_boundaries);
     free(d->path);
     free(d->source);
     free(d->echo);

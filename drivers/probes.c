@@ -81,39 +81,49 @@ static double distance(const double *a, const double *b)
     return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-static dem_index nearest_node(const dem_lattice *l, const probes_body *b, const double at[2])
+/* From the middle between nodes i and j, which may be the same, to a place in the body's own coordinates. */
+static double distance_to(const dem_lattice *l, const placement *body, dem_index i, dem_index j, const double at[2])
 {
-    dem_index nearest = b->first;
-    for (dem_index i = b->first; i < b->end; i++)
-        if (distance(l->x + 2 * i, at) < distance(l->x + 2 * nearest, at)) nearest = i;
-    return nearest;
+    const double *a = l->x + 2 * i, *b = l->x + 2 * j, middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+    double own[2];
+    placement_own(body, middle, own);
+    return distance(own, at);
 }
 
-static double distance_to_spring(const dem_lattice *l, dem_index k, const double at[2])
-{
-    const double *a = l->x + 2 * l->ends[2 * k], *b = l->x + 2 * l->ends[2 * k + 1];
-    const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-    return distance(middle, at);
-}
-
-/* -1 in a body without springs. */
-static dem_index nearest_spring(const dem_lattice *l, const probes_body *b, const double at[2])
+static dem_index nearest_node(const dem_lattice *l, const placement *body, const double at[2])
 {
     dem_index nearest = -1;
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        if (l->ends[2 * k] < b->first || l->ends[2 * k] >= b->end) continue;
-        if (nearest < 0 || distance_to_spring(l, k, at) < distance_to_spring(l, nearest, at)) nearest = k;
+    double least = (double)INFINITY;
+    for (dem_index i = body->first; i < body->first + body->n_nodes; i++) {
+        const double d = distance_to(l, body, i, i, at);
+        if (d >= least) continue;
+        nearest = i;
+        least = d;
     }
     return nearest;
 }
 
-static void find_nearest(dem_probe *p, const schema_instance *probe, const dem_lattice *lattice,
-                         const probes_body *body)
+/* -1 in a body without springs. */
+static dem_index nearest_spring(const dem_lattice *l, const placement *body, const double at[2])
 {
-    const double *place = schema_value_of(probe, "place")->reals, c = cos(body->angle), s = sin(body->angle);
+    dem_index nearest = -1;
+    double least = (double)INFINITY;
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index *ends = l->ends + 2 * k;
+        if (ends[0] < body->first || ends[0] >= body->first + body->n_nodes) continue;
+        const double d = distance_to(l, body, ends[0], ends[1], at);
+        if (d >= least) continue;
+        nearest = k;
+        least = d;
+    }
+    return nearest;
+}
+
+static void find_nearest(dem_probe *p, const schema_instance *probe, const dem_lattice *lattice, const placement *body)
+{
+    const double *place = schema_value_of(probe, "place")->reals;
     for (int k = 0; k < count_ends(probe); k++) {
-        const double x = place[2 * k], y = place[2 * k + 1];
-        const double at[2] = {c * x - s * y + body->shift[0], s * x + c * y + body->shift[1]};
+        const double *at = place + 2 * k;
         p->number[k] =
             p->kind == DEM_PROBE_SPRING ? nearest_spring(lattice, body, at) : nearest_node(lattice, body, at);
     }
@@ -140,7 +150,7 @@ static void check_found(const dem_probe *p, const schema_instance *probe, const 
                         (long long)p->number[0]);
 }
 
-bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *lattice, const probes_body *bodies,
+bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *lattice, const placement *bodies,
                  namelist_errors *errors)
 {
     for (size_t k = 0; k < schema_count(groups, "probe"); k++) {

@@ -5,14 +5,8 @@
 
 #include <dem/trajectory.h>
 
+#include "placement.h"
 #include "schema.h"
-
-/* Where the bodies of the deck are in its lattice. */
-typedef struct probes_body {
-    dem_index first, end; /* nodes first .. end - 1 */
-    double angle;         /* from its own coordinates to those of space: turned, rad, */
-    double shift[2];      /* then shifted, m */
-} probes_body;
 
 /* What can be said without geometry. */
 void probes_check(const schema_deck *groups, namelist_errors *errors);
@@ -21,7 +15,7 @@ void probes_check(const schema_deck *groups, namelist_errors *errors);
  * out. Free with probes_free in any case.
  * \param[out] out     [number of &probe groups]
  * \param      bodies  [number of &body groups] */
-bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *lattice, const probes_body *bodies,
+bool probes_find(dem_probe *out, const schema_deck *groups, const dem_lattice *lattice, const placement *bodies,
                  namelist_errors *errors);
 void probes_free(dem_probe *probes, size_t n);
 

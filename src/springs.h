@@ -65,6 +65,10 @@ static inline void springs_virial(const dem_lattice *lattice, dem_index k, const
     virial[2] = tension * d.x * d.y;
 }
 
+/** Minus the change of the force on node i, N, when the nodes move from x by u: the stiffness of the springs, that of
+ *  their turning under tension included. */
+vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
+
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, dem_index i, const double *x);
 

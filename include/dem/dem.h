@@ -152,6 +152,14 @@ DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocit
 /** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
 DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
 
+/** What each of some nodes has of the boundary edges between them, half of each edge: by its length in the rest shape,
+ *  or, along a unit `direction` [2], by the length of its projection on that. For tractions: dem_boundary's share.
+ *  \param nodes        [n] distinct
+ *  \param direction    may be NULL
+ *  \param[out] length  [n] m, sum over the nodes: length of the edges */
+DEM_API dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
+                                           const double *direction, double *length);
+
 /** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
 DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);
 
@@ -218,6 +226,31 @@ DEM_API double dem_model_spacing(const dem_model *model);
  *  omega^2 <= max over nodes of |B_i| / m_i, B_i = 2 sum over springs of (E_ij/d0_ij) n n^T
  *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
 DEM_API double dem_model_omega_max(const dem_model *model);
+
+/** The highest angular frequency about the rest shape itself, rad/s, found by iteration from below, to 1e-6 of it or
+ *  better; 0 without springs. It takes some hundred evaluations of the forces.
+ *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL if it is not found in 2000 iterations */
+DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
+
+/** Elastic constants of a body about its rest shape, read as a plate in plane stress: a solid in plane strain has
+ *  E/(1 - nu^2) and nu/(1 - nu). */
+typedef struct dem_constants {
+    double stiffness[3][3];    /**< C in s = C e, Pa: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
+    double youngs_modulus;     /**< E, Pa, of the isotropic plate nearest to C: the average over all directions */
+    double poissons_ratio;     /**< nu of the same */
+    double anisotropy;         /**< largest over smallest Young's modulus along a direction; 1: isotropic */
+    double longitudinal_speed; /**< m/s, of long waves, with E, nu and the density */
+    double transverse_speed;   /**< m/s */
+    double volume;             /**< m^3, of the triangles */
+} dem_constants;
+
+/** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
+ *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
+ *  volume of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
+ *  \param body  0 <= body < n_bodies
+ *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out);
 
 /** Total mass, kg. */
 DEM_API double dem_model_mass(const dem_model *model);
@@ -426,6 +459,16 @@ typedef struct dem_strain {
     dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
+/** Bodies that run into each other, or into themselves: nothing prevents it, contact is with obstacles only. Nodes on
+ *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
+ *  every 16th accepted step. */
+typedef struct dem_overlap {
+    dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
+    double t;                 /**< s, of the first; 0 without one */
+    dem_index node, triangle; /**< of the first; -1 without one */
+    double x[2];              /**< m, where that node was */
+} dem_overlap;
+
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
@@ -459,6 +502,8 @@ DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *str
 
 /** The same of one node.  \param node  0 <= node < n_nodes */
 DEM_API void dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double stress[3]);
+
+DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
 
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 

@@ -11,21 +11,21 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"lattice_mesh", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
-    {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "uses", "probes"},
-    {"touch", "diagnostics", "integrator", "peaks_file"},
-    {"reaction", "books"},
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "placement", "pores", "profile"},
+    {"lattice_mesh", "surface", "obstacle", "overlap", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "loading", "probes", "uses"},
+    {"touch", "diagnostics", "integrator", "tangent", "peaks_file"},
+    {"reaction", "books", "spectrum", "constants"},
     {"site"},
     {"sites", "search"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
-    {"simulation", "output", "report"},
+    {"simulation", "output", "relaxation", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice"), ("shape", "pores"),
-          ("pores", "shape"), ("body", "uses")}
+          ("pores", "shape"), ("body", "uses"), ("loading", "uses")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),

@@ -60,7 +60,7 @@ static void a_gauge_has_two_ends_and_others_one(void **state)
 /* Two blocks of 3 m x 2 rows: the first at rest in its own coordinates, the second turned by 90 degrees and shifted. */
 typedef struct scene {
     dem_lattice lattice;
-    probes_body bodies[2];
+    placement bodies[2];
     resolved deck;
     dem_probe *probes;
     size_t n;
@@ -76,8 +76,8 @@ static void find(scene *s, const char *groups)
     dem_lattice_move(&second, acos(-1.0) / 2.0, shift);
     assert_int_equal(dem_lattice_append(&s->lattice, &second), DEM_OK);
     dem_lattice_free(&second);
-    s->bodies[0] = (probes_body){.first = 0, .end = 7};
-    s->bodies[1] = (probes_body){.first = 7, .end = 14, .angle = acos(-1.0) / 2.0, .shift = {10.0, 20.0}};
+    s->bodies[0] = (placement){.first = 0, .n_nodes = 7};
+    s->bodies[1] = (placement){.first = 7, .n_nodes = 7, .angle = acos(-1.0) / 2.0, .offset = {10.0, 20.0}};
     (void)snprintf(text, sizeof text, HEAD "%s", groups);
     s->deck = resolve_clean(text);
     s->n = schema_count(&s->deck.deck, "probe");
