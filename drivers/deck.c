@@ -13,6 +13,7 @@
 #include "body.h"
 #include "file.h"
 #include "loading.h"
+#include "probes.h"
 #include "profile.h"
 #include "schema.h"
 #include "uses.h"
@@ -216,6 +217,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
         check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
     loading_check_all(groups, errors);
+    probes_check(groups, errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
 }
@@ -255,6 +257,25 @@ static void set_options(dem_options *options, const schema_deck *groups)
     if (schema_value_of(contact, "window")->given) options->window = schema_real(contact, "window");
 }
 
+static uint32_t fields_of(const schema_value *names)
+{
+    static const struct {
+        const char *name;
+        uint32_t field;
+    } all[] = {{"displacement", DEM_FIELD_DISPLACEMENT},
+               {"velocity", DEM_FIELD_VELOCITY},
+               {"stress", DEM_FIELD_STRESS},
+               {"von_mises", DEM_FIELD_VON_MISES},
+               {"principal", DEM_FIELD_PRINCIPAL},
+               {"strain", DEM_FIELD_STRAIN},
+               {"force", DEM_FIELD_FORCE}};
+    uint32_t fields = 0;
+    for (int k = 0; k < names->count; k++)
+        for (size_t f = 0; f < sizeof all / sizeof *all; f++)
+            if (strcmp(names->texts[k], all[f].name) == 0) fields |= all[f].field;
+    return fields;
+}
+
 static bool set_scalars(deck *d, const schema_deck *groups)
 {
     const schema_instance *run = schema_get(groups, "run", 0), *output = schema_get(groups, "output", 0);
@@ -267,6 +288,9 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
     d->events = schema_real(output, "events") != 0.0;
+    d->fields = fields_of(schema_value_of(output, "fields"));
+    d->peak_every = (dem_index)schema_real(output, "peak_every");
+    d->most_stressed = (dem_index)schema_real(output, "most_stressed");
     d->title = strdup(schema_text(run, "title"));
     d->name = strdup(schema_text(output, "name"));
     return d->title != NULL && d->name != NULL;
@@ -407,6 +431,15 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     return true;
 }
 
+static bool set_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
+{
+    const size_t n = schema_count(groups, "probe");
+    d->probes = calloc(n + 1, sizeof *d->probes);
+    if (d->probes == NULL) return false;
+    d->n_probes = (dem_index)n;
+    return probes_find(d->probes, groups, &d->lattice, bodies, errors);
+}
+
 static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, namelist_errors *errors)
 {
     const body_scene scene = {.groups = groups,
@@ -416,21 +449,22 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
     const size_t n = schema_count(groups, "body");
     body_start *starts = calloc(n + 1, sizeof *starts);
-    loading_body *places = calloc(n + 1, sizeof *places);
+    placement *places = calloc(n + 1, sizeof *places);
     d->bodies = calloc(n + 1, sizeof *d->bodies);
     d->n_bodies = n;
     bool good = starts != NULL && places != NULL && d->bodies != NULL;
     for (size_t k = 0; k < n && good; k++) {
         const dem_index first = d->lattice.n_nodes;
         good = set_body(d, &starts[k], &scene, k, errors);
-        places[k] = (loading_body){.first = first,
-                                   .n_nodes = d->lattice.n_nodes - first,
-                                   .angle = starts[k].angle,
-                                   .offset = {starts[k].offset[0], starts[k].offset[1]}};
+        places[k] = (placement){.first = first,
+                                .n_nodes = d->lattice.n_nodes - first,
+                                .angle = starts[k].angle,
+                                .offset = {starts[k].offset[0], starts[k].offset[1]}};
     }
     good = good && check_starts(d, starts, &scene, errors);
     if (good && errors->n == 0)
         good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
+    if (good && errors->n == 0) good = set_probes(d, groups, places, errors);
     d->options.boundaries = d->boundaries;
     d->options.n_boundaries = d->n_boundaries;
     free(starts);
@@ -493,6 +527,7 @@ void deck_free(deck *d)
 {
     for (dem_index k = 0; k < d->n_obstacles; k++) free((void *)d->obstacles[k].points);
     free(d->obstacles);
+    probes_free(d->probes, (size_t)d->n_probes);
     dem_lattice_free(&d->lattice);
     free(d->bodies);
     loading_free(d->boundaries, d->n_boundaries);

@@ -4,7 +4,7 @@
 #ifndef DEM_DECK_H
 #define DEM_DECK_H
 
-#include <dem/dem.h>
+#include <dem/trajectory.h>
 
 #include "body.h"
 #include "namelist.h"
@@ -37,6 +37,11 @@ typedef struct deck {
     dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` */
     double frame_interval; /* s */
     int double_precision, deflate, events;
+    uint32_t fields;         /* DEM_FIELD_... */
+    dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
+    dem_index most_stressed; /* that are listed */
+    dem_probe *probes;       /* [n_probes] */
+    dem_index n_probes;
 } deck;
 
 /* Reads and builds. Faults of syntax, of keys and of their meaning are reported together; geometry is built only where

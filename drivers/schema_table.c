@@ -214,6 +214,28 @@ static const schema_key output_keys[] = {
     {"closure", SCHEMA_REAL, 1, 1, "-", "1e-2", "> 0", NULL, false,
      "The log warns when the energy ledger is open by this share of the largest energy of motion and strain so far.",
      NULL},
+    {"fields", SCHEMA_CHOICE, 1, 0, "-", "'displacement', 'velocity', 'stress', 'von_mises', 'strain', 'force'", ANY,
+     "displacement|velocity|stress|von_mises|principal|strain|force", false,
+     "What the frames show, beside the positions: the first five of nodes, the last two of springs.", NULL},
+    {"peak_every", SCHEMA_INTEGER, 1, 1, "-", "4", ">= 0", NULL, false,
+     "Accepted steps from one look for the largest stresses and strains of the run to the next; 0: no looks.", NULL},
+    {"most_stressed", SCHEMA_INTEGER, 1, 1, "-", "5", "[0, 1000]", NULL, false,
+     "How many of the most stressed nodes and most strained springs of the run are listed.", NULL},
+};
+
+static const schema_key probe_keys[] = {
+    {"name", SCHEMA_STRING, 1, 1, "-", REQUIRED, ANY, NULL, false,
+     "Name of the table in the output, /probes/NAME: letters, digits, '_' and '-'.", "'above_the_void'"},
+    {"kind", SCHEMA_CHOICE, 1, 1, "-", "'node'", ANY, "node|spring|gauge", false,
+     "A node, a spring, or a gauge: the distance between two nodes.", NULL},
+    {"place", SCHEMA_REAL, 2, 4, "m", NONE, ANY, NULL, false,
+     "The node or spring nearest to this place, x and y in the body's own coordinates; of a gauge two places.",
+     "0, 0.05"},
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, false,
+     "Number of the body that has the place, in the order of the deck.", NULL},
+    {"number", SCHEMA_INTEGER, 1, 2, "-", NONE, ">= 0", NULL, false,
+     "Instead of a place: number of the node or spring in the output, from 0; of a gauge two nodes.", NULL},
+    {"every", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, false, "Accepted steps from one row to the next.", NULL},
 };
 
 #define KEYS(keys) (int)(sizeof(keys) / sizeof(keys)[0]), keys
@@ -234,6 +256,8 @@ static const schema_group groups[] = {
      "How nodes and edges of bodies touch obstacles; free ends of open polylines touch no edges.", KEYS(contact_keys)},
     {"solver", false, false, "Integration in time.", KEYS(solver_keys)},
     {"output", false, false, "Files written, and the log.", KEYS(output_keys)},
+    {"probe", false, true, "A table over time in the output, of a node, a spring or a gauge; one group for each.",
+     KEYS(probe_keys)},
 };
 
 const schema_group *schema_groups(int *n_groups)

@@ -359,6 +359,9 @@ DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *for
  *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
 DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
 
+/** The same of one node.  \param node  0 <= node < n_nodes */
+DEM_API void dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double stress[3]);
+
 DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
 
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);

@@ -98,10 +98,19 @@ contains
   subroutine read_output()
     character(4096) :: name, precision
     real(dp) :: frame_interval, closure
-    integer :: deflate
+    character(32) :: fields(7)
+    integer :: deflate, peak_every, most_stressed
     logical :: events
-    namelist /output/ name, frame_interval, precision, deflate, events, closure
+    namelist /output/ name, frame_interval, precision, deflate, events, closure, fields, peak_every, most_stressed
     read (unit, nml=output, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_probe()
+    character(4096) :: name, kind
+    real(dp) :: place(4)
+    integer :: body, number(2), every
+    namelist /probe/ name, kind, place, body, number, every
+    read (unit, nml=probe, iostat=status, iomsg=message)
   end subroutine
 
   !> Number of lines that begin with the group.
@@ -159,4 +168,5 @@ program gfortran_reads
   call read_all('contact', read_contact)
   call read_all('solver', read_solver)
   call read_all('output', read_output)
+  call read_all('probe', read_probe)
 end program

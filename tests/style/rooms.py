@@ -11,12 +11,13 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores",
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "placement", "pores",
      "profile", "file", "words", "image", "outline"},
     {"lattice_mesh", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts", "clearance", "grid", "table", "pgm", "png",
      "msh", "crack"},
-    {"model", "peaks", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "uses", "mask"},
-    {"touch", "diagnostics", "integrator", "tangent", "shape", "loading"},
+    {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table", "schema_print",
+     "uses", "mask"},
+    {"touch", "diagnostics", "integrator", "tangent", "peaks_file", "shape", "loading", "probes"},
     {"reaction", "books", "spectrum", "constants", "area"},
     {"site", "form"},
     {"sites", "search", "body"},

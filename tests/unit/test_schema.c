@@ -314,6 +314,9 @@ static void numbers_of_values_are_checked(void **state)
                        "1:44 'radius' in &body expects 1 value, got 3");
     assert_errors(RUN MATERIAL BODY "&obstacle points = 1, 2 /",
                   "4:11 'points' in &obstacle expects at least 4 values, got 2");
+    assert_errors(RUN MATERIAL BODY "&probe name = 'a', place = 1, number = 1, 2, 3 /",
+                  "4:20 'place' in &probe expects 2 to 4 values, got 1\n"
+                  "4:31 'number' in &probe expects 1 to 2 values, got 3");
 }
 
 static void the_number_of_values_comes_before_their_ranges(void **state)
