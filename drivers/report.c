@@ -311,18 +311,35 @@ static void print_bodies(FILE *out, const deck *d)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
 }
 
+/* Tables grow by whole chunks. */
+static double table_bytes(double rows, double width)
+{
+    return 8.0 * width * 1024.0 * ceil(rows / 1024.0);
+}
+
+/* Of the history and the probes, in numbers a row. */
+static double tables_bytes(const deck *d, const dem_model_size *size, double steps)
+{
+    static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
+    const double bytes = table_bytes(steps, 35.0 + 5.0 * (double)size->n_bodies + 9.0 * (double)size->n_obstacles +
+                                                4.0 * (double)d->n_boundaries);
+    double of_probes = 0.0;
+    for (dem_index k = 0; k < d->n_probes; k++)
+        of_probes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
+    return bytes + of_probes;
+}
+
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_options o = dem_simulation_options(simulation);
     const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
-    const double history_bytes = 8.0 * (30.0 + 5.0 * (double)size.n_bodies + 9.0 * (double)size.n_obstacles);
     const double state_bytes = (double)size.n_nodes * (4.0 * 8.0 * 24.0 + 300.0) + (double)size.n_springs * 2.0 * 44.0;
     (void)fprintf(
         out,
-        "estimate   at least %.0f steps of %d evaluations, %.0f frames, up to %.3g MB of output, %.3g MB of memory\n",
-        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes(d, &size) + steps * history_bytes),
-        1e-6 * state_bytes);
+        "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output, %.3g MB of memory\n",
+        steps, evaluations_per_step(o.method), frames,
+        1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)), 1e-6 * state_bytes);
 }
 
 static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
