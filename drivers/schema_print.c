@@ -125,6 +125,18 @@ static bool stays_not_given(const schema_key *key)
     return key->initial != NULL && key->initial[0] == '\0';
 }
 
+/* Many choices take several lines. */
+static void print_choices(FILE *file, const char *choices)
+{
+    size_t width = 0;
+    for (const char *c = choices; *c != '\0'; c++) {
+        (void)fputc(*c, file);
+        if (++width < 80 || *c != '|') continue;
+        (void)fprintf(file, "\n    !     ");
+        width = 0;
+    }
+}
+
 static void print_facts(FILE *file, const schema_key *key)
 {
     (void)fprintf(file, "    ! [%s", type_names[key->type]);
@@ -132,7 +144,10 @@ static void print_facts(FILE *file, const schema_key *key)
     if (key->max_count > 1) (void)fprintf(file, "s, %d of them", key->max_count);
     if (strcmp(key->unit, "-") != 0) (void)fprintf(file, ", %s", key->unit);
     if (key->range[0] != '\0') (void)fprintf(file, ", %s%s", key->range[0] == '[' ? "in " : "", key->range);
-    if (key->choices != NULL) (void)fprintf(file, ", %s", key->choices);
+    if (key->choices != NULL) {
+        (void)fprintf(file, ", ");
+        print_choices(file, key->choices);
+    }
     if (is_required(key))
         (void)fprintf(file, "; must be given");
     else if (!stays_not_given(key))

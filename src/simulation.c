@@ -13,7 +13,9 @@
 
 enum { max_observers = 8 };
 
-static const double window_share = 0.1; /* of 1/omega_max: default window, by the table in docs/method.md */
+static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
+static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
+static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/method.md */
 
 typedef struct watcher {
     dem_observer observer;
@@ -286,9 +288,14 @@ static dem_status fill_options(dem_simulation *s)
     dem_options *o = &s->options;
     if (o->spacing == 0.0) o->spacing = s->model->spacing;
     CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
     if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
-    if (o->max_step == 0.0 && s->model->omega_max > 0.0) o->max_step = 0.5 / fmax(s->model->omega_max, damping_rate(s));
+    if (o->max_step == 0.0 && s->model->omega_max > 0.0)
+        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) /
+                      fmax(s->model->omega_max, damping_rate(s));
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
+    if (!method.adaptive) o->fixed_step = o->max_step;
     if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
     if (o->window < 0.0)
         o->window = s->model->omega_max > 0.0 ? window_share * fmin(1.0 / s->model->omega_max, 2.0 * o->max_step) : 0.0;

@@ -11,7 +11,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
+    {"lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file", "scan", "namelist", "pores", "profile"},
     {"lattice_mesh", "surface", "obstacle", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
     {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "uses"},
     {"touch", "diagnostics", "integrator"},
@@ -27,7 +27,7 @@ LAYERS = [
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice"), ("shape", "pores"),
           ("pores", "shape"), ("body", "uses")}
 ROOMS = [  # pattern, files that may have it
-    (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
+    (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
     (r'#include [<"]gsl/', {"drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
