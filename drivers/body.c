@@ -88,6 +88,11 @@ static void hint_material(char *out, size_t size, const schema_deck *groups, con
     if (count > MATERIALS_LISTED) (void)snprintf(out + length, size - length, ", ...");
 }
 
+static bool is_in_plane_strain(const schema_instance *material)
+{
+    return strcmp(schema_text(material, "plane"), "strain") == 0;
+}
+
 static bool has_faulty_name(const schema_deck *groups)
 {
     for (size_t k = 0; k < schema_count(groups, "material"); k++)
@@ -127,6 +132,18 @@ static void check_names(const schema_deck *groups, namelist_errors *errors)
         if (first != material && !has_faulty_name(groups))
             namelist_errors_add(errors, place_of(material, "name"), "material '%.40s' is given twice, first in line %d",
                                 schema_text(material, "name"), first->place.line);
+    }
+}
+
+/* The table's range is that of plane stress. */
+static void check_ratios(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const schema_instance *material = schema_get(groups, "material", k);
+        const double ratio = schema_real(material, "poissons_ratio");
+        if (is_in_plane_strain(material) && ratio >= 0.5)
+            namelist_errors_add(errors, place_of(material, "poissons_ratio"),
+                                "'poissons_ratio' in &material must be < 0.5 in plane strain, got %g", ratio);
     }
 }
 
@@ -315,6 +332,8 @@ static dem_status make_mesh(builder *b)
     const schema_deck *groups = b->scene->groups;
     const schema_instance *m = find_material(groups, schema_text(b->body, "material"));
     const dem_material material = {.youngs_modulus = schema_real(m, "youngs_modulus"),
+                                   .poissons_ratio = schema_real(m, "poissons_ratio"),
+                                   .plane = is_in_plane_strain(m) ? DEM_PLANE_STRAIN : DEM_PLANE_STRESS,
                                    .density = schema_real(m, "density"),
                                    .thickness = schema_real(m, "thickness"),
                                    .guard = schema_real(m, "guard"),
@@ -490,6 +509,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
     check_names(groups, errors);
+    check_ratios(groups, errors);
     check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);

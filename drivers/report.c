@@ -42,8 +42,8 @@ static void follow_energy(report *r, const dem_state *state)
 {
     const dem_energy e = state->energy;
     if (state->t == 0.0) r->energy_start = dem_energy_ledger(e);
-    r->energy_max = fmax(r->energy_max, e.kinetic + e.elastic + e.guard);
-    const double share = r->energy_max > 0.0 ? (e.elastic + e.guard) / r->energy_max : 0.0;
+    r->energy_max = fmax(r->energy_max, dem_energy_motion(e));
+    const double share = r->energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->energy_max : 0.0;
     if (share <= r->elastic_share_max) return;
     r->elastic_share_max = share;
     r->elastic_share_t = state->t;
@@ -65,6 +65,7 @@ static void follow_strain(report *r, const dem_simulation *simulation, double t)
         r->area_min_t = t;
     }
     if (strain.guarded > r->guarded_max) r->guarded_max = strain.guarded;
+    if (strain.inverted > r->inverted_max) r->inverted_max = strain.inverted;
 }
 
 static void follow_contact(report *r, const dem_simulation *simulation, const dem_state *state)
@@ -279,8 +280,9 @@ static void print_strain(const report *r)
         (void)fprintf(r->out, "strain     largest %+.4f in spring %lld at %.4e s\n", r->strain_max.max,
                       (long long)r->strain_max.spring_max, r->strain_max_t);
     if (r->area_min < 1.0)
-        (void)fprintf(r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most\n",
-                      r->area_min, r->area_min_t, (long long)r->guarded_max);
+        (void)fprintf(
+            r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most, %lld inverted\n",
+            r->area_min, r->area_min_t, (long long)r->guarded_max, (long long)r->inverted_max);
 }
 
 /* What took energy, beside impacts, if it did. */
@@ -292,7 +294,7 @@ static void print_taken(FILE *out, const char *by, double energy)
 static void print_ledger(const report *r, dem_energy e)
 {
     (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->energy_start,
-                  e.kinetic + e.elastic + e.guard + e.gravity, e.impact);
+                  dem_energy_motion(e) + e.gravity, e.impact);
     print_taken(r->out, "friction", e.friction);
     print_taken(r->out, "damping", e.damping);
     (void)fprintf(r->out, " - projection %.3g; closure %+.2e\n", e.projection,
@@ -301,8 +303,8 @@ static void print_ledger(const report *r, dem_energy e)
 
 static void print_energy(const report *r, dem_energy e)
 {
-    (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, guard %.4g, gravity %.4g J\n", e.kinetic, e.elastic,
-                  e.guard, e.gravity);
+    (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, gravity %.4g J\n", e.kinetic,
+                  e.elastic, e.area, e.guard, e.gravity);
     print_ledger(r, e);
     (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
                   r->elastic_share_max, r->elastic_share_t);

@@ -10,16 +10,16 @@
 
 typedef struct report {
     FILE *out;
-    bool terminal;                             /* progress is rewritten in place */
-    double t_end;                              /* s */
-    double wall_start, wall_shown;             /* s */
-    double t_shown;                            /* s */
-    double energy_start;                       /* J, total at t = 0 */
-    double energy_max;                         /* J, largest kinetic + elastic + guard so far: what is compared */
+    bool terminal;                 /* progress is rewritten in place */
+    double t_end;                  /* s */
+    double wall_start, wall_shown; /* s */
+    double t_shown;                /* s */
+    double energy_start;           /* J, total at t = 0 */
+    double energy_max;             /* J, largest kinetic + elastic + area + guard so far: what is compared */
     double elastic_share_max, elastic_share_t; /* of energy_max as it was then */
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;
-    dem_index guarded_max;
+    dem_index guarded_max, inverted_max;
     bool touched;                       /* there was a contact */
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */

@@ -146,10 +146,10 @@ static bool type_fits(schema_type type, namelist_kind kind)
 
 static bool in_range(const char *range, double x)
 {
-    char *end;
-    if (range[0] == '[') {
-        const double low = strtod(range + 1, &end);
-        return x >= low && x <= strtod(end + 1, NULL);
+    if (range[0] == '[' || range[0] == '(') {
+        char *end;
+        const double low = strtod(range + 1, &end), high = strtod(end + 1, NULL);
+        return range[0] == '[' ? x >= low && x <= high : x > low && x < high;
     }
     if (range[0] != '>') return true;
     const bool equal = range[1] == '=';
@@ -205,7 +205,7 @@ static bool check_value(resolver *r, const assembly *a, const namelist_value *va
         return is_choice(r, a, value);
     } else if ((integer || key->type == SCHEMA_REAL) && !in_range(key->range, value->real)) {
         namelist_errors_add(r->errors, value->place, "'%s' in &%s must be %s%s, got %.40s", key->name, a->group->name,
-                            key->range[0] == '[' ? "in " : "", key->range, value->text);
+                            key->range[0] == '>' ? "" : "in ", key->range, value->text);
     } else if (integer && value->integer > max_integer) {
         namelist_errors_add(r->errors, value->place, "'%s' in &%s must be at most 2^53, got %.40s", key->name,
                             a->group->name, value->text);

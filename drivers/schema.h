@@ -16,7 +16,7 @@ typedef struct schema_key {
     int min_count, max_count; /* of values; max_count 0: any number */
     const char *unit;         /* "m", "Pa", "-" */
     const char *initial;      /* default as a deck would spell it; NULL: must be given; "": none, stays not given */
-    const char *range;        /* "> 0", ">= 0", "[0, 1]", ">= 1", "" any; applies to each value */
+    const char *range;        /* "> 0", ">= 1", "[0, 1]", "(0, 1)", "" any; applies to each value */
     const char *choices;      /* CHOICE: "a|b|c"; else NULL */
     bool physics;             /* part of what makes two decks the same problem */
     const char *sentence;     /* documentation */

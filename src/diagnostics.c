@@ -4,8 +4,8 @@
 
 dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v)
 {
-    dem_energy energy = {.elastic = springs_energy(&model->springs, x),
-                         .guard = triangles_energy(&model->triangles, x)};
+    dem_energy energy = {.elastic = springs_energy(&model->springs, x)};
+    triangles_energy(&model->triangles, x, &energy.area, &energy.guard);
     const vec2 g = {gravity[0], gravity[1]};
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const double m = model->lattice.mass[i];
@@ -54,6 +54,7 @@ static void measure_triangles(const dem_model *model, const double *x, dem_strai
         const double ratio = triangles_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
         strain->area_min = fmin(strain->area_min, ratio);
         strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
+        strain->inverted += ratio <= 0.0;
     }
 }
 
@@ -107,4 +108,51 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
     vec2_put(load.reaction, 0, sum);
     vec2_put(load.point, 0, vec2_add(mean, arm));
     return load;
+}
+
+/* What a prescribed component of a node's motion takes, N. */
+static vec2 held_force(const dem_model *model, const model_load *load, const boundary *b, dem_index i, const double *x,
+                       const double *v)
+{
+    const vec2 wanted = boundary_acceleration(b, v[load->clock]);
+    const vec2 force = vec2_scale(model->lattice.mass[i], vec2_sub(wanted, model_acceleration(model, load, i, x, v)));
+    return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
+}
+
+dem_boundary_load diagnostics_boundary(const dem_model *model, const model_load *load, const boundary *b,
+                                       const double *x, const double *v)
+{
+    dem_boundary_load out;
+    vec2 force = {0.0, 0.0}, way = {0.0, 0.0};
+    for (dem_index k = 0; k < b->n_nodes; k++) {
+        const dem_index i = b->nodes[k];
+        way = vec2_add(way, vec2_sub(vec2_at(x, i), vec2_at(model->lattice.position, i)));
+        force = b->kind == DEM_BOUNDARY_FORCE
+                    ? vec2_along(force, b->share[k] * boundary_ramp(b, v[load->clock]), b->value)
+                    : vec2_add(force, held_force(model, load, b, i, x, v));
+    }
+    vec2_put(out.force, 0, force);
+    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)b->n_nodes, way));
+    return out;
+}
+
+/* Largest force of a spring, N. */
+static double largest_force(const springs *s, const double *x)
+{
+    double largest = 0.0;
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            largest = fmax(largest, s->stiffness[p] * fabs(springs_strain(s, i, p, x)));
+    return largest;
+}
+
+double diagnostics_residual(const dem_model *model, double mass_damping, const path *p)
+{
+    double largest = 0.0;
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
+        const vec2 a = vec2_along(vec2_at(p->f1, p->n_nodes + i), mass_damping, vec2_at(p->y1, p->n_nodes + i));
+        if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(a));
+    }
+    const double scale = largest_force(&model->springs, p->y1);
+    return largest > 0.0 ? largest / scale : 0.0;
 }

@@ -4,8 +4,9 @@
 #define DEM_DIAGNOSTICS_H
 
 #include "model.h"
+#include "path.h"
 
-/** Kinetic, elastic, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
+/** Kinetic, elastic, area, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
 dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v);
 
 /** Power that damping takes, of springs and masses, W, >= 0. */
@@ -17,5 +18,12 @@ dem_strain diagnostics_strain(const dem_model *model, const double *x);
 
 /** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle);
+
+/** What a boundary does to its nodes in a state. */
+dem_boundary_load diagnostics_boundary(const dem_model *model, const model_load *load, const boundary *b,
+                                       const double *x, const double *v);
+
+/** Largest force without drag on a node that may move, at the end of a step, over the largest force of a spring. */
+double diagnostics_residual(const dem_model *model, double mass_damping, const path *p);
 
 #endif

@@ -2,7 +2,7 @@
 /* Which columns there are, and what fills them. */
 #include "history.h"
 
-enum { RUN, BODIES, OBSTACLES }; /* what a column tells of */
+enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column tells of */
 
 /* In the order in which history_record() fills a row. */
 static const table_column columns[] = {
@@ -10,16 +10,20 @@ static const table_column columns[] = {
     {"/history/h", HDF5_F64, RUN, 1},
     {"/history/kinetic", HDF5_F64, RUN, 1},
     {"/history/elastic", HDF5_F64, RUN, 1},
+    {"/history/area", HDF5_F64, RUN, 1},
     {"/history/guard", HDF5_F64, RUN, 1},
     {"/history/gravity", HDF5_F64, RUN, 1},
     {"/history/impact", HDF5_F64, RUN, 1},
     {"/history/friction", HDF5_F64, RUN, 1},
     {"/history/damping", HDF5_F64, RUN, 1},
     {"/history/projection", HDF5_F64, RUN, 1},
+    {"/history/boundary", HDF5_F64, RUN, 1},
+    {"/history/closure", HDF5_F64, RUN, 1},
     {"/history/strain_min", HDF5_F64, RUN, 1},
     {"/history/strain_max", HDF5_F64, RUN, 1},
     {"/history/area_min", HDF5_F64, RUN, 1},
     {"/history/guarded", HDF5_I64, RUN, 1},
+    {"/history/inverted", HDF5_I64, RUN, 1},
     {"/history/contacts", HDF5_I64, RUN, 1},
     {"/history/impacts", HDF5_I64, RUN, 1},
     {"/history/vertex_impacts", HDF5_I64, RUN, 1},
@@ -44,18 +48,21 @@ static const table_column columns[] = {
     {"/history/obstacle_impulse", HDF5_F64, OBSTACLES, 2},
     {"/history/obstacle_friction_impulse", HDF5_F64, OBSTACLES, 2},
     {"/history/obstacle_contacts", HDF5_I64, OBSTACLES, 1},
+    {"/history/boundary_force", HDF5_F64, BOUNDARIES, 2},
+    {"/history/boundary_displacement", HDF5_F64, BOUNDARIES, 2},
 };
 
-static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state)
+static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state, double closure)
 {
     const dem_energy *e = &state->energy;
     const dem_strain s = dem_simulation_strain(simulation);
     const dem_counts n = dem_simulation_counts(simulation);
-    const double reals[] = {state->t,    state->step, e->kinetic,    e->elastic, e->guard, e->gravity, e->impact,
-                            e->friction, e->damping,  e->projection, s.min,      s.max,    s.area_min};
-    const dem_index counts[] = {s.guarded,  state->n_contacts, n.impacts,  n.vertex_impacts, n.early,      n.closings,
-                                n.releases, n.slips,           n.sticks,   n.passings,       n.late,       n.behind,
-                                n.events,   n.steps,           n.rejected, n.retries,        n.evaluations};
+    const double reals[] = {state->t,   state->step, e->kinetic,  e->elastic, e->area,       e->guard,
+                            e->gravity, e->impact,   e->friction, e->damping, e->projection, e->boundary,
+                            closure,    s.min,       s.max,       s.area_min};
+    const dem_index counts[] = {s.guarded,  s.inverted, state->n_contacts, n.impacts,  n.vertex_impacts, n.early,
+                                n.closings, n.releases, n.slips,           n.sticks,   n.passings,       n.late,
+                                n.behind,   n.events,   n.steps,           n.rejected, n.retries,        n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }
@@ -87,10 +94,29 @@ static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulat
     return contacts;
 }
 
-dem_status history_init(history *out, const dem_model *model)
+static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simulation, dem_index n_boundaries)
 {
-    const dem_model_size size = dem_model_sizes(model);
-    const dem_index count[] = {size.n_bodies, size.n_obstacles};
+    table_cell *force = cell, *displacement = force + 2 * n_boundaries;
+    for (dem_index b = 0; b < n_boundaries; b++) {
+        const dem_boundary_load load = dem_simulation_boundary(simulation, b);
+        force = table_put_reals(force, load.force, 2);
+        displacement = table_put_reals(displacement, load.displacement, 2);
+    }
+    return displacement;
+}
+
+/* What the ledger has lost or gained since the first row, over the largest energy of motion and strain so far. */
+static double close_ledger(history *h, dem_energy e)
+{
+    if (h->table.written + h->table.buffered == 0) h->start = dem_energy_ledger(e);
+    h->largest = dem_energy_motion(e) > h->largest ? dem_energy_motion(e) : h->largest;
+    return h->largest > 0.0 ? (dem_energy_ledger(e) - h->start) / h->largest : 0.0;
+}
+
+dem_status history_init(history *out, const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_index count[] = {size.n_bodies, size.n_obstacles, dem_simulation_options(simulation).n_boundaries};
     *out = (history){.last = 0.0};
     return table_init(&out->table, columns, sizeof columns / sizeof columns[0], count);
 }
@@ -105,9 +131,11 @@ void history_record(history *h, const dem_simulation *simulation)
     dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     if (h->table.written + h->table.buffered > 0 && state.t == h->last) return;
+    const double closure = close_ledger(h, state.energy);
     table_cell *cell = table_add(&h->table);
-    cell = put_run(cell, simulation, &state);
+    cell = put_run(cell, simulation, &state, closure);
     cell = put_bodies(cell, simulation, (dem_index)h->table.count[BODIES]);
-    (void)put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
+    cell = put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
+    (void)put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);
     h->last = state.t;
 }

@@ -7,11 +7,13 @@
 
 typedef struct history {
     table table;
-    double last; /**< t of the last row, s */
+    double last;    /**< t of the last row, s */
+    double start;   /**< J, of the ledger in the first row */
+    double largest; /**< J, of dem_energy_motion() so far */
 } history;
 
 /** Free with history_free(). */
-dem_status history_init(history *out, const dem_model *model);
+dem_status history_init(history *out, const dem_simulation *simulation);
 void history_free(history *h);
 
 /** Appends the state as a row, unless there is a row of that instant. The table's buffer must have room. */

@@ -92,6 +92,7 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
     const dem_index n = lattice->n_triangles;
     lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
     pack(lattice->guard, sizeof *lattice->guard, n, whole);
+    pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
 }
 
 /* ---- moving ---- */
@@ -201,9 +202,14 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     out->triangles = join(a->triangles, n, b->triangles, m, 3 * sizeof *out->triangles);
     CHECK_MEMORY(out->triangles);
     for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
-    if (a->guard == NULL && b->guard == NULL) return DEM_OK;
-    out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
-    CHECK_MEMORY(out->guard);
+    if (a->guard != NULL || b->guard != NULL) {
+        out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
+        CHECK_MEMORY(out->guard);
+    }
+    if (a->area_stiffness != NULL || b->area_stiffness != NULL) {
+        out->area_stiffness = join(a->area_stiffness, n, b->area_stiffness, m, sizeof *out->area_stiffness);
+        CHECK_MEMORY(out->area_stiffness);
+    }
     return DEM_OK;
 }
 
@@ -252,6 +258,7 @@ void dem_lattice_free(dem_lattice *lattice)
     free(lattice->viscosity);
     free(lattice->triangles);
     free(lattice->guard);
+    free(lattice->area_stiffness);
     free(lattice->flags);
     free(lattice->body);
     free(lattice->position);
@@ -322,6 +329,26 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
         lattice->velocity[2 * i] += velocity[0];
         lattice->velocity[2 * i + 1] += velocity[1];
     }
+    return DEM_OK;
+}
+
+dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
+{
+    TRY(lattice_check(lattice));
+    CHECK(n >= 0 && (n == 0 || nodes != NULL), DEM_ERROR_ARGUMENT, "%lld nodes to exclude, the list is %s",
+          (long long)n, nodes != NULL ? "given" : "NULL");
+    for (dem_index k = 0; k < n; k++)
+        CHECK(nodes[k] >= 0 && nodes[k] < lattice->n_nodes, DEM_ERROR_ARGUMENT, "node %lld is not in 0 to %lld",
+              (long long)nodes[k], (long long)(lattice->n_nodes - 1));
+    if (lattice->flags == NULL) {
+        unsigned char *flags = lattice_zeros(lattice->n_nodes, sizeof *flags);
+        CHECK_MEMORY(flags);
+        const dem_status status = sides_contact_flags(flags, lattice);
+        if (status != DEM_OK) free(flags);
+        TRY(status);
+        lattice->flags = flags;
+    }
+    for (dem_index k = 0; k < n; k++) lattice->flags[nodes[k]] &= (unsigned char)~DEM_NODE_CONTACT;
     return DEM_OK;
 }
 

@@ -23,6 +23,7 @@ enum array {
     VISCOSITY,
     CORNERS,
     GUARD,
+    AREA_STIFFNESS,
     BODY,
     POSITION,
     VELOCITY,
@@ -47,6 +48,7 @@ static const struct dataset {
     [VISCOSITY] = {"/lattice/viscosity", HDF5_F64, SPRINGS, 1, 0},
     [CORNERS] = {"/lattice/triangles", HDF5_I64, TRIANGLES, 3, 0},
     [GUARD] = {"/lattice/guard", HDF5_F64, TRIANGLES, 1, 0},
+    [AREA_STIFFNESS] = {"/lattice/area_stiffness", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -220,7 +222,7 @@ static dem_status read_array(reader *r, enum array a)
 static herr_t check_name(hid_t group, const char *name, const H5L_info_t *info, void *context)
 {
     reader *r = context;
-    char known[160] = "", printable[41];
+    char known[192] = "", printable[41];
     size_t n = 0;
     (void)group, (void)info;
     for (int a = 0; a < N_ARRAYS; a++) {
@@ -258,8 +260,9 @@ static dem_status read_arrays(reader *r)
     if (!present) return refuse(r, "/lattice", "is missing");
     TRY(check_names(r));
     for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
-    if (r->data[GUARD] != NULL && r->data[CORNERS] == NULL)
-        return refuse(r, "/lattice/guard", "is there without triangles");
+    for (int a = 0; a < N_ARRAYS; a++)
+        if (datasets[a].of == TRIANGLES && r->data[a] != NULL && r->data[CORNERS] == NULL)
+            return refuse(r, datasets[a].name, "is there without triangles");
     return DEM_OK;
 }
 
@@ -304,6 +307,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->viscosity = r->data[VISCOSITY];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
+    lattice->area_stiffness = r->data[AREA_STIFFNESS];
     lattice->body = r->data[BODY];
     lattice->position = r->data[POSITION];
     lattice->velocity = r->data[VELOCITY];
@@ -381,6 +385,7 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, VISCOSITY, deflate, m, lattice->viscosity));
     TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
     TRY(write_array(file, GUARD, deflate, t, lattice->guard));
+    TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));
     TRY(write_array(file, VELOCITY, deflate, n, lattice->velocity));

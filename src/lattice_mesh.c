@@ -107,11 +107,22 @@ static bool is_positive(double value)
     return isfinite(value) && value > 0.0;
 }
 
+static dem_status check_ratio(const dem_material *material)
+{
+    const double nu = material->poissons_ratio, highest = material->plane == DEM_PLANE_STRAIN ? 0.5 : 1.0;
+    CHECK(material->plane == DEM_PLANE_STRESS || material->plane == DEM_PLANE_STRAIN, DEM_ERROR_ARGUMENT,
+          "plane is %d, which is neither stress nor strain", (int)material->plane);
+    CHECK(nu > -1.0 && nu < highest, DEM_ERROR_ARGUMENT, "Poisson's ratio must be in (-1, %g) in plane %s: %g", highest,
+          material->plane == DEM_PLANE_STRAIN ? "strain" : "stress", nu);
+    return DEM_OK;
+}
+
 static dem_status check_material(const dem_material *material)
 {
     CHECK(material != NULL, DEM_ERROR_ARGUMENT, "material is NULL");
     CHECK(is_positive(material->youngs_modulus), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: %g Pa",
           material->youngs_modulus);
+    TRY(check_ratio(material));
     CHECK(is_positive(material->density), DEM_ERROR_ARGUMENT, "density must be > 0: %g kg/m^3", material->density);
     CHECK(is_positive(material->thickness), DEM_ERROR_ARGUMENT, "thickness must be > 0: %g m", material->thickness);
     CHECK(isfinite(material->guard) && material->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g",
@@ -119,6 +130,30 @@ static dem_status check_material(const dem_material *material)
     CHECK(isfinite(material->damping_time) && material->damping_time >= 0.0, DEM_ERROR_ARGUMENT,
           "damping_time must be >= 0: %g s", material->damping_time);
     return DEM_OK;
+}
+
+/* The plate in plane stress that moves like the solid. */
+typedef struct plate {
+    double modulus, ratio; /* E h, N/m; nu */
+} plate;
+
+static plate plate_of(const dem_material *m)
+{
+    const double nu = m->poissons_ratio, modulus = m->youngs_modulus * m->thickness;
+    if (m->plane == DEM_PLANE_STRESS) return (plate){modulus, nu};
+    return (plate){modulus / (1.0 - nu * nu), nu / (1.0 - nu)};
+}
+
+/* 8/3 G h, which is E h at nu = 1/3, to the bit. */
+static double spring_modulus(plate p)
+{
+    return p.modulus * ((4.0 / 3.0) / (1.0 + p.ratio));
+}
+
+/* kappa = (lambda - G) h, which is 0 at nu = 1/3, to the bit. */
+static double area_modulus(plate p)
+{
+    return p.modulus * (3.0 * p.ratio - 1.0) / (2.0 * (1.0 - p.ratio * p.ratio));
 }
 
 static dem_status fill_masses(double *mass, const dem_lattice *lattice, const dem_material *material)
@@ -157,7 +192,7 @@ static void fill_springs(dem_lattice *solid, const sides *edges, const dem_latti
                 solid->ends[2 * k + 1] = j;
                 solid->rest_length[k] = length;
             }
-            solid->stiffness[k] += modulus * area_of(lattice, edges->list[p].triangle) / length; /* E h A/|e| */
+            solid->stiffness[k] += modulus * area_of(lattice, edges->list[p].triangle) / length; /* 8/3 G h A/|e| */
         }
 }
 
@@ -171,45 +206,56 @@ static dem_status fill_viscosity(dem_lattice *solid, double damping_time)
     return DEM_OK;
 }
 
+/* An array of one strength for all triangles; none where that is 0. */
+static dem_status fill_triangles(double **array, dem_index n_triangles, double strength)
+{
+    if (strength == 0.0) return DEM_OK;
+    *array = lattice_zeros(n_triangles, sizeof **array);
+    CHECK_MEMORY(*array);
+    for (dem_index t = 0; t < n_triangles; t++) (*array)[t] = strength;
+    return DEM_OK;
+}
+
+static void swap(double **a, double **b)
+{
+    double *const old = *a;
+    *a = *b;
+    *b = old;
+}
+
 /* Hands the arrays of a solid over; `solid` gets the old ones. */
 static void give(dem_lattice *lattice, dem_lattice *solid)
 {
-    const dem_lattice old = *lattice;
+    dem_index *const old = lattice->ends;
     lattice->n_springs = solid->n_springs;
-    lattice->mass = solid->mass;
     lattice->ends = solid->ends;
-    lattice->rest_length = solid->rest_length;
-    lattice->stiffness = solid->stiffness;
-    lattice->viscosity = solid->viscosity;
-    lattice->guard = solid->guard;
-    solid->mass = old.mass;
-    solid->ends = old.ends;
-    solid->rest_length = old.rest_length;
-    solid->stiffness = old.stiffness;
-    solid->viscosity = old.viscosity;
-    solid->guard = old.guard;
+    solid->ends = old;
+    swap(&lattice->mass, &solid->mass);
+    swap(&lattice->rest_length, &solid->rest_length);
+    swap(&lattice->stiffness, &solid->stiffness);
+    swap(&lattice->viscosity, &solid->viscosity);
+    swap(&lattice->guard, &solid->guard);
+    swap(&lattice->area_stiffness, &solid->area_stiffness);
 }
 
-/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, guard. */
+/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, area term, guard. */
 static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const dem_material *material)
 {
-    const double modulus = material->youngs_modulus * material->thickness; /* E h */
+    const plate p = plate_of(material);
     sides edges;
     solid->mass = lattice_zeros(lattice->n_nodes, sizeof *solid->mass);
     CHECK_MEMORY(solid->mass);
     TRY(fill_masses(solid->mass, lattice, material));
-    if (material->guard > 0.0) {
-        solid->guard = lattice_zeros(lattice->n_triangles, sizeof *solid->guard);
-        CHECK_MEMORY(solid->guard);
-        for (dem_index t = 0; t < lattice->n_triangles; t++) solid->guard[t] = material->guard * modulus;
-    }
+    TRY(fill_triangles(&solid->guard, lattice->n_triangles,
+                       material->guard * material->youngs_modulus * material->thickness));
+    TRY(fill_triangles(&solid->area_stiffness, lattice->n_triangles, area_modulus(p)));
     TRY(sides_create(&edges, lattice));
     solid->n_springs = count_edges(&edges, lattice->n_nodes);
     solid->ends = lattice_zeros(solid->n_springs, 2 * sizeof *solid->ends);
     solid->rest_length = lattice_zeros(solid->n_springs, sizeof *solid->rest_length);
     solid->stiffness = lattice_zeros(solid->n_springs, sizeof *solid->stiffness);
     const bool complete = solid->ends != NULL && solid->rest_length != NULL && solid->stiffness != NULL;
-    if (complete) fill_springs(solid, &edges, lattice, modulus);
+    if (complete) fill_springs(solid, &edges, lattice, spring_modulus(p));
     sides_free(&edges);
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)solid->n_springs);
     return fill_viscosity(solid, material->damping_time);

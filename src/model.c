@@ -64,6 +64,8 @@ static dem_status check_triangles(const dem_lattice *l)
               (long long)k, (long long)c[0], (long long)c[1], (long long)c[2], area);
         CHECK(l->guard == NULL || (isfinite(l->guard[k]) && l->guard[k] >= 0.0), DEM_ERROR_MODEL,
               "triangle %lld: guard must be >= 0, got %g N/m", (long long)k, l->guard[k]);
+        CHECK(l->area_stiffness == NULL || isfinite(l->area_stiffness[k]), DEM_ERROR_MODEL,
+              "triangle %lld: area stiffness must be finite, got %g N/m", (long long)k, l->area_stiffness[k]);
     }
     return DEM_OK;
 }
@@ -134,12 +136,27 @@ static dem_status compile_nodes(dem_model *m)
     return DEM_OK;
 }
 
+/* Springs make at most twice their blocks, triangles three times theirs: (g.u)^2 <= 3 sum of (g_i.u_i)^2. */
+static double frequency_bound(const dem_model *m)
+{
+    const double *x = m->lattice.x;
+    double squared = 0.0;
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
+        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness, i, x);
+        const sym2 areas = triangles_block(&m->triangles, i, x);
+        const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
+                          2.0 * bonds.yy + 3.0 * areas.yy};
+        squared = fmax(squared, sym2_largest(sum) * m->inverse_mass[i]);
+    }
+    return sqrt(squared);
+}
+
 static void compile_scales(dem_model *m)
 {
     const dem_lattice *l = &m->lattice;
     for (dem_index k = 0; k < l->n_springs; k++)
         m->spacing = k == 0 ? l->rest_length[0] : fmin(m->spacing, l->rest_length[k]);
-    m->omega_max = sqrt(springs_frequency_bound(&m->springs, l->x, m->inverse_mass));
+    m->omega_max = frequency_bound(m);
 }
 
 static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)

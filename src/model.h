@@ -3,6 +3,7 @@
 #ifndef DEM_MODEL_H
 #define DEM_MODEL_H
 
+#include "boundary.h"
 #include "obstacle.h"
 #include "springs.h"
 #include "surface.h"
@@ -25,11 +26,13 @@ struct dem_model {
 
 /** What acts on every node besides springs and triangles. */
 typedef struct model_load {
-    double gravity[2];   /* m/s^2 */
-    double mass_damping; /* 1/s */
+    double gravity[2];            /* m/s^2 */
+    double mass_damping;          /* 1/s */
+    const boundaries *boundaries; /* NULL: no forces on nodes; else */
+    dem_index clock;              /* where the time stands among the velocities */
 } model_load;
 
-/** Force of springs and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
+/** Force of springs, area term and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
 static inline vec2 model_force(const dem_model *model, dem_index i, const double *x, const double *v)
 {
     vec2 bonds = springs_force(&model->springs, i, x);
@@ -45,7 +48,9 @@ static inline vec2 model_acceleration(const dem_model *model, const model_load *
     const double inverse_mass = model->inverse_mass[i];
     if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
     const vec2 drag = vec2_scale(-load->mass_damping, vec2_at(v, i));
-    const vec2 a = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, model_force(model, i, x, v));
+    vec2 force = model_force(model, i, x, v);
+    if (load->boundaries != NULL) force = vec2_add(force, boundaries_force(load->boundaries, i, v[load->clock]));
+    const vec2 a = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, force);
     return vec2_add(a, drag);
 }
 

@@ -30,15 +30,22 @@ static double guard_at(const contact_scene *scene, const contact_site *site, con
     return fmin(site_gap(scene, site, &spot).distance, 1.0) + scene->rule.skin;
 }
 
-/* A time between lo and hi at which the guard is as low as it gets, by golden section; the first found at or below 0
- * will do. */
-static double lowest(const contact_scene *scene, const contact_site *site, const path *p, double lo, double hi)
+/* Whether the guard is lower somewhere between two samples than at both; a vertex may be beside the edge at one. */
+static bool dips(const sample *s, const sample *next)
+{
+    return (s->slope < 0.0 || next->guard < s->guard) && (next->slope > 0.0 || s->guard < next->guard);
+}
+
+/* A time between two samples at which the guard is as low as it gets, by golden section; the first found at or below 0
+ * will do. Where nothing is near an edge its guard is level, and lower towards the lower sample. */
+static double lowest(const contact_scene *scene, const contact_site *site, const path *p, const sample *s,
+                     const sample *next)
 {
     const double ratio = 0.6180339887498949;
-    double a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double lo = s->t, hi = next->t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
     double ga = guard_at(scene, site, p, a), gb = guard_at(scene, site, p, b);
     for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
-        if (ga < gb) {
+        if (ga < gb || (ga == gb && s->guard < next->guard)) {
             hi = b;
             b = a;
             gb = ga;
@@ -74,16 +81,14 @@ static double fastest(const path *p, double t, const contact_site *site)
     return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
 }
 
-/* How far a site may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
- * its nodes there, four times what a constant one does; an edge turns besides. */
+/* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
+ * its nodes there, four times what a constant one does, and its turn. */
 static double bend(const contact_site *site, const path *p)
 {
     const double h = p->t1 - p->t0;
-    double a =
-        fmax(vec2_norm(vec2_at(p->f0, p->n_nodes + site->node)), vec2_norm(vec2_at(p->f1, p->n_nodes + site->node)));
-    if (!site_is_edge(site)) return 0.5 * h * h * a;
-    a = fmax(a, fmax(vec2_norm(vec2_at(p->f0, p->n_nodes + site->other)),
-                     vec2_norm(vec2_at(p->f1, p->n_nodes + site->other))));
+    const dem_index a0 = p->n_nodes + site->node, b0 = p->n_nodes + site->other;
+    const double a = fmax(fmax(vec2_norm(vec2_at(p->f0, a0)), vec2_norm(vec2_at(p->f1, a0))),
+                          fmax(vec2_norm(vec2_at(p->f0, b0)), vec2_norm(vec2_at(p->f1, b0))));
     const vec2 va = path_velocity(p, p->end, site->node), vb = path_velocity(p, p->end, site->other);
     const double length =
         vec2_norm(vec2_sub(path_position(p, p->end, site->other), path_position(p, p->end, site->node)));
@@ -104,16 +109,6 @@ static bool edge_is_clear(const contact_scene *scene, const contact_site *site, 
     return around.distance + scene->rule.skin > way + bend(site, p);
 }
 
-/* Whether a node cannot have touched between two clear ends of a step: it is further off than the step reaches, or than
- * it bends where the gap does not fall and rise again. */
-static bool node_is_clear(const contact_site *site, const path *p, double reach, const sample *first,
-                          const sample *last)
-{
-    if (last->guard > reach) return true;
-    if (first->slope < 0.0 && last->slope > 0.0) return false;
-    return fmin(first->guard, last->guard) > bend(site, p);
-}
-
 /* Whether a site ends the step so near to where it was clear that it was so all the way. */
 static bool stays_clear(const contact_site *site, const path *p, double reach)
 {
@@ -121,26 +116,36 @@ static bool stays_clear(const contact_site *site, const path *p, double reach)
     return site_moved(site, &spot) + reach < site->clear;
 }
 
-double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
+/* The first crossing of a site whose gap is the true one. */
+static double crossing_within(const contact_scene *scene, const contact_site *site, const path *p, double reach)
 {
     enum { n = 8 };
     const double h = p->end - p->t0;
-    const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
-    if (stays_clear(site, p, reach)) return INFINITY;
     if (site_is_edge(site) && edge_is_clear(scene, site, p, reach)) return INFINITY;
     const sample last = sample_at(scene, site, p, p->end);
     sample s = sample_at(scene, site, p, p->t0);
-    if (!site_is_edge(site) && node_is_clear(site, p, reach, &s, &last)) return INFINITY;
+    const bool on_its_way = s.guard + last.guard <= reach; /* no gap of a node changes faster than that moves */
+    if (!site_is_edge(site) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
         if (next.guard <= 0.0) return crossing(scene, site, p, s.t, next.t);
-        if (s.slope < 0.0 && next.slope > 0.0 && fmin(s.guard, next.guard) < reach / n) { /* a dip in between */
-            const double low = lowest(scene, site, p, s.t, next.t);
+        if (dips(&s, &next) && fmin(s.guard, next.guard) < reach / n) {
+            const double low = lowest(scene, site, p, &s, &next);
             if (guard_at(scene, site, p, low) <= 0.0) return crossing(scene, site, p, s.t, low);
         }
         s = next;
     }
     return INFINITY;
+}
+
+double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
+{
+    const double h = p->end - p->t0;
+    const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
+    if (stays_clear(site, p, reach)) return INFINITY;
+    contact_site near = *site;
+    near.clear = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
+    return crossing_within(scene, &near, p, reach);
 }
 
 /* ---- closed contacts ---- */
@@ -174,6 +179,7 @@ void search_state(const reactions *r, dem_index group, const path *p, double t, 
         if (site->previous >= 0) put_node(p, t, site->previous, state);
         if (site->next >= 0) put_node(p, t, site->next, state);
     }
+    if (r->scene->rule.load.boundaries != NULL) put_node(p, t, p->n_nodes - 1, state); /* the time */
 }
 
 double search_due(reactions *r, const contact_site *site, const path *p, double *state)

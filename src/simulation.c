@@ -32,6 +32,7 @@ typedef struct measures {
 struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
+    boundaries boundaries;
     contact contact;
     integrator *integrator;
     double t;      /* s, of y */
@@ -55,21 +56,28 @@ struct dem_simulation {
 
 /* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
  * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
- * the energies that friction and damping take. */
+ * the energies that friction and damping take; then the work of the boundaries, and the time. */
 static dem_index n_books(const dem_model *model)
 {
-    return 2 * model->obstacles.n + 1;
+    return 2 * model->obstacles.n + 2;
 }
+
+enum { FRICTION, DAMPING, WORK, TIME }; /* places behind the impulses */
 
 static dem_index unknowns(const dem_model *model)
 {
     return 2 * (model->lattice.n_nodes + n_books(model)); /* of positions, and as many of velocities */
 }
 
-/* The books in a state. */
+/* The books in a state, and those of them behind the impulses. */
 static const double *books_of(const dem_simulation *s, const double *y)
 {
     return y + unknowns(s->model) + 2 * s->model->lattice.n_nodes;
+}
+
+static const double *totals_of(const dem_simulation *s, const double *y)
+{
+    return books_of(s, y) + 4 * s->model->obstacles.n;
 }
 
 /* ---- what the integrator asks ---- */
@@ -85,7 +93,22 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
-/* y = (x, v), f = (v, a) with m a = F(x) + m g, less what the closed contacts hold                       (3), (4) */
+/* Rates of the books: [2 n_books] behind the accelerations. */
+static void fill_rates(dem_simulation *s, const double *y, double *rate, double work)
+{
+    const dem_index n_obstacles = s->model->obstacles.n;
+    double *total = rate + 4 * n_obstacles;
+    for (dem_index k = 0; k < 2 * n_books(s->model); k++) rate[k] = 0.0;
+    contact_account(&s->contact, y, rate);
+    if (s->damped)
+        total[DAMPING] =
+            diagnostics_damping_power(s->model, &s->contact.sites.scene.rule.load, y, y + unknowns(s->model));
+    total[WORK] = work;
+    total[TIME] = 1.0;
+}
+
+/* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
+ *                                                                                                        (3), (4) */
 static int derivative(double t, const double *y, double *f, void *context)
 {
     dem_simulation *s = context;
@@ -99,10 +122,8 @@ static int derivative(double t, const double *y, double *f, void *context)
         vec2_put(a, i, ai);
     }
     contact_constrain(&s->contact, y, a);
-    double *rate = a + 2 * s->model->lattice.n_nodes;
-    for (dem_index k = 0; k < 2 * n_books(s->model); k++) rate[k] = 0.0;
-    contact_account(&s->contact, y, rate);
-    if (s->damped) rate[4 * s->model->obstacles.n + 1] = diagnostics_damping_power(s->model, load, y, y + n);
+    const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, y + n, f, a);
+    fill_rates(s, y, a + 2 * s->model->lattice.n_nodes, work);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, f);
     return 1;
@@ -269,6 +290,7 @@ static double default_v_scale(const dem_simulation *s)
 {
     const dem_lattice *l = &s->model->lattice;
     double speed = 1e-3 * 0.5 * s->model->omega_max * s->options.spacing, drop = INFINITY;
+    speed = fmax(speed, boundaries_speed(&s->boundaries));
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
     for (dem_index k = 0; k < s->model->n_sites; k++)
         drop = fmin(drop, dem_model_gap(s->model, &l->position[2 * s->model->sites[k]]));
@@ -316,25 +338,45 @@ static dem_status allocate(dem_simulation *s)
     return DEM_OK;
 }
 
+/* What acts on nodes besides springs and triangles. */
+static model_load load_of(const dem_simulation *s)
+{
+    const dem_options *o = &s->options;
+    return (model_load){{o->gravity[0], o->gravity[1]},
+                        o->mass_damping,
+                        s->boundaries.first != NULL ? &s->boundaries : NULL,
+                        2 * s->model->lattice.n_nodes + 4 * s->model->obstacles.n + TIME};
+}
+
+static contact_rule rule_of(const dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const dem_options *o = &s->options;
+    return (contact_rule){.skin = o->skin,
+                          .position_error = o->rtol * o->spacing,
+                          .rest_speed = o->rest_speed,
+                          .window = o->window,
+                          .max_step = o->max_step,
+                          .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
+                          .max_impacts = o->max_impacts,
+                          .vertices = o->vertices != 0,
+                          .n_books = n_books(model),
+                          .load = load_of(s)};
+}
+
 static dem_status set_up(dem_simulation *s)
 {
     const dem_model *model = s->model;
+    const dem_options *o = &s->options;
     const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
+    TRY(boundaries_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice, model->obstacles.n));
+    s->options.boundaries = NULL;
     TRY(fill_options(s));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + unknowns(model), model->lattice.velocity, block);
-    const dem_options *o = &s->options;
-    const contact_rule rule = {.skin = o->skin,
-                               .position_error = o->rtol * o->spacing,
-                               .rest_speed = o->rest_speed,
-                               .window = o->window,
-                               .max_step = o->max_step,
-                               .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
-                               .max_impacts = o->max_impacts,
-                               .vertices = o->vertices != 0,
-                               .n_books = n_books(model),
-                               .load = {{o->gravity[0], o->gravity[1]}, o->mass_damping}};
+    boundaries_begin(&s->boundaries, s->y + unknowns(model));
+    const contact_rule rule = rule_of(s);
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
@@ -376,6 +418,7 @@ void dem_simulation_destroy(dem_simulation *s)
     if (s == NULL) return;
     integrator_destroy(s->integrator);
     contact_destroy(&s->contact);
+    boundaries_free(&s->boundaries);
     free(s->y);
     free(s->frame);
     free(s->contacts);
@@ -415,8 +458,9 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
         m->energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
     m->has_energy = true;
     m->energy.impact = s->contact.sites.books.impact;
-    m->energy.friction = books_of(s, s->seen)[4 * s->model->obstacles.n];
-    m->energy.damping = books_of(s, s->seen)[4 * s->model->obstacles.n + 1];
+    m->energy.friction = totals_of(s, s->seen)[FRICTION];
+    m->energy.damping = totals_of(s, s->seen)[DAMPING];
+    m->energy.boundary = totals_of(s, s->seen)[WORK];
     m->energy.projection = s->contact.sites.books.projection;
     return m->energy;
 }
@@ -461,6 +505,18 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
         load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[2 * obstacle + k];
     }
     return load;
+}
+
+dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
+{
+    const model_load load = load_of(s);
+    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], s->seen, s->seen + unknowns(s->model));
+}
+
+double dem_simulation_residual(const dem_simulation *s)
+{
+    const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
+    return known ? diagnostics_residual(s->model, s->options.mass_damping, &s->path) : (double)INFINITY;
 }
 
 const dem_model *dem_simulation_model(const dem_simulation *s)

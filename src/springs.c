@@ -148,32 +148,20 @@ double springs_damping_power(const springs *s, const double *x, const double *v)
     return power;
 }
 
-/* Springs of strength c (N or N s) make the matrix A with u.A u = sum of c/d0 (n.(u_j - u_i))^2, which is at most
- * 2 sum of u_i.S_i u_i, S_i = sum over j of c/d0 n n^T. So no eigenvalue of M^-1 A is above the largest 2 |S_i|/m_i. */
-static double eigenvalue_bound(const springs *s, const double *strength, const double *x, const double *inverse_mass)
+sym2 springs_block(const springs *s, const double *strength, dem_index i, const double *x)
 {
-    double bound = 0.0;
-    for (dem_index i = 0; i < s->n_nodes; i++) {
-        double xx = 0.0, xy = 0.0, yy = 0.0; /* S_i */
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
-            const double k = strength[p] / s->rest_length[p] / vec2_dot(d, d);
-            xx += k * d.x * d.x;
-            xy += k * d.x * d.y;
-            yy += k * d.y * d.y;
-        }
-        const double largest = 0.5 * (xx + yy) + sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
-        bound = fmax(bound, 2.0 * largest * inverse_mass[i]);
+    sym2 block = {0.0, 0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
+        block = sym2_along(block, strength[p] / s->rest_length[p] / vec2_dot(d, d), d);
     }
-    return bound;
-}
-
-double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass)
-{
-    return eigenvalue_bound(s, s->stiffness, x, inverse_mass);
+    return block;
 }
 
 double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass)
 {
-    return s->viscosity != NULL ? eigenvalue_bound(s, s->viscosity, x, inverse_mass) : 0.0;
+    double bound = 0.0;
+    for (dem_index i = 0; s->viscosity != NULL && i < s->n_nodes; i++)
+        bound = fmax(bound, 2.0 * sym2_largest(springs_block(s, s->viscosity, i, x)) * inverse_mass[i]);
+    return bound;
 }

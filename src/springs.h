@@ -61,12 +61,13 @@ void springs_strains(const springs *s, const double *x, double *strain);
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
 double springs_damping_power(const springs *s, const double *x, const double *v);
 
-/** Upper bound of 2 |S_i|/m_i over the nodes that have mass and may move, 1/s^2; see dem_model_omega_max(). */
-double springs_frequency_bound(const springs *s, const double *x, const double *inverse_mass);
+/** S_i = sum over the springs of node i of c/d0 n n^T, n their directions at x and c their `strength`: stiffness or
+ *  viscosity. The springs make the matrix A with u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i u_i. */
+sym2 springs_block(const springs *s, const double *strength, dem_index i, const double *x);
 
-/** Upper bound, 1/s, of the eigenvalues of M^-1 C about the shape x, C the damping matrix of the springs: the same with
- *  viscosities in place of stiffnesses; 0 undamped. An eigenvalue of the damped motion, of mass damping alpha too, is
- *  of modulus at most max(omega_max, this + alpha). */
+/** Upper bound, 1/s, of the eigenvalues of M^-1 C about the shape x, C the damping matrix of the springs: the largest
+ *  2 |S_i|/m_i of the nodes that move; 0 undamped. An eigenvalue of the damped motion, of mass damping alpha too, is of
+ *  modulus at most max(omega_max, this + alpha). */
 double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass);
 
 #endif

@@ -290,7 +290,7 @@ static void judge(contact_sites *c, dem_index group, double tolerance, const con
             touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
             touch->rests = rest > 0.0 && away <= rest;
             const int sign = sign_of(c, k, touch->feature, fabs(speed) <= tolerance ? 0.0 : speed);
-            if (sign == 0 && (touch->fresh || touch->sign != 0)) touch->place = fmin(fmax(f.place, 0.0), 1.0);
+            if (touch->fresh || touch->sign != 0) touch->place = fmin(fmax(f.place, 0.0), 1.0);
             touch->sign = sign;
         }
     }

@@ -8,7 +8,7 @@
 
 enum {
     TABLE_ROWS = 1024, /**< that the buffer takes, and of a chunk in the file */
-    TABLE_SETS = 3
+    TABLE_SETS = 4
 };
 
 typedef union table_cell {
@@ -20,7 +20,7 @@ typedef union table_cell {
 typedef struct table_column {
     const char *name;   /**< absolute path */
     hdf5_kind kind;     /**< HDF5_F64 from table_put_reals(), HDF5_I64 or HDF5_I8 from table_put_wholes() */
-    int of;             /**< 0: one item a row; 1, 2: as many as the table's count says */
+    int of;             /**< 0: one item a row; 1 and more: as many as the table's count says */
     hsize_t components; /**< of an item */
 } table_column;
 
@@ -35,7 +35,8 @@ typedef struct table {
     table_cell *column;        /**< [TABLE_ROWS * widest column] */
 } table;
 
-/** Columns are borrowed. Free with table_free().  \param count [2], of the columns with `of` 1 and 2; NULL: no such */
+/** Columns are borrowed. Free with table_free().
+ *  \param count [TABLE_SETS - 1], of the columns with `of` 1 and more; NULL: no such */
 dem_status table_init(table *out, const table_column *columns, int n_columns, const dem_index *count);
 void table_free(table *t);
 

@@ -11,7 +11,7 @@ typedef struct contact_touch {
     dem_index feature;      /* the segment on which a node is, or the vertex on which an edge is */
     int sign;               /* the body slides along the tangent: 1, against it: -1; sticks: 0 */
     bool held;              /* one of two that hold a node at rest in a corner; there is no friction then */
-    double place;           /* of a vertex on the edge where it sticks, 0 at its start, 1 at its end */
+    double place;           /* of a vertex on the edge where it sticks or may come to: 0 at its start, 1 at its end */
     double force, friction; /* N, along normal and tangent, at the last accepted step */
     /* of the impact under way: */
     bool fresh;    /* the contact was not closed before */

@@ -54,9 +54,10 @@ static const struct array_layout {
 
 /* In the order of field_values(). */
 static const char *const fields[] = {
-    GRID "FieldData/kinetic_energy", GRID "FieldData/elastic_energy",    GRID "FieldData/guard_energy",
-    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",     GRID "FieldData/friction_energy",
-    GRID "FieldData/damping_energy", GRID "FieldData/projection_energy", GRID "FieldData/contacts",
+    GRID "FieldData/kinetic_energy",  GRID "FieldData/elastic_energy", GRID "FieldData/area_energy",
+    GRID "FieldData/guard_energy",    GRID "FieldData/gravity_energy", GRID "FieldData/impact_energy",
+    GRID "FieldData/friction_energy", GRID "FieldData/damping_energy", GRID "FieldData/projection_energy",
+    GRID "FieldData/boundary_energy", GRID "FieldData/contacts",
 };
 enum { N_FIELDS = sizeof fields / sizeof fields[0] };
 
@@ -79,12 +80,14 @@ static const struct offset {
     {STEPS "CellDataOffsets/broken", 1, SPRINGS},
     {STEPS "FieldDataOffsets/kinetic_energy", 1, ONE},
     {STEPS "FieldDataOffsets/elastic_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/area_energy", 1, ONE},
     {STEPS "FieldDataOffsets/guard_energy", 1, ONE},
     {STEPS "FieldDataOffsets/gravity_energy", 1, ONE},
     {STEPS "FieldDataOffsets/impact_energy", 1, ONE},
     {STEPS "FieldDataOffsets/friction_energy", 1, ONE},
     {STEPS "FieldDataOffsets/damping_energy", 1, ONE},
     {STEPS "FieldDataOffsets/projection_energy", 1, ONE},
+    {STEPS "FieldDataOffsets/boundary_energy", 1, ONE},
     {STEPS "FieldDataOffsets/contacts", 1, ONE},
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
@@ -168,9 +171,17 @@ static dem_status append_arrays(const dem_trajectory *t, const hdf5_file *file, 
 static dem_status append_fields(const dem_trajectory *t, const hdf5_file *file, const dem_state *state)
 {
     const dem_energy *e = &state->energy;
-    const double values[] = {e->kinetic, e->elastic,    e->guard,
-                             e->gravity, e->impact,     e->friction,
-                             e->damping, e->projection, (double)state->n_contacts};
+    const double values[] = {e->kinetic,
+                             e->elastic,
+                             e->area,
+                             e->guard,
+                             e->gravity,
+                             e->impact,
+                             e->friction,
+                             e->damping,
+                             e->projection,
+                             e->boundary,
+                             (double)state->n_contacts};
     for (int f = 0; f < N_FIELDS; f++) {
         const hdf5_rows rows = frame_rows(fields[f], HDF5_F64, 1);
         TRY(hdf5_append(file, &rows, (hsize_t)t->frames, 1, &values[f]));
@@ -342,9 +353,9 @@ static dem_status make_names(dem_trajectory *t, const char *path)
     return DEM_OK;
 }
 
-static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *model)
+static dem_status prepare(dem_trajectory *t, const char *path, const dem_simulation *simulation)
 {
-    const dem_model_size size = dem_model_sizes(model);
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_index largest = size.n_nodes > size.n_springs ? size.n_nodes : size.n_springs;
     t->n_nodes = size.n_nodes;
     t->n_springs = size.n_springs;
@@ -353,7 +364,7 @@ static dem_status prepare(dem_trajectory *t, const char *path, const dem_model *
     t->scratch = calloc((size_t)largest, 3 * sizeof *t->scratch);
     CHECK_MEMORY(t->scratch);
     if (t->options.events) TRY(events_init(&t->events));
-    return history_init(&t->history, model);
+    return history_init(&t->history, simulation);
 }
 
 /* ---- the end ---- */
@@ -397,7 +408,7 @@ dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const d
     dem_trajectory *t = calloc(1, sizeof *t);
     CHECK_MEMORY(t);
     t->options = *options;
-    dem_status status = prepare(t, path, model);
+    dem_status status = prepare(t, path, simulation);
     if (status == DEM_OK) status = start(t, model);
     if (status == DEM_OK)
         *out = t;

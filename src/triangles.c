@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The folding guard W = A0 g w(J), w = (-ln(J/Jc))^3, J = A/A0; forces gathered node by node in a fixed order. */
+/* Area term and folding guard: W = A0 (kappa/2 (J - 1)^2 + g w(J)), w = (-ln(J/Jc))^3, J = A/A0; forces gathered node
+ * by node in a fixed order. */
 #include "triangles.h"
 
 #include <stdbool.h>
@@ -36,63 +37,95 @@ void triangles_guard_law(double area_ratio, double *energy, double *slope)
     *slope = w1 + beyond * w2;
 }
 
-static double area(const triangles *t, dem_index i, dem_index p, const double *x)
+static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
 {
     return triangles_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
+}
+
+/* dA/dx_i */
+static vec2 gradient(const triangles *t, dem_index p, const double *x)
+{
+    const vec2 opposite = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, t->next[p]));
+    return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
 vec2 triangles_force(const triangles *t, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double A = area(t, i, p, x);
-        if (!(A < TRIANGLES_GUARD_ONSET * t->rest_area[p])) continue;
-        double energy, slope;
-        triangles_guard_law(A / t->rest_area[p], &energy, &slope);
-        const vec2 opposite = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, t->next[p]));
-        const vec2 gradient = {-0.5 * opposite.y, 0.5 * opposite.x}; /* dA/dx_i */
-        force = vec2_along(force, -t->strength[p] * slope, gradient);
+        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
+        const bool squeezed = A < TRIANGLES_GUARD_ONSET * A0;
+        double slope = 0.0, unused, rise;
+        if (t->area_stiffness != NULL) slope = t->area_stiffness[p] * (A / A0 - 1.0);
+        if (squeezed) {
+            triangles_guard_law(A / A0, &unused, &rise);
+            slope += t->guard[p] * rise;
+        }
+        if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
     return force;
 }
 
-static double slot_energy(const triangles *t, dem_index i, dem_index p, const double *x)
+static double slot_area_energy(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    if (t->area_stiffness == NULL) return 0.0;
+    const double beyond = area_at(t, i, p, x) / t->rest_area[p] - 1.0;
+    return 0.5 * t->rest_area[p] * t->area_stiffness[p] * beyond * beyond;
+}
+
+static double slot_guard_energy(const triangles *t, dem_index i, dem_index p, const double *x)
 {
     double energy, slope;
-    triangles_guard_law(area(t, i, p, x) / t->rest_area[p], &energy, &slope);
-    return t->rest_area[p] * t->strength[p] * energy;
+    triangles_guard_law(area_at(t, i, p, x) / t->rest_area[p], &energy, &slope);
+    return t->rest_area[p] * t->guard[p] * energy;
 }
 
 double triangles_node_energy(const triangles *t, dem_index i, const double *x)
 {
     double energy = 0.0;
-    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) energy += slot_energy(t, i, p, x);
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
+        energy += slot_area_energy(t, i, p, x) + slot_guard_energy(t, i, p, x);
     return energy;
 }
 
-double triangles_energy(const triangles *t, const double *x)
+void triangles_energy(const triangles *t, const double *x, double *area, double *guard)
 {
-    double energy = 0.0;
+    *area = 0.0;
+    *guard = 0.0;
     for (dem_index i = 0; i < t->n_nodes; i++)
-        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
-            if (i < t->next[p] && i < t->last[p]) energy += slot_energy(t, i, p, x);
-    return energy;
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+            if (t->next[p] < i || t->last[p] < i) continue;
+            *area += slot_area_energy(t, i, p, x);
+            *guard += slot_guard_energy(t, i, p, x);
+        }
 }
 
-static bool guarded(const dem_lattice *lattice, dem_index k)
+sym2 triangles_block(const triangles *t, dem_index i, const double *x)
 {
-    return lattice->guard != NULL && lattice->guard[k] > 0.0;
+    sym2 block = {0.0, 0.0, 0.0};
+    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness != NULL; p++)
+        block = sym2_along(block, fmax(t->area_stiffness[p], 0.0) / t->rest_area[p], gradient(t, p, x));
+    return block;
 }
 
-static dem_status allocate(triangles *t, dem_index slots)
+/* ---- compilation ---- */
+
+static bool acts(const dem_lattice *lattice, dem_index k)
+{
+    return (lattice->guard != NULL && lattice->guard[k] > 0.0) ||
+           (lattice->area_stiffness != NULL && lattice->area_stiffness[k] != 0.0);
+}
+
+static dem_status allocate(triangles *t, dem_index slots, bool stiff)
 {
     const size_t n = (size_t)slots + 1;
     t->row = calloc((size_t)t->n_nodes + 1, sizeof *t->row);
     t->next = malloc(n * sizeof *t->next);
     t->last = malloc(n * sizeof *t->last);
     t->rest_area = malloc(n * sizeof *t->rest_area);
-    t->strength = malloc(n * sizeof *t->strength);
-    CHECK(t->row && t->next && t->last && t->rest_area && t->strength, DEM_ERROR_MEMORY,
+    t->guard = malloc(n * sizeof *t->guard);
+    if (stiff) t->area_stiffness = malloc(n * sizeof *t->area_stiffness);
+    CHECK(t->row && t->next && t->last && t->rest_area && t->guard && (t->area_stiffness || !stiff), DEM_ERROR_MEMORY,
           "out of memory for %lld triangles", (long long)(slots / 3));
     return DEM_OK;
 }
@@ -100,17 +133,17 @@ static dem_status allocate(triangles *t, dem_index slots)
 static void fill(triangles *t, const dem_lattice *lattice)
 {
     for (dem_index k = 0; k < lattice->n_triangles; k++)
-        for (int c = 0; c < 3 && guarded(lattice, k); c++) t->row[lattice->triangles[3 * k + c] + 1]++;
+        for (int c = 0; c < 3 && acts(lattice, k); c++) t->row[lattice->triangles[3 * k + c] + 1]++;
     for (dem_index i = 0; i < t->n_nodes; i++) t->row[i + 1] += t->row[i];
     for (dem_index k = lattice->n_triangles - 1; k >= 0; k--) { /* backwards: row[i+1] counts down to the row's start */
         const dem_index *corner = &lattice->triangles[3 * k];
-        for (int c = 0; c < 3 && guarded(lattice, k); c++) {
+        for (int c = 0; c < 3 && acts(lattice, k); c++) {
             const dem_index p = --t->row[corner[c] + 1];
             t->next[p] = corner[(c + 1) % 3];
             t->last[p] = corner[(c + 2) % 3];
-            t->strength[p] = lattice->guard[k];
-            t->rest_area[p] = triangles_area(vec2_at(lattice->x, corner[0]), vec2_at(lattice->x, corner[1]),
-                                             vec2_at(lattice->x, corner[2]));
+            t->rest_area[p] = area_at(t, corner[c], p, lattice->x); /* J is exactly 1 at rest, from every corner */
+            t->guard[p] = lattice->guard != NULL ? lattice->guard[k] : 0.0;
+            if (t->area_stiffness != NULL) t->area_stiffness[p] = lattice->area_stiffness[k];
         }
     }
 }
@@ -126,8 +159,8 @@ dem_status triangles_compile(triangles *out, const dem_lattice *lattice)
 {
     triangles t = {.n_nodes = lattice->n_nodes};
     dem_index slots = 0;
-    for (dem_index k = 0; k < lattice->n_triangles; k++) slots += guarded(lattice, k) ? 3 : 0;
-    const dem_status status = allocate(&t, slots);
+    for (dem_index k = 0; k < lattice->n_triangles; k++) slots += acts(lattice, k) ? 3 : 0;
+    const dem_status status = allocate(&t, slots, lattice->area_stiffness != NULL);
     if (status != DEM_OK) {
         triangles_free(&t);
         return status;
@@ -144,6 +177,7 @@ void triangles_free(triangles *t)
     free(t->next);
     free(t->last);
     free(t->rest_area);
-    free(t->strength);
+    free(t->guard);
+    free(t->area_stiffness);
     *t = (triangles){0};
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on triangles: the folding guard, which keeps a squeezed triangle from turning inside out. */
+/* What acts on triangles: the area term, which sets Poisson's ratio, and the folding guard, which keeps a squeezed
+ * triangle from turning inside out. */
 #ifndef DEM_TRIANGLES_H
 #define DEM_TRIANGLES_H
 
@@ -11,25 +12,30 @@
 /** Triangles by node: slot p of row i is a triangle (i, next[p], last[p]), counter-clockwise. */
 typedef struct triangles {
     dem_index n_nodes;
-    dem_index *row; /* [n_nodes + 1]; every row empty where no triangle has a guard */
+    dem_index *row; /* [n_nodes + 1]; every row empty where no triangle has area stiffness or guard */
     dem_index *next, *last;
-    double *rest_area; /* m^2 */
-    double *strength;  /* guard strength g, N/m */
+    double *rest_area;      /* m^2 */
+    double *guard;          /* strength g, N/m */
+    double *area_stiffness; /* kappa, N/m; NULL: none */
 } triangles;
 
-/** Compiles the guarded triangles of a lattice whose indices and areas are known to be valid. Free with
- *  triangles_free. */
+/** Compiles the triangles with area stiffness or guard of a lattice whose indices and areas are known to be valid. Free
+ *  with triangles_free. */
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
 void triangles_free(triangles *t);
 
-/** Force of the guard on node i, N: minus the gradient of sum of A0 g w(J). */
+/** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, dem_index i, const double *x);
 
-/** Energy of the guard in the triangles at node i, J. */
+/** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, dem_index i, const double *x);
 
-/** Energy of the guard, J. */
-double triangles_energy(const triangles *t, const double *x);
+/** Energies of the area term and of the guard, J. */
+void triangles_energy(const triangles *t, const double *x, double *area, double *guard);
+
+/** Sum over the triangles at node i of max(kappa, 0)/A0 g g^T, g = dA/dx_i at x: the area term makes a matrix that is
+ *  at most three times the sum of these blocks. */
+sym2 triangles_block(const triangles *t, dem_index i, const double *x);
 
 /** Signed area of the triangle abc, m^2. */
 static inline double triangles_area(vec2 a, vec2 b, vec2 c)

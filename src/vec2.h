@@ -58,6 +58,28 @@ static inline double vec2_norm(vec2 a)
     return sqrt(a.x * a.x + a.y * a.y);
 }
 
+/** A symmetric matrix. */
+typedef struct sym2 {
+    double xx, xy, yy;
+} sym2;
+
+/** A + s a a^T */
+static inline sym2 sym2_along(sym2 A, double s, vec2 a)
+{
+    return (sym2){A.xx + s * a.x * a.x, A.xy + s * a.x * a.y, A.yy + s * a.y * a.y};
+}
+
+static inline sym2 sym2_add(sym2 A, sym2 B)
+{
+    return (sym2){A.xx + B.xx, A.xy + B.xy, A.yy + B.yy};
+}
+
+/** The larger eigenvalue. */
+static inline double sym2_largest(sym2 A)
+{
+    return 0.5 * (A.xx + A.yy) + sqrt(0.25 * (A.xx - A.yy) * (A.xx - A.yy) + A.xy * A.xy);
+}
+
 /** The parts of a along two directions: a = p[0] n0 + p[1] n1; not finite where they are parallel. */
 static inline void vec2_parts(vec2 a, vec2 n0, vec2 n1, double p[2])
 {

@@ -55,13 +55,21 @@ DEM_API const char *dem_version_sundials(void);
 
 /* ---- lattice: what the body is made of ------------------------------------------------------------------------ */
 
-/** An isotropic plate in plane stress. */
+typedef enum dem_plane {
+    DEM_PLANE_STRESS = 0, /**< a thin plate, free to change its thickness */
+    DEM_PLANE_STRAIN      /**< a slice of a long body, which keeps its thickness */
+} dem_plane;
+
+/** An isotropic solid; `plane` says how it is a body in the plane. */
 typedef struct dem_material {
     double youngs_modulus; /**< E, Pa, > 0 */
-    double density;        /**< rho, kg/m^3, > 0 */
-    double thickness;      /**< h, m, > 0 */
-    double guard;          /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
-    double damping_time;   /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
+    double poissons_ratio; /**< nu, in (-1, 1) in plane stress, in (-1, 0.5) in plane strain. Springs alone have 1/3 in
+                                plane stress, 1/4 in plane strain; any other needs the area term */
+    dem_plane plane;
+    double density;      /**< rho, kg/m^3, > 0 */
+    double thickness;    /**< h, m, > 0 */
+    double guard;        /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
+    double damping_time; /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
                                 damping_time e'; 0: none */
 } dem_material;
 
@@ -73,24 +81,26 @@ enum {
 /** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
  *  comes from malloc; dem_lattice_free() frees them all. */
 typedef struct dem_lattice {
-    size_t struct_size;    /**< set by dem_lattice_init() */
-    int dim;               /**< 2; 3 is reserved */
-    dem_index n_nodes;     /**< > 0 */
-    dem_index n_springs;   /**< >= 0 */
-    dem_index n_triangles; /**< >= 0 */
-    double *x;             /**< [n_nodes][2]     rest position, m */
-    double *mass;          /**< [n_nodes]        m_i > 0, kg */
-    dem_index *ends;       /**< [n_springs][2]   the two nodes, distinct */
-    double *rest_length;   /**< [n_springs]      d0_ij > 0, m                                   (1) */
-    double *stiffness;     /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
-    dem_index *triangles;  /**< [n_triangles][3] counter-clockwise; NULL: none */
-    double *viscosity;     /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
-    double *guard;         /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
-    unsigned char *flags;  /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
+    size_t struct_size;     /**< set by dem_lattice_init() */
+    int dim;                /**< 2; 3 is reserved */
+    dem_index n_nodes;      /**< > 0 */
+    dem_index n_springs;    /**< >= 0 */
+    dem_index n_triangles;  /**< >= 0 */
+    double *x;              /**< [n_nodes][2]     rest position, m */
+    double *mass;           /**< [n_nodes]        m_i > 0, kg */
+    dem_index *ends;        /**< [n_springs][2]   the two nodes, distinct */
+    double *rest_length;    /**< [n_springs]      d0_ij > 0, m                                   (1) */
+    double *stiffness;      /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
+    dem_index *triangles;   /**< [n_triangles][3] counter-clockwise; NULL: none */
+    double *viscosity;      /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
+    double *guard;          /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
+    double *area_stiffness; /**< [n_triangles]   kappa of the area term, of any sign, N/m: the energy
+                                kappa/2 (A - A0)^2/A0 of a triangle of area A; NULL: none */
+    unsigned char *flags;   /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
-    int32_t *body;         /**< [n_nodes]        body number from 0; NULL: one body */
-    double *position;      /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
-    double *velocity;      /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
+    int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
+    double *position;       /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
+    double *velocity;       /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
 } dem_lattice;
 
 /** An empty lattice: no nodes, all arrays NULL. */
@@ -115,10 +125,11 @@ DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spac
  *  \return DEM_ERROR_MODEL if nothing is left */
 DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
 
-/** Springs, masses and guard of a triangulation by the finite-element rule: a triangle of area A gives each edge e the
- *  stiffness E h A/|e|^2 times the edge's length, in N, and each corner a third of its mass. A block of equilateral
- *  triangles then has exactly E and nu = 1/3 in plane stress. With a damping time each spring gets the viscosity
- *  damping_time times its stiffness.                                                                           (1) */
+/** Springs, masses, area term and guard of a triangulation by the finite-element rule: a triangle of area A gives each
+ *  edge e the stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
+ *  stiffness is (lambda - G) h. G = E/(2 (1 + nu)) and lambda = E nu/(1 - nu^2) are those of plane stress; a solid in
+ *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
+ *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 
 /** Number of parts that springs do not connect.
@@ -134,6 +145,9 @@ DEM_API void dem_lattice_move(dem_lattice *lattice, double angle, const double o
 
 /** Adds `velocity` (m/s) to the initial velocity of every node. */
 DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2]);
+
+/** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
+DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
 
 /** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
 DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);
@@ -198,7 +212,8 @@ DEM_API dem_model_size dem_model_sizes(const dem_model *model);
 DEM_API double dem_model_spacing(const dem_model *model);
 
 /** Rigorous upper bound of the highest angular frequency about the rest shape, rad/s; 0 without springs:
- *  omega^2 <= max over nodes of 2 |S_i| / m_i, S_i = sum over j of (E_ij/d0_ij) n n^T, |.| the largest eigenvalue. */
+ *  omega^2 <= max over nodes of |B_i| / m_i, B_i = 2 sum over springs of (E_ij/d0_ij) n n^T
+ *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
 DEM_API double dem_model_omega_max(const dem_model *model);
 
 /** Total mass, kg. */
@@ -254,6 +269,27 @@ DEM_API dem_status dem_method_find(dem_method *out, const char *name);
 /** Modulus of the largest eigenvalue of a step h of x'' = -omega^2 x; NAN if dem_method_describe() fails. */
 DEM_API double dem_method_growth(dem_method method, double omega_h);
 
+/** What is done to nodes from outside. */
+typedef enum dem_boundary_kind {
+    DEM_BOUNDARY_VELOCITY = 0, /**< components of the velocity are `value` times the ramp; 0 holds them still */
+    DEM_BOUNDARY_DISPLACEMENT, /**< components of the way from the initial position are `value` times the ramp */
+    DEM_BOUNDARY_FORCE         /**< node k feels the force share[k] * `value` times the ramp */
+} dem_boundary_kind;
+
+enum { DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2 };
+
+/** The ramp is 10 s^3 - 15 s^4 + 6 s^5, s = t/ramp, up to s = 1 and 1 from there; 1 at all times for ramp = 0. Nodes
+ *  with prescribed components do not touch obstacles: dem_lattice_exclude(). */
+typedef struct dem_boundary {
+    dem_boundary_kind kind;
+    int32_t components; /**< which are prescribed, DEM_COMPONENT_X | DEM_COMPONENT_Y; a force has both */
+    dem_index n_nodes;
+    const dem_index *nodes; /**< [n_nodes] distinct; a component of a node is prescribed only once */
+    const double *share;    /**< [n_nodes] of a force; NULL: 1/n_nodes each */
+    double value[2];        /**< m/s, m, or N */
+    double ramp;            /**< s, >= 0; > 0 for a displacement */
+} dem_boundary;
+
 typedef struct dem_options {
     size_t struct_size; /**< set by dem_options_default() */
     dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
@@ -276,6 +312,8 @@ typedef struct dem_options {
                                0: every impact by itself */
     double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
     int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    dem_index n_boundaries;         /**< default 0 */
+    const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -294,18 +332,26 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
 typedef struct dem_energy {
     double kinetic;
     double elastic;    /**< of the springs                                                               (1) */
+    double area;       /**< of the area term; < 0 where nu < 1/3 in plane stress */
     double guard;      /**< of the folding guard */
     double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
     double impact;     /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
     double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
     double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
     double projection; /**< put in by returning nodes from the skin to the surface so far */
+    double boundary;   /**< put in by boundaries so far: work of what prescribes motions, and of forces */
 } dem_energy;
+
+/** Of motion and strain: what the ledger is compared with. */
+static inline double dem_energy_motion(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.area + e.guard;
+}
 
 /** What stays constant in a run, up to the integrator's error. */
 static inline double dem_energy_ledger(dem_energy e)
 {
-    return e.kinetic + e.elastic + e.guard + e.gravity + e.impact + e.friction + e.damping - e.projection;
+    return dem_energy_motion(e) + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
 }
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
@@ -380,6 +426,12 @@ typedef struct dem_obstacle_load {
     dem_index contacts;         /**< closed now */
 } dem_obstacle_load;
 
+/** What a boundary does to its nodes. */
+typedef struct dem_boundary_load {
+    double force[2];        /**< N, on its nodes now: given, or what the prescribed motion takes */
+    double displacement[2]; /**< m, mean way of its nodes from where they started */
+} dem_boundary_load;
+
 typedef struct dem_counts {
     dem_index steps;              /**< accepted by the integrator */
     dem_index rejected;           /**< by its error test */
@@ -402,6 +454,7 @@ typedef struct dem_strain {
     dem_index spring_min, spring_max; /**< where; -1 without springs */
     double area_min;                  /**< smallest area over rest area; 1 without triangles, < 0: inverted */
     dem_index guarded;                /**< triangles on which the guard acts */
+    dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
 typedef struct dem_simulation dem_simulation;
@@ -433,9 +486,18 @@ DEM_API dem_body_motion dem_simulation_body(const dem_simulation *simulation, de
 /** \param obstacle  0 <= obstacle < n_obstacles */
 DEM_API dem_obstacle_load dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle);
 
+/** \param boundary  0 <= boundary < n_boundaries */
+DEM_API dem_boundary_load dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary);
+
+/** How far from equilibrium: the largest force on a node that may move, without drag and with what contacts give, over
+ *  the largest force of a spring; 0 where there is neither. Known after an accepted step without contact event, else
+ *  infinity. */
+DEM_API double dem_simulation_residual(const dem_simulation *simulation);
+
 DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
 
-/** The options in force: those of dem_simulation_create() with every default replaced by its value. */
+/** The options in force: those of dem_simulation_create() with every default replaced by its value, and
+ *  `boundaries` NULL. */
 DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
 
 /* ---- observers -------------------------------------------------------------------------------------------------- */

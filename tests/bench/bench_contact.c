@@ -55,7 +55,8 @@ static double *make_ground(long segments, double width, double roughness)
 
 static dem_model *make_model(long columns, long rows, long segments, double roughness)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1},
                  lift[2] = {0.0, (roughness + 1e-3) * spacing};
     double *points = make_ground(segments, 1.2 * width, roughness);

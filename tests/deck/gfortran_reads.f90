@@ -21,9 +21,9 @@ contains
   end subroutine
 
   subroutine read_material()
-    character(4096) :: name
-    real(dp) :: youngs_modulus, density, thickness, guard, damping_time
-    namelist /material/ name, youngs_modulus, density, thickness, guard, damping_time
+    character(4096) :: name, plane
+    real(dp) :: youngs_modulus, poissons_ratio, density, thickness, guard, damping_time
+    namelist /material/ name, youngs_modulus, poissons_ratio, plane, density, thickness, guard, damping_time
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 

@@ -150,11 +150,13 @@ def check_history(history):
 
 def check_ledger(history):
     """Start and end, to the 2e-3 of the largest energy of motion that docs/verification.md asks for."""
-    energy = {name: history[name][...] for name in ("kinetic", "elastic", "guard", "gravity", "impact", "friction",
-                                                    "damping", "projection")}
-    largest = np.max(energy["kinetic"] + energy["elastic"] + energy["guard"])
-    ledger = sum(energy.values()) - 2.0 * energy["projection"]
+    energy = {name: history[name][...] for name in ("kinetic", "elastic", "area", "guard", "gravity", "impact", "friction",
+                                                    "damping", "projection", "boundary")}
+    largest = np.max(energy["kinetic"] + energy["elastic"] + energy["area"] + energy["guard"])
+    ledger = sum(energy.values()) - 2.0 * energy["projection"] - 2.0 * energy["boundary"]
     close("history: ledger", ledger, ledger[0], 2e-3 * largest)
+    moving = np.maximum.accumulate(energy["kinetic"] + energy["elastic"] + energy["area"] + energy["guard"])
+    close("history: closure", history["closure"][...] * moving, ledger - ledger[0], 1e-12 * largest)
 
 
 def check_fields(vtk_group, history):

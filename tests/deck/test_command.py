@@ -328,11 +328,11 @@ class Run(Case):
         smallest, _, when_smallest = numbers("strain     smallest # in spring # at # s", log)
         largest, _, when_largest = numbers("strain     largest # in spring # at # s", log)
         self.assertTrue(-1 < smallest < -0.05 < 0.05 < largest < 1)
-        area, when_area, guarded = numbers("triangles  smallest area # of its rest area at # s, guard on # at most",
-                                           log)
-        self.assertTrue(0 < area < 1 and guarded >= 0)
+        area, when_area, guarded, inverted = numbers(
+            "triangles  smallest area # of its rest area at # s, guard on # at most, # inverted", log)
+        self.assertTrue(0 < area < 1 and guarded >= 0 and inverted == 0)
         self.assertTrue(all(first <= t <= 8e-3 for t in (when_smallest, when_largest, when_area)))
-        energies = numbers("energy     kinetic #, elastic #, guard #, gravity # J", log)
+        energies = numbers("energy     kinetic #, elastic #, area #, guard #, gravity # J", log)
         start, now, taken, projection, closure = numbers(
             "ledger     start # J = now # + taken by impacts # - projection #; closure #", log)
         self.assertAlmostEqual(sum(energies), now, delta=1e-3 * now)

@@ -11,7 +11,8 @@ static int fail(void)
 
 int main(void)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050, .thickness = 1, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050, .thickness = 1, .guard = 0.02};
     const double slope[] = {-0.3, 0.1, 0.3, -0.1}, lift[] = {0, 0.1}, velocity[] = {0, -10};
     const dem_obstacle obstacle = {.n_points = 2, .points = slope, .restitution = 0};
     const dem_options options = dem_options_default();

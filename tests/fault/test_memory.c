@@ -48,8 +48,12 @@ static int left_half(void *context, const double x[2])
 
 static dem_status build(dem_lattice *lattice)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02, .damping_time = 1e-6};
+    const dem_material rubber = {.youngs_modulus = 1e7,
+                                 .poissons_ratio = 0.4,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02,
+                                 .damping_time = 1e-6};
     const double down[2] = {0.0, -5.0}, lift[2] = {0.0, 1e-4};
     dem_lattice other;
     dem_index parts;

@@ -152,6 +152,7 @@ static void random_obstacles(gsl_rng *rng, scene *sc)
 static void random_solid_body(gsl_rng *rng, scene *sc)
 {
     const dem_material rubber = {.youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
                                  .density = 1050.0,
                                  .thickness = 1.0,
                                  .guard = 0.02,

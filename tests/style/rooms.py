@@ -11,7 +11,8 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file", "scan", "namelist", "pores", "profile"},
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method",
+     "hdf5_file", "scan", "namelist", "pores", "profile"},
     {"lattice_mesh", "surface", "obstacle", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
     {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "uses"},
     {"touch", "diagnostics", "integrator"},
@@ -89,7 +90,8 @@ def check_functions(path, lines):
         if line.startswith("}") and start is not None:
             if number - start >= MAX_FUNCTION:
                 complain(path, start, f"function of {number - start + 1} lines")
-            if path.relative_to(ROOT).parts[0] != "tests" and head.count(",") >= MAX_PARAMETERS and "..." not in head and "(*" not in head:
+            dictated = path.stem == "arkode"  # by SUNDIALS
+            if path.relative_to(ROOT).parts[0] != "tests" and not dictated and head.count(",") >= MAX_PARAMETERS and "..." not in head and "(*" not in head:
                 complain(path, start, f"function of {head.count(',') + 1} parameters")
             start = None
 

@@ -808,6 +808,29 @@ static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
     scene_close(&s);
 }
 
+/* Held in a notch there is no friction; when the wind has lifted one side off, the vertex sticks to the other where it
+ * is, at its start, and not where it stuck there before it slid into the notch. */
+static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is(void **state)
+{
+    (void)state;
+    for (int k = 1; k < 8; k++) {
+        scene s;
+        open_side(&s, &rough_roof, 1.01 * skin, -0.05 * k * 1.01 * skin, -0.05 * k);
+        launch(&s, 1e-5, -0.05 * k * 1e-5);
+        const dem_index k_left = scene_edge(&s, 0, 1), k_right = scene_edge(&s, 1, 2);
+        const contact_site *left = &s.c.sites.list[k_left], *right = &s.c.sites.list[k_right];
+        assert_ok(sites_close(&s.c.sites, k_right, (contact_touch){.feature = 0, .sign = 1, .place = 0.5}));
+        assert_ok(scene_resolve(&s, 0.1));
+        assert_true(left->closed[0].held && right->closed[0].held);
+        set_wind(&s, -0.06 * k * g);
+        assert_ok(scene_resolve(&s, 0.2));
+        assert_int_equal(left->n_closed, 0);
+        assert_true(right->n_closed == 1 && right->closed[0].sign == 0);
+        assert_close(right->closed[0].place, 0.0, 1e-12);
+        scene_close(&s);
+    }
+}
+
 /* The node strikes first, but it is the side that has come down on the ridge. */
 static void a_flat_side_comes_down_on_an_apex_with_its_own_normal(void **state)
 {
@@ -1204,6 +1227,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_vertex_leaves_a_convex_corner_of_the_body),
     cmocka_unit_test(a_vertex_strikes_the_next_edge_where_the_body_bends_in),
     cmocka_unit_test(a_vertex_comes_to_rest_where_the_body_bends_in),
+    cmocka_unit_test(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is),
     cmocka_unit_test(a_flat_side_comes_down_on_an_apex_with_its_own_normal),
     cmocka_unit_test(a_node_found_deep_inside_is_an_error),
     cmocka_unit_test(too_many_changes_of_one_node_in_a_short_time_are_a_storm),

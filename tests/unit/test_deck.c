@@ -154,6 +154,26 @@ static void friction_window_vertices_and_damping_find_their_places(void **state)
 }
 
 /* The window is the library's if it is not given; stated, 0 is 0. */
+/* kappa = E h (3 nu - 1)/(2 (1 - nu^2)) of plane stress; a solid of nu = 1/3 in plane strain is a plate of 9/8 E and
+ * 1/2, that is 9/8 E h/3. The default has none. */
+static void poissons_ratio_and_plane_make_the_area_term(void **state)
+{
+    (void)state;
+    static const char *const keys[3] = {"", "poissons_ratio = 0.5 ", "plane = 'strain' "};
+    const double kappa[3] = {0.0, 1e7 / 3.0, 9.0 / 8.0 * 1e7 / 3.0};
+    for (int k = 0; k < 3; k++) {
+        char text[512];
+        (void)snprintf(text, sizeof text,
+                       RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 %s/\n"
+                           "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n",
+                       keys[k]);
+        deck d = good_deck(text);
+        if (k == 0) assert_null(d.lattice.area_stiffness);
+        if (k > 0) assert_close(d.lattice.area_stiffness[0], kappa[k], 1e-8);
+        deck_free(&d);
+    }
+}
+
 static void a_window_of_zero_is_not_the_default(void **state)
 {
     (void)state;
@@ -827,6 +847,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_key_finds_its_place),
         cmocka_unit_test(friction_window_vertices_and_damping_find_their_places),
+        cmocka_unit_test(poissons_ratio_and_plane_make_the_area_term),
         cmocka_unit_test(a_window_of_zero_is_not_the_default),
         cmocka_unit_test(friction_goes_with_its_law),
         cmocka_unit_test(keys_not_given_are_left_to_the_library),

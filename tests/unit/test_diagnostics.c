@@ -14,8 +14,10 @@ static const double gravity[2] = {0.5, -10.0};
 /* Two rectangles of different density as bodies 0 and 1. */
 static dem_model *make_bodies(void)
 {
-    const dem_material light = {.youngs_modulus = 1e7, .density = 500.0, .thickness = 1.0, .guard = 0.02};
-    const dem_material heavy = {.youngs_modulus = 1e7, .density = 2000.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material light = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 500.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material heavy = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 2000.0, .thickness = 1.0, .guard = 0.02};
     const double aside[2] = {3.0, 0.5};
     dem_lattice first, second;
     dem_model *model;
@@ -162,6 +164,10 @@ static dem_model *make_square(void)
     for (int k = 0; k < 6; k++) lattice.triangles[k] = corners[k];
     lattice.guard[0] = 0.0;
     lattice.guard[1] = 5.0;
+    lattice.area_stiffness = malloc(2 * sizeof(double));
+    assert_non_null(lattice.area_stiffness);
+    lattice.area_stiffness[0] = 6.0;
+    lattice.area_stiffness[1] = -2.0;
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_lattice_free(&lattice);
     return model;
@@ -194,7 +200,7 @@ static void extremes_of_strain_are_found_with_their_springs(void **state)
 
 /* Node 1 across the diagonal, at (0.1, 0.9): triangle 0 1 2 has -0.8 of its area and no guard; node 3 at its mirror
  * image. */
-static void inverted_triangles_have_negative_areas_and_count_where_guarded(void **state)
+static void inverted_triangles_have_negative_areas_and_count(void **state)
 {
     double x[8] = {0.0, 0.0, 0.1, 0.9, 1.0, 1.0, 0.0, 1.0};
     (void)state;
@@ -202,11 +208,13 @@ static void inverted_triangles_have_negative_areas_and_count_where_guarded(void 
     dem_strain strain = diagnostics_strain(model, x);
     assert_close(strain.area_min, -0.8, 1e-15);
     assert_int_equal(strain.guarded, 0);
+    assert_int_equal(strain.inverted, 1);
     x[6] = 0.9;
     x[7] = 0.1;
     strain = diagnostics_strain(model, x);
     assert_close(strain.area_min, -0.8, 1e-15);
     assert_int_equal(strain.guarded, 1);
+    assert_int_equal(strain.inverted, 2);
     assert_true(diagnostics_energy(model, gravity, x, x).guard > 0.0);
     dem_model_destroy(model);
 }
@@ -218,6 +226,19 @@ static void elastic_energy_is_that_of_the_springs(void **state)
     dem_model *model = make_square();
     const double strain = 0.5 * sqrt(2.0) - 1.0; /* of the diagonal alone */
     assert_close(diagnostics_energy(model, gravity, x, v).elastic, 0.5 * 10.0 * 2.0 * strain * strain, 1e-14);
+    dem_model_destroy(model);
+}
+
+/* Node 3 at (0.25, 0.5) leaves the triangle 0 2 3, of kappa -2 N/m, a quarter of its area, node 1 at (1.5, 0) gives the
+ * other, of 6 N/m, half as much again: A0 kappa/2 (J - 1)^2 each. */
+static void area_energy_is_that_of_the_triangles(void **state)
+{
+    const double x[8] = {0.0, 0.0, 1.5, 0.0, 1.0, 1.0, 0.25, 0.5}, v[8] = {0.0};
+    (void)state;
+    dem_model *model = make_square();
+    const dem_energy energy = diagnostics_energy(model, gravity, x, v);
+    assert_close(energy.area, 0.5 * (3.0 * 0.25 - 1.0 * 0.5625), 1e-15);
+    assert_close(dem_energy_ledger(energy), energy.area + energy.elastic + energy.guard + energy.gravity, 1e-12);
     dem_model_destroy(model);
 }
 
@@ -237,6 +258,7 @@ static void without_springs_and_triangles_there_is_no_strain(void **state)
     assert_int_equal(strain.spring_max, -1);
     assert_close(strain.area_min, 1.0, 0.0);
     assert_int_equal(strain.guarded, 0);
+    assert_int_equal(strain.inverted, 0);
     const dem_body_motion motion = diagnostics_body(model, 0, x, v);
     assert_close(motion.angular_momentum, 0.0, 0.0);
     assert_close(diagnostics_energy(model, gravity, x, v).kinetic, 25.0, 0.0);
@@ -254,8 +276,11 @@ static double pseudo(dem_index k)
 /* A damped block with its lowest row fixed, strained by some 10 % and moving at about 1 m/s. */
 static moving make_damped(double damping_time)
 {
-    const dem_material soft = {
-        .youngs_modulus = 1e5, .density = 1000.0, .thickness = 0.5, .damping_time = damping_time};
+    const dem_material soft = {.youngs_modulus = 1e5,
+                               .poissons_ratio = 1.0 / 3.0,
+                               .density = 1000.0,
+                               .thickness = 0.5,
+                               .damping_time = damping_time};
     moving m = {.model = NULL};
     dem_lattice lattice;
     assert_ok(dem_lattice_rectangle(&lattice, 0.4, 0.3, 0.1));
@@ -297,7 +322,7 @@ static double power_of_damping_forces(const moving *m, double mass_damping)
 /* Relative rounding of sums of some hundred terms. */
 static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 {
-    const model_load loads[2] = {{{0.5, -10.0}, 0.0}, {{0.5, -10.0}, 40.0}};
+    const model_load loads[2] = {{.gravity = {0.5, -10.0}}, {.gravity = {0.5, -10.0}, .mass_damping = 40.0}};
     (void)state;
     moving m = make_damped(1e-3);
     for (int k = 0; k < 2; k++) {
@@ -311,7 +336,7 @@ static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 /* It is also what the accelerations of damped and undamped motion differ by; fixed nodes have none, whatever v is. */
 static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
 {
-    const model_load load = {{0.5, -10.0}, 40.0}, free_of_it = {{0.5, -10.0}, 0.0};
+    const model_load load = {.gravity = {0.5, -10.0}, .mass_damping = 40.0}, free_of_it = {.gravity = {0.5, -10.0}};
     double lacking = 0.0;
     (void)state;
     moving m = make_damped(1e-3), plain = make_damped(0.0);
@@ -329,7 +354,7 @@ static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
 
 static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves(void **state)
 {
-    const model_load load = {{0.0, 0.0}, 3.0};
+    const model_load load = {.mass_damping = 3.0};
     (void)state;
     moving m = make_damped(0.0);
     m.v[0] = 100.0; /* of a fixed node */
@@ -346,8 +371,9 @@ int main(void)
         cmocka_unit_test(each_body_has_the_mean_motion_it_was_given),
         cmocka_unit_test(a_rigid_motion_strains_nothing),
         cmocka_unit_test(extremes_of_strain_are_found_with_their_springs),
-        cmocka_unit_test(inverted_triangles_have_negative_areas_and_count_where_guarded),
+        cmocka_unit_test(inverted_triangles_have_negative_areas_and_count),
         cmocka_unit_test(elastic_energy_is_that_of_the_springs),
+        cmocka_unit_test(area_energy_is_that_of_the_triangles),
         cmocka_unit_test(without_springs_and_triangles_there_is_no_strain),
         cmocka_unit_test(the_power_of_damping_is_minus_that_of_its_forces),
         cmocka_unit_test(the_power_of_damping_is_what_the_accelerations_lack),

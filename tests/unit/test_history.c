@@ -41,7 +41,7 @@ static void begin(flight *f, dem_index n_obstacles)
     lattice.body[0] = 0, lattice.body[1] = 1;
     support_open(&f->run, &lattice, obstacles, n_obstacles, &options);
     dem_lattice_free(&lattice);
-    assert_ok(history_init(&f->history, f->run.model));
+    assert_ok(history_init(&f->history, f->run.simulation));
     assert_ok(hdf5_open_new(&f->file, path, table_bytes(&f->history.table)));
     assert_ok(table_create(&f->history.table, &f->file));
 }
@@ -202,9 +202,10 @@ static void every_energy_has_its_column(void **state)
     const struct {
         const char *column;
         double value;
-    } columns[] = {{"kinetic", e->kinetic}, {"elastic", e->elastic},      {"guard", e->guard},
-                   {"gravity", e->gravity}, {"impact", e->impact},        {"friction", e->friction},
-                   {"damping", e->damping}, {"projection", e->projection}};
+    } columns[] = {{"kinetic", e->kinetic},   {"elastic", e->elastic}, {"area", e->area},
+                   {"guard", e->guard},       {"gravity", e->gravity}, {"impact", e->impact},
+                   {"friction", e->friction}, {"damping", e->damping}, {"projection", e->projection},
+                   {"boundary", e->boundary}};
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
         expect_number(f, columns[k].column, f->history.table.written - 1, columns[k].value);
     drop(f);
@@ -257,6 +258,7 @@ static void columns_have_the_shapes_of_what_they_tell(void **state)
     } shapes[] = {
         {"t", 0, 1, {1, 1, 1}},
         {"guarded", 1, 1, {1, 1, 1}},
+        {"inverted", 1, 1, {1, 1, 1}},
         {"late", 1, 1, {1, 1, 1}},
         {"body_centre", 0, 3, {1, 2, 2}},
         {"body_angular_momentum", 0, 2, {1, 2, 1}},

@@ -19,6 +19,14 @@ static void give_viscosity(dem_lattice *lattice)
     for (dem_index k = 0; k < lattice->n_springs; k++) lattice->viscosity[k] = 0.5 + (double)k;
 }
 
+/* 0, -1, -2, ... N/m */
+static void give_area_stiffness(dem_lattice *lattice)
+{
+    lattice->area_stiffness = calloc((size_t)lattice->n_triangles, sizeof *lattice->area_stiffness);
+    assert_non_null(lattice->area_stiffness);
+    for (dem_index t = 0; t < lattice->n_triangles; t++) lattice->area_stiffness[t] = -(double)t;
+}
+
 /* ---- parts, select ---- */
 
 static void parts_are_numbered_by_their_lowest_nodes(void **state)
@@ -51,6 +59,7 @@ static void select_keeps_every_array_in_step(void **state)
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
     lattice.velocity[8] = 7.0;
     lattice.guard[1] = 5.0;
+    give_area_stiffness(&lattice);
     give_viscosity(&lattice);
     lattice.body = calloc(5, sizeof *lattice.body);
     lattice.flags = calloc(5, sizeof *lattice.flags);
@@ -69,6 +78,7 @@ static void select_keeps_every_array_in_step(void **state)
     assert_close(lattice.velocity[4], 7.0, 0.0);
     assert_close(lattice.position[5], 8.0, 0.0);
     assert_close(lattice.guard[0], 5.0, 0.0);
+    assert_close(lattice.area_stiffness[0], -1.0, 0.0);
     assert_int_equal(lattice.body[2], 6);
     assert_int_equal(lattice.flags[2], DEM_NODE_FIXED);
     dem_lattice_move(&lattice, 0.0, offset);
@@ -126,6 +136,7 @@ static void append_numbers_nodes_and_bodies_behind_the_others(void **state)
     assert_int_equal(dem_lattice_launch(&part, v), DEM_OK);
     free(part.guard);
     part.guard = NULL;
+    give_area_stiffness(&part);
     assert_int_equal(dem_lattice_append(&all, &part), DEM_OK);
     assert_int_equal(dem_lattice_append(&all, &all), DEM_OK);
     assert_int_equal(all.n_nodes, 20);
@@ -140,6 +151,7 @@ static void append_numbers_nodes_and_bodies_behind_the_others(void **state)
     for (dem_index k = 0; k < 48; k++) assert_int_equal(all.ends[k], part.ends[k % 12] + k / 12 * 5);
     for (dem_index k = 0; k < 24; k++) assert_int_equal(all.triangles[k], part.triangles[k % 6] + k / 6 * 5);
     for (dem_index t = 0; t < 8; t++) assert_close(all.guard[t], t / 2 % 2 == 0 ? 1e5 : 0.0, 1e-9);
+    for (dem_index t = 0; t < 8; t++) assert_close(all.area_stiffness[t], t % 4 == 3 ? -1.0 : 0.0, 0.0);
     assert_null(all.position);
     assert_null(all.flags);
     dem_lattice_free(&all);

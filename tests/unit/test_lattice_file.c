@@ -128,6 +128,7 @@ static void what_is_not_there_is_null(void **state)
     assert_null(lattice.viscosity);
     assert_null(lattice.triangles);
     assert_null(lattice.guard);
+    assert_null(lattice.area_stiffness);
     assert_null(lattice.flags);
     assert_null(lattice.body);
     assert_null(lattice.position);
@@ -269,7 +270,7 @@ static void unknown_names_are_refused(void **state)
         char message[256];
         (void)snprintf(message, sizeof message,
                        "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
-                       "viscosity, triangles, guard, body, position, velocity, fixed, contact_nodes",
+                       "viscosity, triangles, guard, area_stiffness, body, position, velocity, fixed, contact_nodes",
                        path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);
@@ -302,6 +303,9 @@ static void wrong_types_and_shapes_are_refused(void **state)
     drop("triangles");
     put_real("guard", 2, 0, ones);
     REFUSED("guard: is there without triangles");
+    drop("guard");
+    put_real("area_stiffness", 2, 0, ones);
+    REFUSED("area_stiffness: is there without triangles");
 }
 
 static void a_number_that_does_not_fit_is_refused(void **state)

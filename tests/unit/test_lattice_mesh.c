@@ -306,10 +306,13 @@ static void viscosity_is_damping_time_times_stiffness(void **state)
     dem_lattice_free(&plain);
 }
 
-/* Energy (1) under x -> (1 + s strain) x; strain = xx, yy, xy. */
-static double spring_energy(const dem_lattice *lattice, const double strain[3], double s)
+/* Energy (1) and of the area term under x -> (1 + s strain) x; strain = xx, yy, xy. */
+static double energy_of(const dem_lattice *lattice, const double strain[3], double s)
 {
+    const double J = (1.0 + s * strain[0]) * (1.0 + s * strain[1]) - s * s * strain[2] * strain[2];
     double energy = 0.0;
+    for (dem_index t = 0; t < lattice->n_triangles && lattice->area_stiffness != NULL; t++)
+        energy += 0.5 * lattice->area_stiffness[t] * area_of(lattice, t) * (J - 1.0) * (J - 1.0);
     for (dem_index k = 0; k < lattice->n_springs; k++) {
         const double *a = lattice->x + 2 * lattice->ends[2 * k], *b = lattice->x + 2 * lattice->ends[2 * k + 1];
         const double dx = b[0] - a[0], dy = b[1] - a[1], rest = lattice->rest_length[k];
@@ -320,22 +323,55 @@ static double spring_energy(const dem_lattice *lattice, const double strain[3], 
     return energy;
 }
 
-static void a_uniformly_strained_block_has_the_energy_of_plane_stress_at_nu_one_third(void **state)
+/* Hooke's law of a solid in three dimensions: of plane strain as it is, of plane stress with the strain across that
+ * leaves no stress there. The third order in s cancels in the mean of s and -s; the fourth is of order s^2. */
+static void expect_energy_of(const dem_material *solid, const double e[3])
+{
+    const double nu = solid->poissons_ratio, s = 1e-4, G = 0.5 * solid->youngs_modulus / (1.0 + nu);
+    const double lambda = 2.0 * G * nu / (1.0 - 2.0 * nu);
+    const double across = solid->plane == DEM_PLANE_STRAIN ? 0.0 : -nu / (1.0 - nu) * (e[0] + e[1]);
+    const double trace = e[0] + e[1] + across;
+    const double squares = e[0] * e[0] + e[1] * e[1] + across * across + 2.0 * e[2] * e[2];
+    dem_lattice lattice = make_rectangle(0.03, 0.05, spacing);
+    assert_int_equal(dem_lattice_assemble(&lattice, solid), DEM_OK);
+    const double volume = (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing * solid->thickness;
+    const double expected = s * s * volume * (0.5 * lambda * trace * trace + G * squares);
+    const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
+    assert_close(mean / expected, 1.0, 1e-7);
+    dem_lattice_free(&lattice);
+}
+
+static void a_uniformly_strained_block_has_the_energy_of_its_solid(void **state)
 {
     (void)state;
     static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {1, 1, 0}, {0.3, -0.7, 0.5}};
-    const double nu = 1.0 / 3.0, s = 1e-4;
-    dem_lattice lattice = make_solid(0.03, 0.05, spacing);
-    const double area = (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing;
-    const double modulus = rubber.youngs_modulus * rubber.thickness / (1.0 - nu * nu);
-    for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
-        const double *e = strains[k];
-        const double expected = 0.5 * modulus * s * s * area *
-                                (e[0] * e[0] + e[1] * e[1] + 2.0 * nu * e[0] * e[1] + 2.0 * (1.0 - nu) * e[2] * e[2]);
-        const double mean = 0.5 * (spring_energy(&lattice, e, s) + spring_energy(&lattice, e, -s));
-        assert_close(mean / expected, 1.0, 1e-7); /* third order cancels in the mean; the fourth is of order s^2 */
+    static const double ratios[] = {-0.3, 0.0, 0.1, 0.25, 1.0 / 3.0, 0.45};
+    dem_material solid = rubber;
+    for (int plane = 0; plane < 2; plane++)
+        for (size_t n = 0; n < sizeof ratios / sizeof *ratios; n++)
+            for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
+                solid.plane = plane == 0 ? DEM_PLANE_STRESS : DEM_PLANE_STRAIN;
+                solid.poissons_ratio = ratios[n];
+                expect_energy_of(&solid, strains[k]);
+            }
+}
+
+/* kappa = E h (3 nu - 1)/(2 (1 - nu^2)): at 0.5 E h/3; springs alone have 1/3 in plane stress, 1/4 in plane strain. */
+static void area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it(void **state)
+{
+    (void)state;
+    const dem_plane planes[3] = {DEM_PLANE_STRESS, DEM_PLANE_STRESS, DEM_PLANE_STRAIN};
+    const double ratios[3] = {0.5, 1.0 / 3.0, 0.25};
+    for (int k = 0; k < 3; k++) {
+        dem_material solid = rubber;
+        solid.poissons_ratio = ratios[k], solid.plane = planes[k];
+        dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
+        assert_int_equal(dem_lattice_assemble(&lattice, &solid), DEM_OK);
+        for (dem_index t = 0; k == 0 && t < lattice.n_triangles; t++)
+            assert_close(lattice.area_stiffness[t], 1e7 * 0.5 / 3.0, 1e-8);
+        if (k > 0) assert_null(lattice.area_stiffness);
+        dem_lattice_free(&lattice);
     }
-    dem_lattice_free(&lattice);
 }
 
 static void assembling_refuses_what_is_not_a_triangulation(void **state)
@@ -370,6 +406,15 @@ static void assembling_refuses_impossible_materials(void **state)
     dem_material m = rubber;
     m.youngs_modulus = 0.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: 0 Pa");
+    m = rubber, m.poissons_ratio = 1.0;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "Poisson's ratio must be in (-1, 1) in plane stress: 1");
+    m.poissons_ratio = 0.5, m.plane = DEM_PLANE_STRAIN;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "Poisson's ratio must be in (-1, 0.5) in plane strain: 0.5");
+    m.plane = (dem_plane)2;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "plane is 2, which is neither stress nor strain");
     m = rubber, m.density = -1.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "density must be > 0: -1 kg/m^3");
     m = rubber, m.thickness = (double)INFINITY;
@@ -405,7 +450,8 @@ int main(void)
         cmocka_unit_test(masses_and_guard_are_those_of_the_triangles),
         cmocka_unit_test(a_material_without_guard_leaves_guard_NULL),
         cmocka_unit_test(viscosity_is_damping_time_times_stiffness),
-        cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_plane_stress_at_nu_one_third),
+        cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_its_solid),
+        cmocka_unit_test(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it),
         cmocka_unit_test(assembling_refuses_what_is_not_a_triangulation),
         cmocka_unit_test(assembling_refuses_impossible_materials),
     };

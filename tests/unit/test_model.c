@@ -11,6 +11,7 @@ enum { n_nodes = 4, n_springs = 5, n_triangles = 2 };
 /* A square of 1 m with one diagonal, every array given: the lattice points into the arrays beside it. */
 typedef struct square {
     double x[2 * n_nodes], mass[n_nodes], rest_length[n_springs], stiffness[n_springs], guard[n_triangles];
+    double area_stiffness[n_triangles];
     double viscosity[n_springs];
     double position[2 * n_nodes], velocity[2 * n_nodes];
     dem_index ends[2 * n_springs], triangles[3 * n_triangles];
@@ -24,6 +25,7 @@ static const square plain = {.x = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0},
                              .rest_length = {1.0, 1.0, 0.5, 1.0, 1.5},
                              .stiffness = {10.0, 20.0, 30.0, 40.0, 50.0},
                              .guard = {0.1, 0.2},
+                             .area_stiffness = {-3.0, 6.0},
                              .viscosity = {1.0, 2.0, 0.0, 4.0, 5.0},
                              .position = {0.0, 5.0, 1.0, 5.0, 1.0, 6.0, 0.0, 6.0},
                              .velocity = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0},
@@ -228,6 +230,10 @@ static void triangles_are_counter_clockwise_and_guards_not_negative(void **state
     refuse(&s, DEM_ERROR_MODEL, "triangle 0: guard must be >= 0, got -0.25 N/m");
     s.guard[0] = infinite;
     refuse(&s, DEM_ERROR_MODEL, "triangle 0: guard must be >= 0, got inf N/m");
+    s.guard[0] = 0.0;
+    s.lattice.area_stiffness = s.area_stiffness;
+    s.area_stiffness[1] = -infinite;
+    refuse(&s, DEM_ERROR_MODEL, "triangle 1: area stiffness must be finite, got -inf N/m");
 }
 
 static void a_node_without_springs_must_be_a_body_of_its_own(void **state)
@@ -291,7 +297,8 @@ static void absent_arrays_get_their_defaults(void **state)
 
 static void by_default_the_boundary_may_touch(void **state)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     dem_lattice lattice;
     dem_model *model;
     (void)state;
@@ -303,9 +310,9 @@ static void by_default_the_boundary_may_touch(void **state)
     dem_index n = 0;
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double y = lattice.x[2 * i + 1];
-        const int boundary = fabs(lattice.x[2 * i]) > 1.4 || y < 0.1 || y > top - 0.1; /* rows end at 2.0 or 1.5 */
-        assert_int_equal(dem_model_lattice(model)->flags[i], boundary ? DEM_NODE_CONTACT : 0);
-        if (boundary) assert_int_equal(model->sites[n++], i);
+        const int outer = fabs(lattice.x[2 * i]) > 1.4 || y < 0.1 || y > top - 0.1; /* rows end at 2.0 or 1.5 */
+        assert_int_equal(dem_model_lattice(model)->flags[i], outer ? DEM_NODE_CONTACT : 0);
+        if (outer) assert_int_equal(model->sites[n++], i);
     }
     assert_int_equal(dem_model_sizes(model).n_contact_nodes, n);
     assert_true(n < lattice.n_nodes);
@@ -347,6 +354,7 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
     make_square(&s);
     s.lattice.position = s.position;
     s.lattice.viscosity = s.viscosity;
+    s.lattice.area_stiffness = s.area_stiffness;
     assert_ok(dem_model_create(&model, &s.lattice, &obstacle, 1));
     points[1] = points[3] = 100.0;
     memset(s.x, 0xff, offsetof(square, lattice));
@@ -359,6 +367,7 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
     assert_memory_equal(l->viscosity, plain.viscosity, sizeof plain.viscosity);
     assert_memory_equal(l->triangles, plain.triangles, sizeof plain.triangles);
     assert_memory_equal(l->guard, plain.guard, sizeof plain.guard);
+    assert_memory_equal(l->area_stiffness, plain.area_stiffness, sizeof plain.area_stiffness);
     assert_memory_equal(l->position, plain.position, sizeof plain.position);
     assert_close(dem_model_gap(model, at), 2.0, 0.0);
     assert_close(dem_model_obstacles(model, &n)[0].points[1], 0.0, 0.0);
@@ -425,6 +434,27 @@ static void spacing_mass_and_the_frequency_bound_are_those_of_the_springs(void *
     dem_model_destroy(model);
 }
 
+/* The triangle 0 1 2 of 0.5 m^2: |g| is half the opposite side, so that node 0, of 1 kg, with its spring along x and
+ * g = (-1/2, 0), has 2 * 10 + 3 * 40/0.5 * 1/4; a negative stiffness counts as none. */
+static void area_stiffness_raises_the_frequency_bound(void **state)
+{
+    square s;
+    (void)state;
+    make_square(&s);
+    s.lattice.area_stiffness = s.area_stiffness;
+    s.area_stiffness[0] = 40.0;
+    s.lattice.n_springs = 2;
+    s.lattice.n_nodes = 3;
+    s.lattice.n_triangles = 1;
+    dem_model *model = compile(&s);
+    assert_close(dem_model_omega_max(model), sqrt(80.0), 1e-14);
+    dem_model_destroy(model);
+    s.area_stiffness[0] = -40.0;
+    model = compile(&s);
+    assert_close(dem_model_omega_max(model), sqrt(20.0), 1e-15);
+    dem_model_destroy(model);
+}
+
 static void without_springs_spacing_and_frequency_are_zero(void **state)
 {
     const double anywhere[2] = {3.0, 4.0};
@@ -443,7 +473,8 @@ static void without_springs_spacing_and_frequency_are_zero(void **state)
 /* ---- force ---- */
 
 /* Central differences over 1e-6 m: truncation of order 1e-12 * 1e3 N/m^2, rounding 1e-16 * 1e3 J/1e-6 m. Node 2
- * moved so that triangle 0 1 2 is squeezed to 0.1: springs, guard and weight all act. */
+ * moved so that triangle 0 1 2 is squeezed to 0.1: springs, area
+ * term, guard and weight all act. */
 static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
 {
     const double step = 1e-6, v[2 * n_nodes] = {0};
@@ -454,6 +485,7 @@ static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void
     (void)state;
     make_square(&s);
     s.guard[0] = 30.0;
+    s.lattice.area_stiffness = s.area_stiffness;
     dem_model *model = compile(&s);
     memcpy(x, s.x, sizeof x);
     x[5] = 0.1;
@@ -514,6 +546,7 @@ int main(void)
         cmocka_unit_test(the_model_is_independent_of_what_it_was_made_from),
         cmocka_unit_test(sizes_and_csr_tell_what_is_there),
         cmocka_unit_test(spacing_mass_and_the_frequency_bound_are_those_of_the_springs),
+        cmocka_unit_test(area_stiffness_raises_the_frequency_bound),
         cmocka_unit_test(without_springs_spacing_and_frequency_are_zero),
         cmocka_unit_test(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node),
         cmocka_unit_test(damping_of_springs_and_mass_slow_a_node),

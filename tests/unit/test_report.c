@@ -315,7 +315,8 @@ static void without_springs_there_is_no_strain(void **state)
 static void the_smallest_triangle_is_told(void **state)
 {
     (void)state;
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);

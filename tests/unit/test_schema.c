@@ -334,11 +334,12 @@ static void the_number_of_values_comes_before_their_ranges(void **state)
 static void ranges_are_checked(void **state)
 {
     (void)state;
-    assert_errors(RUN "&material youngs_modulus = 0, density = -5, guard = -1e-3 /\n" BODY
+    assert_errors(RUN "&material youngs_modulus = 0, density = -5, guard = -1e-3, poissons_ratio = 1 /\n" BODY
                       "&obstacle points = 4*0 restitution = 1.5 /\n&solver rtol = 1e-14 /\n&output deflate = 10 /",
                   "2:28 'youngs_modulus' in &material must be > 0, got 0\n"
                   "2:41 'density' in &material must be > 0, got -5\n"
                   "2:53 'guard' in &material must be >= 0, got -1e-3\n"
+                  "2:77 'poissons_ratio' in &material must be in (-1, 1), got 1\n"
                   "4:38 'restitution' in &obstacle must be in [0, 1], got 1.5\n"
                   "5:16 'rtol' in &solver must be in [1e-13, 1e-1], got 1e-14\n"
                   "6:19 'deflate' in &output must be in [0, 9], got 10");

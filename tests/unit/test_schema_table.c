@@ -161,6 +161,10 @@ static range read_range(const schema_key *key)
     }
     if (sscanf(key->range, ">= %lf%c", &r.from, &end) == 1) return r;
     if (sscanf(key->range, "[%lf, %lf%c", &r.from, &r.to, &end) == 3 && end == ']') return r;
+    if (sscanf(key->range, "(%lf, %lf%c", &r.from, &r.to, &end) == 3 && end == ')') {
+        r.open = 1;
+        return r;
+    }
     fail_msg("'%s': range '%s'", key->name, key->range);
     return r;
 }
@@ -242,7 +246,7 @@ static void expect_value_passes(const schema_group *group, const schema_key *key
     assert_int_equal(value->reals != NULL, key->type != SCHEMA_STRING && key->type != SCHEMA_CHOICE);
     for (int j = 0; value->reals != NULL && j < value->count; j++) {
         const double x = value->reals[j];
-        if (!(x >= limits.from && x <= limits.to) || (limits.open && x == limits.from))
+        if (!(x >= limits.from && x <= limits.to) || (limits.open && (x == limits.from || x == limits.to)))
             fail_msg("%s in &%s: %g is not %s", key->name, group->name, x, key->range);
     }
     drop_resolved(&r);

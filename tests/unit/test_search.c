@@ -108,6 +108,40 @@ static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
     }
 }
 
+/* Level with 1 m/s through the tip of the roof, 1 cm below it, in the first eighth of the step. That nothing was within
+ * 5 cm of its start says less about its gap than the roof does. */
+static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **state)
+{
+    const double at[2] = {-0.1, -0.01};
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
+    s.c.sites.list[0].clear = 0.05;
+    s.c.sites.list[0].clear_at[0] = vec2_at(at, 0);
+    scene_fly(&s, nothing, 0.0, 1.0, &f);
+    assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * skin, 1e-13);
+    scene_close(&s);
+}
+
+/* Up from the floor with 2 m/s through a plate at 0.3 m, a fifth of the way thick: the gap grows at both ends. */
+static void a_plate_between_two_ends_that_recede_is_found(void **state)
+{
+    const double points[10] = {2.0, 0.3, 0.0, 0.3, 0.0, 0.5, 2.0, 0.5, 2.0, 0.3}, at[2] = {1.0, 0.05};
+    const dem_obstacle floor_and_plate[2] = {plane, {.n_points = 5, .points = points}};
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
+    scene_fly(&s, nothing, 0.0, 0.5, &f);
+    assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + skin), 1e-13);
+    scene_close(&s);
+}
+
 static void a_site_out_of_reach_never_crosses(void **state)
 {
     scene s;
@@ -170,6 +204,21 @@ static void a_dip_of_an_edge_within_the_step_is_found(void **state)
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
     assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
     assert_close(crossing(&s, k, &f.path), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
+    scene_close(&s);
+}
+
+/* Down and left with 1 m/s each way: the ridge goes in through the edge 1 cm before its end, and is beyond that by the
+ * next sample. */
+static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
+    scene_fly(&s, nothing, 0.0, 1.0, &f);
+    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + skin, 1e-13);
     scene_close(&s);
 }
 
@@ -290,10 +339,13 @@ int main(void)
         cmocka_unit_test(a_crossing_just_before_the_end_is_found),
         cmocka_unit_test(a_dip_within_the_step_is_found),
         cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
+        cmocka_unit_test(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap),
+        cmocka_unit_test(a_plate_between_two_ends_that_recede_is_found),
         cmocka_unit_test(a_site_out_of_reach_never_crosses),
         cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
         cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
         cmocka_unit_test(a_dip_of_an_edge_within_the_step_is_found),
+        cmocka_unit_test(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found),
         cmocka_unit_test(a_dip_at_one_end_of_a_turning_edge_is_found),
         cmocka_unit_test(a_sliding_site_is_first_due_when_it_reaches_the_end),
         cmocka_unit_test(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end),

@@ -4,7 +4,8 @@
 
 #include "shape.h"
 
-static const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0};
+static const dem_material rubber = {
+    .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
 static const shape_void round_void = {.outline = {.disc = true, .radius = 0.5}, .centre = {1.0, 2.0}};
 static const shape_void square_void = {.outline = {.size = {2.0, 1.0}}, .centre = {-1.0, 4.0}};
 

@@ -159,7 +159,8 @@ static const double spacing = 0.01, slope_points[6] = {-0.5, 0.1, 0.0, 0.0, 0.5,
 
 static void make_rectangle(dem_lattice *lattice, double clearance)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const double up[2] = {0.01, clearance};
     assert_ok(dem_lattice_rectangle(lattice, 0.03, 0.04, spacing));
     assert_ok(dem_lattice_assemble(lattice, &rubber));

@@ -27,7 +27,7 @@ typedef struct stored {
 static stored begin(dem_index first, dem_index second)
 {
     stored s;
-    const dem_index count[2] = {first, second};
+    const dem_index count[TABLE_SETS - 1] = {first, second, 0};
     assert_ok(table_init(&s.table, columns, n_columns, count));
     assert_ok(hdf5_open_new(&s.file, path, table_bytes(&s.table)));
     assert_ok(table_create(&s.table, &s.file));

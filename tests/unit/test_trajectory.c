@@ -36,7 +36,8 @@ static void make_model(run *r, int n_obstacles)
     const double offset[2] = {0.0, 3e-4}, velocity[2] = {1.0, -5.0};
     const dem_obstacle obstacles[2] = {{.n_points = 4, .points = floor, .restitution = 0.5},
                                        {.n_points = 2, .points = far, .restitution = 0.25}};
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     dem_lattice lattice;
     assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 5e-3), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
@@ -366,6 +367,7 @@ static void history_has_a_row_for_every_accepted_step(void **state)
     assert_true(n > 50);
     static const char *const columns[] = {"kinetic",
                                           "elastic",
+                                          "area",
                                           "guard",
                                           "gravity",
                                           "impact",
@@ -378,6 +380,7 @@ static void history_has_a_row_for_every_accepted_step(void **state)
                                           "events",
                                           "late",
                                           "guarded",
+                                          "inverted",
                                           "area_min",
                                           "evaluations",
                                           "strain_min",
@@ -550,6 +553,7 @@ static void the_lattice_comes_back(void **state)
     assert_memory_equal(back.stiffness, lattice->stiffness, m * sizeof(double));
     assert_memory_equal(back.triangles, lattice->triangles, 3 * t * sizeof(dem_index));
     assert_memory_equal(back.guard, lattice->guard, t * sizeof(double));
+    assert_memory_equal(back.area_stiffness, lattice->area_stiffness, t * sizeof(double));
     assert_memory_equal(back.flags, lattice->flags, n);
     assert_memory_equal(back.body, lattice->body, n * sizeof(int32_t));
     assert_memory_equal(back.position, lattice->position, 2 * n * sizeof(double));

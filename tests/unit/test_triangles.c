@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* triangles.c, triangles.h: the law of the folding guard, its forces and energies. */
+/* triangles.c, triangles.h: the law of the folding guard; forces and energies of guard and area term. */
 #include "../verification/support.h"
 
 #include <stdlib.h>
@@ -114,7 +114,7 @@ static const double corners[2 * n_nodes] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1
 static const double masses[n_nodes] = {1.0, 1.0, 1.0, 1.0, 1.0};
 static const dem_index fan[3 * n_triangles] = {0, 1, 4, 4, 1, 2, 3, 4, 2, 0, 4, 3};
 
-static triangles compile_fan(const double *guard)
+static triangles compile_fan(const double *guard, const double *area_stiffness)
 {
     dem_lattice lattice;
     triangles t;
@@ -128,12 +128,24 @@ static triangles compile_fan(const double *guard)
         assert_non_null(lattice.guard);
         memcpy(lattice.guard, guard, n_triangles * sizeof *guard);
     }
+    if (area_stiffness != NULL) {
+        lattice.area_stiffness = malloc(n_triangles * sizeof *area_stiffness);
+        assert_non_null(lattice.area_stiffness);
+        memcpy(lattice.area_stiffness, area_stiffness, n_triangles * sizeof *area_stiffness);
+    }
     assert_ok(triangles_compile(&t, &lattice));
     dem_lattice_free(&lattice);
     return t;
 }
 
-static const double strengths[n_triangles] = {2.0, 3.0, 5.0, 7.0};
+static const double strengths[n_triangles] = {2.0, 3.0, 5.0, 7.0}, kappas[n_triangles] = {300.0, -50.0, 0.0, 70.0};
+
+static double energy_of(const triangles *t, const double *x)
+{
+    double area, guard;
+    triangles_energy(t, x, &area, &guard);
+    return area + guard;
+}
 
 static void rows_hold_the_guarded_triangles_of_each_node_in_order(void **state)
 {
@@ -142,16 +154,32 @@ static void rows_hold_the_guarded_triangles_of_each_node_in_order(void **state)
     static const dem_index next[9] = {1, 4, 4, 3, 4, 0, 0, 2, 3}, last[9] = {4, 3, 0, 4, 2, 4, 1, 3, 0};
     static const double strength[9] = {2.0, 7.0, 2.0, 5.0, 5.0, 7.0, 2.0, 5.0, 7.0};
     (void)state;
-    triangles t = compile_fan(some);
+    triangles t = compile_fan(some, NULL);
     assert_memory_equal(t.row, row, sizeof row);
     assert_memory_equal(t.next, next, sizeof next);
     assert_memory_equal(t.last, last, sizeof last);
     for (int p = 0; p < 9; p++) {
-        assert_close(t.strength[p], strength[p], 0.0);
+        assert_close(t.guard[p], strength[p], 0.0);
         assert_close(t.rest_area[p], 0.25, 0.0);
     }
     triangles_free(&t);
     assert_null(t.row);
+}
+
+static void rows_hold_triangles_with_area_stiffness_or_guard(void **state)
+{
+    const double some[n_triangles] = {0.0, 0.0, 0.0, 7.0}, stiff[n_triangles] = {0.0, -3.0, 0.0, 0.0};
+    static const dem_index row[n_nodes + 1] = {0, 1, 2, 3, 4, 6}, next[6] = {4, 2, 4, 0, 1, 3};
+    static const double guard[6] = {7.0, 0.0, 0.0, 7.0, 0.0, 7.0}, kappa[6] = {0.0, -3.0, -3.0, 0.0, -3.0, 0.0};
+    (void)state;
+    triangles t = compile_fan(some, stiff);
+    assert_memory_equal(t.row, row, sizeof row);
+    assert_memory_equal(t.next, next, sizeof next);
+    for (int p = 0; p < 6; p++) {
+        assert_close(t.guard[p], guard[p], 0.0);
+        assert_close(t.area_stiffness[p], kappa[p], 0.0);
+    }
+    triangles_free(&t);
 }
 
 static void without_guards_every_row_is_empty(void **state)
@@ -160,22 +188,62 @@ static void without_guards_every_row_is_empty(void **state)
     const double *const cases[2] = {NULL, none};
     (void)state;
     for (int k = 0; k < 2; k++) {
-        triangles t = compile_fan(cases[k]);
+        triangles t = compile_fan(cases[k], cases[k]);
         for (int i = 0; i <= n_nodes; i++) assert_int_equal(t.row[i], 0);
-        assert_close(triangles_energy(&t, corners), 0.0, 0.0);
+        assert_close(energy_of(&t, corners), 0.0, 0.0);
         triangles_free(&t);
     }
 }
 
-static void a_lattice_at_rest_feels_no_guard(void **state)
+/* Exactly: the area over the rest area is 1 from every corner. */
+static void a_lattice_at_rest_feels_nothing(void **state)
 {
     (void)state;
-    triangles t = compile_fan(strengths);
+    triangles t = compile_fan(strengths, kappas);
     for (dem_index i = 0; i < n_nodes; i++) {
         const vec2 force = triangles_force(&t, i, corners);
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
-    assert_close(triangles_energy(&t, corners), 0.0, 0.0);
+    assert_close(energy_of(&t, corners), 0.0, 0.0);
+    triangles_free(&t);
+}
+
+/* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area, the upper one 2 - 2 y, the others theirs:
+ * W = A0 kappa/2 (J - 1)^2 each, dA/dy = 1/2 and -1/2. Rounding only. */
+static void the_area_term_is_linear_in_the_area(void **state)
+{
+    const double stiff[n_triangles] = {300.0, 0.0, -50.0, 0.0};
+    double x[2 * n_nodes];
+    (void)state;
+    triangles t = compile_fan(NULL, stiff);
+    memcpy(x, corners, sizeof x);
+    for (double y = -1.0; y < 2.0; y += 0.3) {
+        const double J = 2.0 * y, other = 2.0 - 2.0 * y;
+        x[9] = y;
+        const vec2 force = triangles_force(&t, 4, x);
+        double area, guard;
+        triangles_energy(&t, x, &area, &guard);
+        assert_close(force.x, 0.0, 1e-13);
+        assert_close(force.y, -0.5 * 300.0 * (J - 1.0) + 0.5 * -50.0 * (other - 1.0), 1e-12);
+        assert_close(area, 0.125 * (300.0 * (J - 1.0) * (J - 1.0) - 50.0 * (other - 1.0) * (other - 1.0)), 1e-12);
+        assert_close(guard, 0.0, 0.0);
+    }
+    triangles_free(&t);
+}
+
+/* kappa/A0 g g^T, |g| half the opposite side: the centre has g = (0, 1/2) of the lower triangle, (0, -1/2) of the upper
+ * one and (-1/2, 0), (1/2, 0) of those at the sides; a negative kappa does not count. */
+static void the_block_of_a_node_has_the_triangles_that_stiffen_it(void **state)
+{
+    (void)state;
+    triangles t = compile_fan(NULL, kappas);
+    const sym2 block = triangles_block(&t, 4, corners);
+    assert_close(block.xx, 70.0 / 0.25 * 0.25, 1e-13);
+    assert_close(block.xy, 0.0, 0.0);
+    assert_close(block.yy, 300.0 / 0.25 * 0.25, 1e-13);
+    triangles_free(&t);
+    t = compile_fan(strengths, NULL);
+    assert_close(triangles_block(&t, 4, corners).yy, 0.0, 0.0);
     triangles_free(&t);
 }
 
@@ -186,7 +254,7 @@ static void a_squeezed_triangle_pushes_its_corner_back(void **state)
     const double ratios[3] = {0.1, 0.02, -0.3};
     double x[2 * n_nodes];
     (void)state;
-    triangles t = compile_fan(strengths);
+    triangles t = compile_fan(strengths, NULL);
     memcpy(x, corners, sizeof x);
     for (int k = 0; k < 3; k++) {
         x[9] = 0.5 * ratios[k];
@@ -196,8 +264,8 @@ static void a_squeezed_triangle_pushes_its_corner_back(void **state)
         assert_close(force.x, 0.0, 0.0);
         assert_close(force.y, expected, 1e-13 * expected);
         assert_close(left.y, -0.5 * expected, 1e-13 * expected);
-        assert_close(triangles_energy(&t, x), 0.25 * 2.0 * energy_at(ratios[k]), 1e-13 * expected);
-        assert_close(triangles_node_energy(&t, 4, x), triangles_energy(&t, x), 0.0);
+        assert_close(energy_of(&t, x), 0.25 * 2.0 * energy_at(ratios[k]), 1e-13 * expected);
+        assert_close(triangles_node_energy(&t, 4, x), energy_of(&t, x), 0.0);
         assert_close(triangles_node_energy(&t, 2, x), 0.0, 0.0);
     }
     triangles_free(&t);
@@ -218,16 +286,16 @@ static void forces_are_minus_the_gradient_of_the_energy(void **state)
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes];
     (void)state;
-    triangles t = compile_fan(strengths);
+    triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         squeeze(x, rng);
         for (dem_index k = 0; k < 2 * n_nodes; k++) {
             const vec2 force = triangles_force(&t, k / 2, x);
-            const double here = x[k], scale = 1.0 + triangles_energy(&t, x);
+            const double here = x[k], scale = 1.0 + fabs(energy_of(&t, x));
             x[k] = here + step;
-            const double above = triangles_energy(&t, x), node_above = triangles_node_energy(&t, k / 2, x);
+            const double above = energy_of(&t, x), node_above = triangles_node_energy(&t, k / 2, x);
             x[k] = here - step;
-            const double below = triangles_energy(&t, x), node_below = triangles_node_energy(&t, k / 2, x);
+            const double below = energy_of(&t, x), node_below = triangles_node_energy(&t, k / 2, x);
             x[k] = here;
             assert_close(k % 2 == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-7 * scale);
             assert_close((node_above - node_below) / (2.0 * step), (above - below) / (2.0 * step), 1e-7 * scale);
@@ -238,12 +306,12 @@ static void forces_are_minus_the_gradient_of_the_energy(void **state)
 }
 
 /* Rounding of sums of 12 terms, against the largest force. */
-static void guards_exert_no_force_and_no_torque_on_the_whole(void **state)
+static void triangles_exert_no_force_and_no_torque_on_the_whole(void **state)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes];
     (void)state;
-    triangles t = compile_fan(strengths);
+    triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         double torque = 0.0, largest = 0.0, energy = 0.0;
         vec2 total = {0.0, 0.0};
@@ -258,7 +326,7 @@ static void guards_exert_no_force_and_no_torque_on_the_whole(void **state)
         assert_true(largest > 0.0);
         assert_close(vec2_norm(total), 0.0, 1e-13 * largest);
         assert_close(torque, 0.0, 1e-13 * largest);
-        assert_close(energy, triangles_energy(&t, x), 1e-13 * energy);
+        assert_close(energy, energy_of(&t, x), 1e-13 * largest);
     }
     triangles_free(&t);
     gsl_rng_free(rng);
@@ -283,11 +351,14 @@ int main(void)
         cmocka_unit_test(the_polynomial_takes_over_twice_continuously_differentiable),
         cmocka_unit_test(it_is_a_finite_rising_parabola_down_to_inverted_triangles),
         cmocka_unit_test(rows_hold_the_guarded_triangles_of_each_node_in_order),
+        cmocka_unit_test(rows_hold_triangles_with_area_stiffness_or_guard),
         cmocka_unit_test(without_guards_every_row_is_empty),
-        cmocka_unit_test(a_lattice_at_rest_feels_no_guard),
+        cmocka_unit_test(a_lattice_at_rest_feels_nothing),
+        cmocka_unit_test(the_area_term_is_linear_in_the_area),
+        cmocka_unit_test(the_block_of_a_node_has_the_triangles_that_stiffen_it),
         cmocka_unit_test(a_squeezed_triangle_pushes_its_corner_back),
         cmocka_unit_test(forces_are_minus_the_gradient_of_the_energy),
-        cmocka_unit_test(guards_exert_no_force_and_no_torque_on_the_whole),
+        cmocka_unit_test(triangles_exert_no_force_and_no_torque_on_the_whole),
         cmocka_unit_test(area_is_positive_counter_clockwise),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

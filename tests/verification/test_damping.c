@@ -211,7 +211,8 @@ static double energy_of_vibration(const dem_simulation *simulation, const dem_st
  * error of steps of 0.5/omega_max: 1e-10, and below 1e-12 with steps half as long. */
 static void a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta(void **unused)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     support_run run;

@@ -49,6 +49,7 @@ static double pace(const scene *s)
 static void open_block(block *b, const scene *s, const double *position, bool damped)
 {
     const dem_material material = {.youngs_modulus = 4.9e6 * pace(s) * pace(s),
+                                   .poissons_ratio = 1.0 / 3.0,
                                    .density = 1000.0,
                                    .thickness = 0.1,
                                    .damping_time = damped ? s->damping_time / pace(s) : 0.0};

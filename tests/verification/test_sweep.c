@@ -104,7 +104,8 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
 /* The block starts a little above the highest point below it, or within the groove. */
 static void make_block(dem_lattice *l, const ground *g)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     double lift = 0.0;
     assert_ok(dem_lattice_rectangle(l, 0.04, 0.04, spacing));
     assert_ok(dem_lattice_assemble(l, &rubber));

@@ -234,7 +234,8 @@ static const double frame_interval = 2e-6, block_height = 0.03, start_gap = 1e-6
 
 static void make_block(const wedge *c, dem_lattice *lattice)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const double up[2] = {0.0, start_gap}, down[2] = {0.0, -speed};
     assert_ok(dem_lattice_rectangle(lattice, c->cells * spacing, block_height, spacing));
     assert_ok(dem_lattice_assemble(lattice, &rubber));

@@ -11,7 +11,11 @@ static const double g = 9.81, spacing = 5e-3;
 
 static void make_block(dem_lattice *lattice, int cells, double youngs_modulus, double damping_time)
 {
-    const dem_material soft = {youngs_modulus, 1050.0, 1.0, 0.0, damping_time};
+    const dem_material soft = {.youngs_modulus = youngs_modulus,
+                               .poissons_ratio = 1.0 / 3.0,
+                               .density = 1050.0,
+                               .thickness = 1.0,
+                               .damping_time = damping_time};
     assert_ok(dem_lattice_rectangle(lattice, cells * spacing, 0.02, spacing));
     assert_ok(dem_lattice_assemble(lattice, &soft));
 }

@@ -13,7 +13,8 @@ enum { n_steps = 500 };
 /* Plate of 137 nodes, 5 % stretched along x and sheared, guard off. */
 static void make_plate(dem_lattice *plate)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
     assert_ok(dem_lattice_rectangle(plate, 0.05, 0.06, 5e-3));
     assert_ok(dem_lattice_assemble(plate, &rubber));
     double *start = malloc(2 * (size_t)plate->n_nodes * sizeof *start);

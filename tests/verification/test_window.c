@@ -142,7 +142,8 @@ static dem_status note(void *context, const dem_simulation *simulation, const de
 static double drop_block(double eta, double friction, double kappa, dem_counts *counts)
 {
     static const double ground[10] = {-0.2, -0.012, -0.021, 0.0, 0.013, -0.008, 0.04, 0.001, 0.2, -0.01};
-    const dem_material rubber = {.youngs_modulus = 1e7, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const dem_obstacle rough = {.n_points = 5, .points = ground, .restitution = eta, .friction = friction};
     const double lift[2] = {0.0, 0.0015}, speed[2] = {1.0, -5.0};
     dem_lattice lattice;

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Frequencies of free solids about their rest shape, by GSL from their own forces: none below zero but the three rigid
+ * motions', none above dem_model_omega_max(), for any Poisson's ratio. */
+#include "dense.h"
+
+static const double spacing = 5e-3;
+
+static dem_model *make_model(dem_lattice *lattice, double nu, dem_plane plane)
+{
+    const dem_material solid = {.youngs_modulus = 1e7,
+                                .poissons_ratio = nu,
+                                .plane = plane,
+                                .density = 1050.0,
+                                .thickness = 1.0,
+                                .guard = 0.02};
+    dem_model *model;
+    assert_ok(dem_lattice_assemble(lattice, &solid));
+    assert_ok(dem_model_create(&model, lattice, NULL, 0));
+    dem_lattice_free(lattice);
+    return model;
+}
+
+/* omega^2, ascending. K is taken over 1e-4 spacings: relative errors of 1e-8 by the third order of the forces. */
+static gsl_vector *frequencies_of(const dem_model *model)
+{
+    const dem_lattice *lattice = dem_model_lattice(model);
+    return dense_frequencies(model, dense_stiffness(model, lattice->x, 1e-4 * spacing));
+}
+
+/* Three rigid motions, and no other without force: the smallest of the others is of the order (c/L)^2, that is a
+ * (spacing/L)^2 = 1e-3 of the largest. The bound is asked to be above, to the 1e-8 of K, and not to be of no use. */
+static void check_frequencies(const dem_model *model, double nu)
+{
+    gsl_vector *squared = frequencies_of(model);
+    const double largest = gsl_vector_get(squared, squared->size - 1), bound = dem_model_omega_max(model);
+    for (size_t k = 0; k < 3; k++) assert_close(gsl_vector_get(squared, k), 0.0, 1e-6 * largest);
+    assert_true(gsl_vector_get(squared, 3) > 1e-4 * largest);
+    assert_true(bound >= sqrt(largest) * (1.0 - 1e-7));
+    assert_true(bound <= (nu < 0.3 ? 1.7 : 1.25) * sqrt(largest)); /* it leaves a negative area term out */
+    print_message("# nu %.3f: omega_max a/c = %.3f, bound %.3f times that, third free one %.4f of it\n", nu,
+                  sqrt(largest) * spacing / sqrt(1e7 / 1050.0), bound / sqrt(largest),
+                  sqrt(gsl_vector_get(squared, 3) / largest));
+    gsl_vector_free(squared);
+}
+
+static const double ratios[] = {-0.5, 0.0, 0.1, 0.2, 1.0 / 3.0, 0.45};
+enum { n_ratios = sizeof ratios / sizeof ratios[0] };
+
+static void blocks_are_stable_and_the_bound_is_above_their_frequencies(void **state)
+{
+    (void)state;
+    for (int k = 0; k < n_ratios; k++) {
+        dem_lattice lattice;
+        assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
+        dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRESS);
+        check_frequencies(model, ratios[k]);
+        dem_model_destroy(model);
+    }
+}
+
+static void discs_are_stable_and_the_bound_is_above_their_frequencies(void **state)
+{
+    (void)state;
+    for (int k = 0; k < n_ratios; k++) {
+        dem_lattice lattice;
+        assert_ok(dem_lattice_disc(&lattice, 0.02, spacing));
+        dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRAIN);
+        check_frequencies(model, ratios[k]);
+        dem_model_destroy(model);
+    }
+}
+
+/* (omega_max a/c)^2 of blocks, by an independent program, to its digits. The highest mode sits in a corner, so that the
+ * size of the block does not matter; but at nu = 0 it spreads, and the last digit depends on the size. */
+static void the_highest_frequency_of_a_block_is_that_of_an_independent_program(void **state)
+{
+    static const double table[][2] = {{0.0, 5.47},  {0.1, 5.56}, {0.2, 5.85}, {1.0 / 3.0, 6.55},
+                                      {0.45, 7.58}, {0.5, 8.19}, {0.7, 12.86}};
+    (void)state;
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
+        dem_lattice lattice;
+        assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
+        dem_model *model = make_model(&lattice, table[k][0], DEM_PLANE_STRESS);
+        gsl_vector *squared = frequencies_of(model);
+        const double highest = gsl_vector_get(squared, squared->size - 1) * spacing * spacing / (1e7 / 1050.0);
+        assert_close(highest, table[k][1], k == 0 ? 2e-2 : 1e-2);
+        gsl_vector_free(squared);
+        dem_model_destroy(model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_are_stable_and_the_bound_is_above_their_frequencies),
+        cmocka_unit_test(discs_are_stable_and_the_bound_is_above_their_frequencies),
+        cmocka_unit_test(the_highest_frequency_of_a_block_is_that_of_an_independent_program),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
