@@ -131,7 +131,7 @@ static void print_choices(FILE *file, const char *choices)
     size_t width = 0;
     for (const char *c = choices; *c != '\0'; c++) {
         (void)fputc(*c, file);
-        if (++width < 80 || *c != '|') continue;
+        if (++width < 72 || *c != '|') continue;
         (void)fprintf(file, "\n    !     ");
         width = 0;
     }

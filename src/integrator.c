@@ -15,7 +15,7 @@ enum { max_retries = 10 };
 static const double no_weight = 1e-100;
 
 struct integrator {
-    integrator_problem problem;
+    motion problem;
     method_table table;
     SUNContext sundials;
     void *arkode;
@@ -216,7 +216,7 @@ static dem_status set_up(integrator *I, double t, const double *y)
 
 /* ---- public ---- */
 
-dem_status integrator_create(integrator **out, const integrator_problem *problem, double t, const double *y)
+dem_status integrator_create(integrator **out, const motion *problem, double t, const double *y)
 {
     integrator *I = calloc(1, sizeof *I);
     CHECK_MEMORY(I);
@@ -275,6 +275,7 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
     int flag = ARK_RHSFUNC_FAIL;
     for (int attempt = 0; attempt <= max_retries; attempt++) {
         I->holds_step = false;
+        if (I->problem.fixed_step > 0.0) (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, I->y0));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries)

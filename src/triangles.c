@@ -25,16 +25,25 @@ static double natural_log(double r)
     return 2.0 * s * series - halvings * ln2;
 }
 
-void triangles_guard_law(double area_ratio, double *energy, double *slope)
+/* w and its derivatives. */
+typedef struct law {
+    double w, w1, w2;
+} law;
+
+static law guard_law(double area_ratio)
 {
-    *energy = 0.0;
-    *slope = 0.0;
-    if (area_ratio >= TRIANGLES_GUARD_ONSET) return;
+    if (area_ratio >= TRIANGLES_GUARD_ONSET) return (law){0.0, 0.0, 0.0};
     const double J = fmax(area_ratio, taylor_below), beyond = area_ratio - J;
     const double L = -natural_log(J / TRIANGLES_GUARD_ONSET);
     const double w = L * L * L, w1 = -3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
-    *energy = w + beyond * (w1 + 0.5 * beyond * w2);
-    *slope = w1 + beyond * w2;
+    return (law){w + beyond * (w1 + 0.5 * beyond * w2), w1 + beyond * w2, w2};
+}
+
+void triangles_guard_law(double area_ratio, double *energy, double *slope)
+{
+    const law l = guard_law(area_ratio);
+    *energy = l.w;
+    *slope = l.w1;
 }
 
 static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
@@ -106,6 +115,22 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x)
     for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness != NULL; p++)
         block = sym2_along(block, fmax(t->area_stiffness[p], 0.0) / t->rest_area[p], gradient(t, p, x));
     return block;
+}
+
+/* Of A0 g w(A/A0):  g w'' (dA.u)^2/A0 + g w' u.A'' u,  where (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2, and A'' has the
+ * eigenvalues 0 and +-sqrt(3)/2. */
+double triangles_guard_bound(const triangles *t, dem_index i, const double *x)
+{
+    const double turn = 0.8660254037844386;
+    double bound = 0.0;
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
+        if (!(A < TRIANGLES_GUARD_ONSET * A0)) continue;
+        const law l = guard_law(A / A0);
+        const vec2 dA = gradient(t, p, x);
+        bound += t->guard[p] * (3.0 * l.w2 * vec2_dot(dA, dA) / A0 + turn * fabs(l.w1));
+    }
+    return bound;
 }
 
 /* ---- compilation ---- */

@@ -223,7 +223,7 @@ DECKS = [
     ("method with its orders swapped", BASE + "&solver method = 'dopri54' /\n",
      ["27:18 'method' in &solver must be 'fehlberg45', 'dopri45', 'cashkarp45', 'zonneveld34', 'bs23', 'heun12', "
       "'sayfyaburub34', 'ark23', 'ark34', 'ark34b', 'ark45', 'ark45b', 'verner56', 'verner67', 'verner78', 'verner89', "
-      "'fehlberg78', 'knothwolke3' or 'rk4', got 'dopri54' (did you mean 'dopri45'?)"]),
+      "'fehlberg78', 'knothwolke3', 'rk4' or 'verlet', got 'dopri54' (did you mean 'dopri45'?)"]),
     ("two lengths of steps", BASE + "&solver max_step = 1e-5, fixed_step = 1e-6 /\n",
      ["27:9 'max_step' in &solver: give it or 'fixed_step', not both"]),
     ("name of the output with a folder", edit(BASE, "'block' -> 'results/block'"),

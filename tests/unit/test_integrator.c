@@ -77,14 +77,14 @@ static void broken_heights(double t, const double *y, double *guards, void *cont
 static integrator *make(world *w, int (*derivative)(double, const double *, double *, void *), dem_method method,
                         double error, double fixed_step, const double *y)
 {
-    const integrator_problem problem = {.n_nodes = 1,
-                                        .derivative = derivative,
-                                        .context = w,
-                                        .method = method,
-                                        .position_error = error,
-                                        .velocity_error = error,
-                                        .max_step = fixed_step > 0.0 ? fixed_step : 0.1,
-                                        .fixed_step = fixed_step};
+    const motion problem = {.n_nodes = 1,
+                            .derivative = derivative,
+                            .context = w,
+                            .method = method,
+                            .position_error = error,
+                            .velocity_error = error,
+                            .max_step = fixed_step > 0.0 ? fixed_step : 0.1,
+                            .fixed_step = fixed_step};
     integrator *i;
     assert_ok(integrator_create(&i, &problem, 0.0, y));
     return i;
@@ -178,12 +178,12 @@ static void adaptive_steps_keep_the_error_they_are_given(void **state)
 static int steps_with_errors(double position, double velocity)
 {
     world w = {.fails_after = 1e9};
-    const integrator_problem problem = {.n_nodes = 1,
-                                        .derivative = swing,
-                                        .context = &w,
-                                        .position_error = position,
-                                        .velocity_error = velocity,
-                                        .max_step = 0.1};
+    const motion problem = {.n_nodes = 1,
+                            .derivative = swing,
+                            .context = &w,
+                            .position_error = position,
+                            .velocity_error = velocity,
+                            .max_step = 0.1};
     path p = {0};
     integrator *i;
     int n = 0;
@@ -207,12 +207,12 @@ static void errors_of_positions_and_of_velocities_both_count(void **state)
 
 static void an_unknown_method_is_refused(void **state)
 {
-    const integrator_problem problem = {.n_nodes = 1,
-                                        .derivative = fall,
-                                        .method = (dem_method)77,
-                                        .position_error = 1.0,
-                                        .velocity_error = 1.0,
-                                        .max_step = 1.0};
+    const motion problem = {.n_nodes = 1,
+                            .derivative = fall,
+                            .method = (dem_method)77,
+                            .position_error = 1.0,
+                            .velocity_error = 1.0,
+                            .max_step = 1.0};
     integrator *i = NULL;
     (void)state;
     assert_int_equal(integrator_create(&i, &problem, 0.0, at_rest), DEM_ERROR_ARGUMENT);
@@ -270,15 +270,15 @@ static void evaluations_are_counted(void **state)
 
 static integrator *make_fall(world *w, const double *y)
 {
-    const integrator_problem problem = {.n_nodes = 1,
-                                        .n_guards = 2,
-                                        .derivative = fall,
-                                        .guards = heights,
-                                        .context = w,
-                                        .method = DEM_METHOD_FEHLBERG45,
-                                        .position_error = 1e-12,
-                                        .velocity_error = 1e-12,
-                                        .max_step = 0.1};
+    const motion problem = {.n_nodes = 1,
+                            .n_guards = 2,
+                            .derivative = fall,
+                            .guards = heights,
+                            .context = w,
+                            .method = DEM_METHOD_FEHLBERG45,
+                            .position_error = 1e-12,
+                            .velocity_error = 1e-12,
+                            .max_step = 0.1};
     integrator *i;
     assert_ok(integrator_create(&i, &problem, 0.0, y));
     return i;
@@ -442,16 +442,16 @@ static void a_tolerance_out_of_reach_is_told(void **state)
 
 static void guards_that_are_no_numbers_are_an_error(void **state)
 {
-    const integrator_problem problem = {.n_nodes = 1,
-                                        .n_guards = 2,
-                                        .derivative = fall,
-                                        .guards = broken_heights,
-                                        .method = DEM_METHOD_FEHLBERG45,
-                                        .position_error = 1e-12,
-                                        .velocity_error = 1e-12,
-                                        .max_step = 0.1};
+    const motion problem = {.n_nodes = 1,
+                            .n_guards = 2,
+                            .derivative = fall,
+                            .guards = broken_heights,
+                            .method = DEM_METHOD_FEHLBERG45,
+                            .position_error = 1e-12,
+                            .velocity_error = 1e-12,
+                            .max_step = 0.1};
     world w = {.fails_after = 1e9};
-    integrator_problem with_world = problem;
+    motion with_world = problem;
     path p;
     bool rooted;
     integrator *i;
