@@ -415,6 +415,7 @@ static dem_status clear(builder *b, const dem_model *model)
         return DEM_ERROR_MODEL;
     }
     dem_lattice_move(&b->lattice, 0.0, shift);
+    for (int c = 0; c < 2; c++) b->start.offset[c] += shift[c];
     return DEM_OK;
 }
 
@@ -449,7 +450,9 @@ static dem_status put(builder *b)
     const double *position = reals_of(b->body, "position"), *velocity = reals_of(b->body, "velocity");
     const bool file = has_shape(b->body, "file"), cleared = is_given(b->body, "clearance");
     dem_model *model = NULL;
-    dem_lattice_move(&b->lattice, degree * schema_real(b->body, "angle"), position);
+    b->start.angle = degree * schema_real(b->body, "angle");
+    for (int c = 0; c < 2; c++) b->start.offset[c] = position[c];
+    dem_lattice_move(&b->lattice, b->start.angle, position);
     dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
     if (status == DEM_OK) status = check_place(b);
     if (status == DEM_OK)

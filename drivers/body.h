@@ -29,6 +29,7 @@ typedef struct body_start {
     double x[2];        /* of the node, m */
     double rest_length; /* m, of its shortest spring; infinity without springs */
     clearance_spike spike;
+    double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
 } body_start;
 
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.

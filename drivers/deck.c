@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "body.h"
+#include "loading.h"
 #include "profile.h"
 #include "schema.h"
 #include "uses.h"
@@ -248,6 +249,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     body_check_all(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
         check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
+    loading_check_all(groups, errors);
     check_solver(schema_get(groups, "solver", 0), errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
@@ -280,6 +282,9 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     const schema_instance *run = schema_get(groups, "run", 0), *output = schema_get(groups, "output", 0);
     set_options(&d->options, groups);
     d->t_end = schema_real(run, "t_end");
+    d->residual = schema_real(run, "residual");
+    d->closure = schema_real(output, "closure");
+    d->stop_at_overlap = strcmp(schema_text(schema_get(groups, "contact", 0), "overlap"), "stop") == 0;
     d->frame_interval = schema_real(output, "frame_interval");
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
@@ -433,10 +438,23 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
     const size_t n = schema_count(groups, "body");
     body_start *starts = calloc(n + 1, sizeof *starts);
-    bool good = starts != NULL;
-    for (size_t k = 0; k < n && good; k++) good = set_body(d, &starts[k], &scene, k, errors);
+    loading_body *places = calloc(n + 1, sizeof *places);
+    bool good = starts != NULL && places != NULL;
+    for (size_t k = 0; k < n && good; k++) {
+        const dem_index first = d->lattice.n_nodes;
+        good = set_body(d, &starts[k], &scene, k, errors);
+        places[k] = (loading_body){.first = first,
+                                   .n_nodes = d->lattice.n_nodes - first,
+                                   .angle = starts[k].angle,
+                                   .offset = {starts[k].offset[0], starts[k].offset[1]}};
+    }
     good = good && check_starts(d, starts, &scene, errors);
+    if (good && errors->n == 0)
+        good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
+    d->options.boundaries = d->boundaries;
+    d->options.n_boundaries = d->n_boundaries;
     free(starts);
+    free(places);
     return good;
 }
 
@@ -446,6 +464,7 @@ static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *erro
 {
     char *folder = folder_of(d->path);
     body_drop_unused(groups);
+    loading_drop_unused(groups);
     uses_drop(groups, &profile_uses);
     bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
     if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);
@@ -490,6 +509,7 @@ void deck_free(deck *d)
     for (dem_index k = 0; k < d->n_obstacles; k++) free((void *)d->obstacles[k].points);
     free(d->obstacles);
     dem_lattice_free(&d->lattice);
+    loading_free(d->boundaries, d->n_boundaries);
     free(d->path);
     free(d->source);
     free(d->echo);

@@ -22,11 +22,16 @@ typedef struct deck {
     uint64_t hash;     /* FNV-1a of `physics`, in which a lattice file stands as the hash of its bytes: the problem */
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
-    double t_end;            /* s */
+    double t_end;    /* s */
+    double residual; /* > 0: a quasi-static run ends there */
+    int stop_at_overlap;
+    double closure;          /* share of the energy from which on the log warns */
     dem_lattice lattice;     /* all bodies, in the order of the deck */
     dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
-    dem_options options;   /* 0, of the window < 0, where the library is to choose */
+    dem_boundary *boundaries; /* [n_boundaries] */
+    dem_index n_boundaries;
+    dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` */
     double frame_interval; /* s */
     int double_precision, deflate, events;
 } deck;

@@ -13,6 +13,7 @@
 
 #include "deck.h"
 #include "output.h"
+#include "relaxation.h"
 #include "report.h"
 #include "schema.h"
 
@@ -100,15 +101,45 @@ static dem_status write_provenance(dem_trajectory *trajectory, const deck *d)
     return status;
 }
 
-static dem_status advance(const deck *d, dem_simulation *simulation, dem_trajectory *trajectory, report *log)
+static dem_status stop_at_overlap(void *context, const dem_simulation *simulation)
+{
+    (void)context;
+    return dem_simulation_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
+}
+
+/* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap. */
+static dem_status advance(const deck *d, dem_simulation *simulation, dem_trajectory *trajectory, report *log,
+                          relaxation *rest)
 {
     const dem_observer frames = dem_trajectory_observer(trajectory), followed = report_observer(log);
+    const dem_observer resting = relaxation_observer(rest), overlapping = {.step = stop_at_overlap};
     dem_status status = write_provenance(trajectory, d);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &frames);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &followed);
+    if (status == DEM_OK && d->residual > 0.0) status = dem_simulation_observe(simulation, &resting);
+    if (status == DEM_OK && d->stop_at_overlap) status = dem_simulation_observe(simulation, &overlapping);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, d->t_end);
-    if (status == DEM_OK) status = dem_trajectory_finish(trajectory);
+    if (status == DEM_STOPPED) status = frames.frame(frames.context, simulation);
     return status;
+}
+
+/* Whether a run has come to what the deck asks for, and says so. One that has not has no result: its output stays
+ * unfinished. */
+static bool succeeds(const deck *d, const dem_simulation *simulation, const relaxation *rest)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (d->stop_at_overlap && o.node >= 0) {
+        (void)fprintf(stderr, "%s: error: node %lld is inside triangle %lld of a body at (%g, %g) m, t = %.6g s\n",
+                      d->path, (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+        return false;
+    }
+    if (d->residual > 0.0 && !rest->done) {
+        (void)fprintf(stderr, "%s: error: not at rest at t_end = %g s: the residual is %.3g, %.3g is asked for\n",
+                      d->path, d->t_end, rest->reached, d->residual);
+        return false;
+    }
+    if (d->residual > 0.0) (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
+    return true;
 }
 
 /* Whether the run has an end; says so if it has none. */
@@ -135,10 +166,13 @@ static int run(const deck *d, dem_simulation *simulation, const char *path)
     const dem_status created = dem_trajectory_create(&trajectory, path, simulation, &options);
     if (created != DEM_OK) return complain(code_of(created), path);
     report_header(stdout, d, simulation, path);
-    report_start(&log, stdout, isatty(STDOUT_FILENO) == 1, d->t_end);
-    const dem_status status = advance(d, simulation, trajectory, &log);
-    const int code = status == DEM_OK ? EXIT_DONE : complain(code_of(status), d->path);
+    report_start(&log, stdout, isatty(STDOUT_FILENO) == 1, d);
+    relaxation rest = relaxation_start(d->residual, &d->options);
+    dem_status status = advance(d, simulation, trajectory, &log, &rest);
     if (status == DEM_OK) report_summary(&log, simulation);
+    const bool good = status == DEM_OK && succeeds(d, simulation, &rest);
+    if (good) status = dem_trajectory_finish(trajectory);
+    const int code = status != DEM_OK ? complain(code_of(status), d->path) : (good ? EXIT_DONE : EXIT_NUMERICS);
     dem_trajectory_destroy(trajectory);
     return code;
 }
@@ -169,7 +203,10 @@ static int build_and_run(const command *c, const deck *d)
     dem_model *model = NULL;
     dem_simulation *simulation = NULL;
     dem_status status = dem_model_create(&model, &d->lattice, d->obstacles, d->n_obstacles);
-    if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &d->options);
+    dem_options options = d->options;
+    if (status == DEM_OK && d->residual > 0.0 && options.mass_damping == 0.0)
+        options.mass_damping = relaxation_damping(model);
+    if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);
     int code;
     if (status != DEM_OK) {
         code = complain(code_of(status), d->path);

@@ -11,7 +11,8 @@
 
 #include "commit.h"
 
-enum { most_listed = 16 }; /* obstacles */
+enum { most_listed = 16 };            /* obstacles, bodies */
+enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
 
 static double wall_clock(void)
 {
@@ -81,19 +82,45 @@ static void follow_contact(report *r, const dem_simulation *simulation, const de
     r->speed_after = rising_speed(simulation);
 }
 
+/* What the ledger has gained, over the largest energy so far. */
+static double closure_of(const report *r, dem_energy e)
+{
+    return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
+}
+
+static void watch_ledger(report *r, const dem_state *state)
+{
+    if (r->warned || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
+    r->warned = true;
+    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a smaller 'rtol' closes it\n",
+                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
+}
+
+static void watch_overlap(report *r, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (r->overlapped || o.node < 0) return;
+    r->overlapped = true;
+    (void)fprintf(
+        r->out,
+        "%swarning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
+        "%.4e s\n",
+        r->terminal ? "\n" : "", (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+}
+
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
     const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
     if (!due || !(done > 0.0)) return;
     const dem_counts counts = dem_simulation_counts(simulation);
-    const double error = (dem_energy_ledger(state->energy) - r->energy_start) / fmax(r->energy_max, 1e-300);
     r->wall_shown = now;
     r->t_shown = state->t;
-    (void)fprintf(
-        r->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
-        r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts, error,
-        (double)counts.steps / fmax(spent, 1e-9), spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
+    (void)fprintf(r->out,
+                  "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
+                  r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps,
+                  (long long)state->n_contacts, closure_of(r, state->energy), (double)counts.steps / fmax(spent, 1e-9),
+                  spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
     (void)fflush(r->out);
 }
 
@@ -105,6 +132,8 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
     follow_contact(r, simulation, &state);
+    watch_ledger(r, &state);
+    watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;
 }
@@ -176,6 +205,47 @@ static void print_sizes(FILE *out, const dem_model *model)
                   (long long)size.n_segments);
 }
 
+/* As the library measures them, by loading the model. */
+static void print_constants(FILE *out, const dem_model *model)
+{
+    const dem_index n_bodies = dem_model_sizes(model).n_bodies;
+    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
+        dem_constants c;
+        (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
+        if (dem_model_constants(model, b, &c) != DEM_OK)
+            (void)fprintf(out, "not measured: %s\n", dem_status_message());
+        else
+            (void)fprintf(out, "E %.6g Pa, nu %.5g, anisotropy %.4f, waves %.5g and %.5g m/s\n", c.youngs_modulus,
+                          c.poissons_ratio, c.anisotropy, c.longitudinal_speed, c.transverse_speed);
+    }
+    if (n_bodies > most_listed)
+        (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
+}
+
+static void print_frequency(FILE *out, const dem_model *model)
+{
+    double omega;
+    if (dem_model_omega(model, &omega) != DEM_OK)
+        (void)fprintf(out, "frequency  not measured: %s\n", dem_status_message());
+    else if (omega > 0.0)
+        (void)fprintf(out, "frequency  highest %.6g rad/s, the bound is %.3f times that\n", omega,
+                      dem_model_omega_max(model) / omega);
+}
+
+static void print_measured(FILE *out, const dem_model *model)
+{
+    const double start = wall_clock();
+    const dem_index n = dem_model_sizes(model).n_nodes;
+    if (n > most_measured) {
+        (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
+        return;
+    }
+    print_constants(out, model);
+    print_frequency(out, model);
+    if (wall_clock() - start > 1.0)
+        (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
+}
+
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
@@ -219,6 +289,22 @@ static void print_time(FILE *out, double t_end, const dem_simulation *simulation
                   o.v_scale * o.max_step / o.spacing);
 }
 
+static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
+{
+    static const char *const kinds[] = {[DEM_BOUNDARY_VELOCITY] = "velocity",
+                                        [DEM_BOUNDARY_DISPLACEMENT] = "displacement",
+                                        [DEM_BOUNDARY_FORCE] = "force"};
+    static const char *const units[] = {"m/s", "m", "N"};
+    static const char *const axes[] = {"", " x", " y", " x and y"};
+    double share = b->share == NULL;
+    for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
+    (void)fprintf(out, "boundary   %lld: %lld nodes, %s%s (%g, %g) %s", (long long)number, (long long)b->n_nodes,
+                  kinds[b->kind], b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
+                  share * b->value[1], units[b->kind]);
+    if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
+    (void)fprintf(out, "\n");
+}
+
 void report_versions(char *text, size_t size)
 {
     (void)snprintf(text, size, "dem %s (%s), compiler %s, SUNDIALS %s, HDF5 %s, GSL %s", dem_version(), DEM_COMMIT,
@@ -239,14 +325,16 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
     print_time(out, d->t_end, simulation);
+    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
+    print_measured(out, model);
     print_estimates(out, d, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);
 }
 
-void report_start(report *r, FILE *out, bool terminal, double t_end)
+void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
-    *r = (report){.out = out, .terminal = terminal, .t_end = t_end, .area_min = 1.0};
+    *r = (report){.out = out, .terminal = terminal, .t_end = d->t_end, .closure = d->closure, .area_min = 1.0};
     r->strain_min.spring_min = r->strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
 }
@@ -297,8 +385,9 @@ static void print_ledger(const report *r, dem_energy e)
                   dem_energy_motion(e) + e.gravity, e.impact);
     print_taken(r->out, "friction", e.friction);
     print_taken(r->out, "damping", e.damping);
-    (void)fprintf(r->out, " - projection %.3g; closure %+.2e\n", e.projection,
-                  (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300));
+    (void)fprintf(r->out, " - projection %.3g", e.projection);
+    if (e.boundary != 0.0) (void)fprintf(r->out, " - put in by boundaries %.4g", e.boundary);
+    (void)fprintf(r->out, "; closure %+.2e\n", closure_of(r, e));
 }
 
 static void print_energy(const report *r, dem_energy e)
@@ -343,6 +432,26 @@ static void print_obstacles(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "obstacle   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
 }
 
+static void print_boundaries(FILE *out, const dem_simulation *simulation)
+{
+    const dem_index n = dem_simulation_options(simulation).n_boundaries;
+    for (dem_index k = 0; k < n && k < most_listed; k++) {
+        const dem_boundary_load load = dem_simulation_boundary(simulation, k);
+        (void)fprintf(out, "boundary   %lld: force (%.6g, %.6g) N, moved by (%.6g, %.6g) m\n", (long long)k + 1,
+                      load.force[0], load.force[1], load.displacement[0], load.displacement[1]);
+    }
+    if (n > most_listed)
+        (void)fprintf(out, "boundary   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
+}
+
+static void print_overlap(FILE *out, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (o.node >= 0)
+        (void)fprintf(out, "overlap    first at %.4e s, node %lld in triangle %lld; %lld at most, %lld now\n", o.t,
+                      (long long)o.node, (long long)o.triangle, (long long)o.most, (long long)o.now);
+}
+
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = dem_simulation_counts(simulation);
@@ -351,6 +460,8 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_strain(r);
     print_energy(r, dem_simulation_energy(simulation));
     print_obstacles(r->out, simulation);
+    print_boundaries(r->out, simulation);
+    print_overlap(r->out, simulation);
     print_events(r->out, &c);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,

@@ -10,8 +10,10 @@
 
 typedef struct report {
     FILE *out;
-    bool terminal;                 /* progress is rewritten in place */
-    double t_end;                  /* s */
+    bool terminal;  /* progress is rewritten in place */
+    double t_end;   /* s */
+    double closure; /* from which on the ledger is warned of */
+    bool warned, overlapped;
     double wall_start, wall_shown; /* s */
     double t_shown;                /* s */
     double energy_start;           /* J, total at t = 0 */
@@ -26,8 +28,8 @@ typedef struct report {
     dem_index contacts_before, impacts_before;
 } report;
 
-/** Starts the log of a run to t_end. */
-void report_start(report *r, FILE *out, bool terminal, double t_end);
+/** Starts the log of a run. */
+void report_start(report *r, FILE *out, bool terminal, const deck *d);
 
 /** Versions, sizes, rules of contact, scales, estimates. `output`: the file that will be written, NULL: none. */
 void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);

@@ -15,6 +15,8 @@ static const schema_key run_keys[] = {
      "5e-3"},
     {"gravity", SCHEMA_REAL, 2, 2, "m/s^2", "0, -9.81", ANY, NULL, PHYSICS, "Acceleration of free fall, x and y.",
      NULL},
+    {"residual", SCHEMA_REAL, 1, 1, "-", NONE, "[1e-12, 0.1]", NULL, PHYSICS,
+     "Makes the run quasi-static: it ends at rest, by docs/method.md, and it is an error if t_end comes first.", NONE},
 };
 
 static const schema_key material_keys[] = {
@@ -84,6 +86,35 @@ static const schema_key pores_keys[] = {
      "Seed of the random numbers; the same seed gives the same pores on every machine.", NULL},
 };
 
+static const schema_key boundary_keys[] = {
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS, "Number of the body, in the order of the deck.",
+     NULL},
+    {"where", SCHEMA_CHOICE, 1, 1, "-", REQUIRED, ANY, "side|box|disc|list|all", PHYSICS,
+     "Which nodes, by their places at rest in the body's own coordinates.", "'side'"},
+    {"side", SCHEMA_CHOICE, 1, 1, "-", NONE, ANY, "left|right|bottom|top", PHYSICS,
+     "The outermost nodes: those within half a spacing of the extreme coordinate.", "'top'"},
+    {"box", SCHEMA_REAL, 4, 4, "m", NONE, ANY, NULL, PHYSICS,
+     "x and y of the lower left and of the upper right corner.", NULL},
+    {"centre", SCHEMA_REAL, 2, 2, "m", NONE, ANY, NULL, PHYSICS, "Centre of a disc.", NULL},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc.", NULL},
+    {"nodes", SCHEMA_INTEGER, 1, 0, "-", NONE, ">= 0", NULL, PHYSICS,
+     "Numbers of nodes of the body, from 0 in the order of its lattice.", NULL},
+    {"kind", SCHEMA_CHOICE, 1, 1, "-", "'fix'", ANY, "fix|velocity|displacement|force|traction", PHYSICS,
+     "Motion held or prescribed, a force shared equally by the nodes, or a traction on the edges between them.",
+     "'velocity'"},
+    {"components", SCHEMA_CHOICE, 1, 1, "-", "'xy'", ANY, "x|y|xy", PHYSICS, "Components of the motion prescribed.",
+     "'y'"},
+    {"velocity", SCHEMA_REAL, 2, 2, "m/s", NONE, ANY, NULL, PHYSICS, "Velocity, x and y along the axes of space.",
+     "0, -0.5"},
+    {"displacement", SCHEMA_REAL, 2, 2, "m", NONE, ANY, NULL, PHYSICS,
+     "Way from the initial positions, x and y along the axes of space.", NULL},
+    {"force", SCHEMA_REAL, 2, 2, "N", NONE, ANY, NULL, PHYSICS, "Force on all the nodes together, x and y.", NULL},
+    {"traction", SCHEMA_REAL, 2, 2, "Pa", NONE, ANY, NULL, PHYSICS,
+     "Force over the area of the edges between the nodes, x and y; of a side, over its area along the side.", NULL},
+    {"ramp", SCHEMA_REAL, 1, 1, "s", "0", ">= 0", NULL, PHYSICS,
+     "Time over which it grows from 0, twice continuously differentiable.", "1e-4"},
+};
+
 static const schema_key obstacle_keys[] = {
     {"points", SCHEMA_REAL, 4, 0, "m", REQUIRED, ANY, NULL, PHYSICS,
      "x and y of each point of the polyline; bodies live on its left, and it is closed if the last point is the first.",
@@ -113,6 +144,8 @@ static const schema_key contact_keys[] = {
      "Impacts nearer in time than this are taken together, 0: each by itself; default: by docs/method.md.", "0"},
     {"vertices", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, PHYSICS,
      "Whether the edges of bodies touch convex vertices of obstacles; if not, only nodes touch.", NULL},
+    {"overlap", SCHEMA_CHOICE, 1, 1, "-", "'warn'", ANY, "warn|stop", PHYSICS,
+     "What follows when a body runs into another one or into itself, which nothing prevents.", NULL},
     {"skin", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
      "Depth at which an impact is taken; default: 1e-6 of the spacing.", "1e-8"},
     {"rest_speed", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
@@ -152,6 +185,9 @@ static const schema_key output_keys[] = {
      "Compression of the frames: 0 is none, 9 the smallest files.", NULL},
     {"events", SCHEMA_LOGICAL, 1, 1, "-", ".false.", ANY, NULL, false, "Write the table /events of all contact events.",
      NULL},
+    {"closure", SCHEMA_REAL, 1, 1, "-", "1e-2", "> 0", NULL, false,
+     "The log warns when the energy ledger is open by this share of the largest energy of motion and strain so far.",
+     NULL},
 };
 
 #define KEYS(keys) (int)(sizeof(keys) / sizeof(keys)[0]), keys
@@ -163,11 +199,13 @@ static const schema_group groups[] = {
     {"body", true, true, "An elastic body; one group for each.", KEYS(body_keys)},
     {"void", false, true, "A hole cut out of a body; one group for each.", KEYS(void_keys)},
     {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},
+    {"boundary", false, true, "Nodes that are held, moved or loaded; prescribed ones touch no obstacle.",
+     KEYS(boundary_keys)},
     {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},
     {"contact", false, false,
      "How nodes and edges of bodies touch obstacles; free ends of open polylines touch no edges.", KEYS(contact_keys)},
     {"solver", false, false, "Integration in time.", KEYS(solver_keys)},
-    {"output", false, false, "Files written.", KEYS(output_keys)},
+    {"output", false, false, "Files written, and the log.", KEYS(output_keys)},
 };
 
 const schema_group *schema_groups(int *n_groups)

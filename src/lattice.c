@@ -93,6 +93,8 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
     lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
     pack(lattice->guard, sizeof *lattice->guard, n, whole);
     pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
+    pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
+    pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
 }
 
 /* ---- moving ---- */
@@ -115,6 +117,17 @@ static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t
     if (joined != NULL && a != NULL) memcpy(joined, a, (size_t)n * size);
     if (joined != NULL && b != NULL) memcpy(joined + (size_t)n * size, b, (size_t)m * size);
     return joined;
+}
+
+/* The same of triangles' numbers that are 1 where they are NULL; NULL if both are. */
+static dem_status join_ones(double **out, const double *a, dem_index n, const double *b, dem_index m)
+{
+    if (a == NULL && b == NULL) return DEM_OK;
+    *out = join(a, n, b, m, sizeof **out);
+    CHECK_MEMORY(*out);
+    for (dem_index k = 0; k < n && a == NULL; k++) (*out)[k] = 1.0;
+    for (dem_index k = n; k < n + m && b == NULL; k++) (*out)[k] = 1.0;
+    return DEM_OK;
 }
 
 static dem_index count_bodies(const dem_lattice *lattice)
@@ -202,6 +215,8 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     out->triangles = join(a->triangles, n, b->triangles, m, 3 * sizeof *out->triangles);
     CHECK_MEMORY(out->triangles);
     for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
+    TRY(join_ones(&out->thickness, a->thickness, n, b->thickness, m));
+    TRY(join_ones(&out->modulus, a->modulus, n, b->modulus, m));
     if (a->guard != NULL || b->guard != NULL) {
         out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
         CHECK_MEMORY(out->guard);
@@ -259,6 +274,8 @@ void dem_lattice_free(dem_lattice *lattice)
     free(lattice->triangles);
     free(lattice->guard);
     free(lattice->area_stiffness);
+    free(lattice->thickness);
+    free(lattice->modulus);
     free(lattice->flags);
     free(lattice->body);
     free(lattice->position);
@@ -332,14 +349,56 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
     return DEM_OK;
 }
 
-dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
+static dem_status check_list(const dem_lattice *lattice, const dem_index *nodes, dem_index n)
 {
     TRY(lattice_check(lattice));
-    CHECK(n >= 0 && (n == 0 || nodes != NULL), DEM_ERROR_ARGUMENT, "%lld nodes to exclude, the list is %s",
-          (long long)n, nodes != NULL ? "given" : "NULL");
+    CHECK(n >= 0 && (n == 0 || nodes != NULL), DEM_ERROR_ARGUMENT, "%lld nodes are meant, the list is %s", (long long)n,
+          nodes != NULL ? "given" : "NULL");
     for (dem_index k = 0; k < n; k++)
         CHECK(nodes[k] >= 0 && nodes[k] < lattice->n_nodes, DEM_ERROR_ARGUMENT, "node %lld is not in 0 to %lld",
               (long long)nodes[k], (long long)(lattice->n_nodes - 1));
+    return DEM_OK;
+}
+
+/* Half of every boundary edge between nodes that have a place in the list, to both. */
+static void share_edges(const dem_lattice *l, const sides *s, const dem_index *place, const double *direction,
+                        double *length)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            const dem_index j = s->list[p].upper;
+            if (!sides_edge_is_boundary(s, i, p) || place[i] < 0 || place[j] < 0) continue;
+            const double way[2] = {l->x[2 * j] - l->x[2 * i], l->x[2 * j + 1] - l->x[2 * i + 1]};
+            const double half =
+                0.5 * (direction == NULL ? hypot(way[0], way[1]) : fabs(way[0] * direction[0] + way[1] * direction[1]));
+            length[place[i]] += half;
+            length[place[j]] += half;
+        }
+}
+
+dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
+                                   const double *direction, double *length)
+{
+    sides s;
+    TRY(check_list(lattice, nodes, n));
+    CHECK(length != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_edge_shares: length is NULL");
+    dem_index *place = malloc((size_t)lattice->n_nodes * sizeof *place);
+    CHECK_MEMORY(place);
+    const dem_status status = sides_create(&s, lattice);
+    if (status == DEM_OK) {
+        for (dem_index i = 0; i < lattice->n_nodes; i++) place[i] = -1;
+        for (dem_index k = 0; k < n; k++) place[nodes[k]] = k;
+        for (dem_index k = 0; k < n; k++) length[k] = 0.0;
+        share_edges(lattice, &s, place, direction, length);
+        sides_free(&s);
+    }
+    free(place);
+    return status;
+}
+
+dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
+{
+    TRY(check_list(lattice, nodes, n));
     if (lattice->flags == NULL) {
         unsigned char *flags = lattice_zeros(lattice->n_nodes, sizeof *flags);
         CHECK_MEMORY(flags);

@@ -24,6 +24,8 @@ enum array {
     CORNERS,
     GUARD,
     AREA_STIFFNESS,
+    THICKNESS,
+    MODULUS,
     BODY,
     POSITION,
     VELOCITY,
@@ -49,6 +51,8 @@ static const struct dataset {
     [CORNERS] = {"/lattice/triangles", HDF5_I64, TRIANGLES, 3, 0},
     [GUARD] = {"/lattice/guard", HDF5_F64, TRIANGLES, 1, 0},
     [AREA_STIFFNESS] = {"/lattice/area_stiffness", HDF5_F64, TRIANGLES, 1, 0},
+    [THICKNESS] = {"/lattice/thickness", HDF5_F64, TRIANGLES, 1, 0},
+    [MODULUS] = {"/lattice/modulus", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -308,6 +312,8 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
     lattice->area_stiffness = r->data[AREA_STIFFNESS];
+    lattice->thickness = r->data[THICKNESS];
+    lattice->modulus = r->data[MODULUS];
     lattice->body = r->data[BODY];
     lattice->position = r->data[POSITION];
     lattice->velocity = r->data[VELOCITY];
@@ -386,6 +392,8 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
     TRY(write_array(file, GUARD, deflate, t, lattice->guard));
     TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
+    TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
+    TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));
     TRY(write_array(file, VELOCITY, deflate, n, lattice->velocity));

@@ -236,9 +236,11 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     swap(&lattice->viscosity, &solid->viscosity);
     swap(&lattice->guard, &solid->guard);
     swap(&lattice->area_stiffness, &solid->area_stiffness);
+    swap(&lattice->thickness, &solid->thickness);
+    swap(&lattice->modulus, &solid->modulus);
 }
 
-/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, area term, guard. */
+/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, what triangles have. */
 static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const dem_material *material)
 {
     const plate p = plate_of(material);
@@ -249,6 +251,8 @@ static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const
     TRY(fill_triangles(&solid->guard, lattice->n_triangles,
                        material->guard * material->youngs_modulus * material->thickness));
     TRY(fill_triangles(&solid->area_stiffness, lattice->n_triangles, area_modulus(p)));
+    TRY(fill_triangles(&solid->thickness, lattice->n_triangles, material->thickness));
+    TRY(fill_triangles(&solid->modulus, lattice->n_triangles, spring_modulus(p) / material->thickness));
     TRY(sides_create(&edges, lattice));
     solid->n_springs = count_edges(&edges, lattice->n_nodes);
     solid->ends = lattice_zeros(solid->n_springs, 2 * sizeof *solid->ends);

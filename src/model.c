@@ -66,6 +66,10 @@ static dem_status check_triangles(const dem_lattice *l)
               "triangle %lld: guard must be >= 0, got %g N/m", (long long)k, l->guard[k]);
         CHECK(l->area_stiffness == NULL || isfinite(l->area_stiffness[k]), DEM_ERROR_MODEL,
               "triangle %lld: area stiffness must be finite, got %g N/m", (long long)k, l->area_stiffness[k]);
+        CHECK(l->thickness == NULL || (isfinite(l->thickness[k]) && l->thickness[k] > 0.0), DEM_ERROR_MODEL,
+              "triangle %lld: thickness must be > 0, got %g m", (long long)k, l->thickness[k]);
+        CHECK(l->modulus == NULL || (isfinite(l->modulus[k]) && l->modulus[k] > 0.0), DEM_ERROR_MODEL,
+              "triangle %lld: modulus must be > 0, got %g Pa", (long long)k, l->modulus[k]);
     }
     return DEM_OK;
 }
@@ -168,6 +172,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(triangles_compile(&m->triangles, &m->lattice));
     TRY(surface_compile(&m->surface, &m->lattice));
+    TRY(stress_compile(&m->stress, &m->lattice, &m->springs));
     TRY(obstacles_compile(&m->obstacles, list, n));
     TRY(compile_nodes(m));
     compile_scales(m);
@@ -214,6 +219,7 @@ void dem_model_destroy(dem_model *model)
     springs_free(&model->springs);
     triangles_free(&model->triangles);
     surface_free(&model->surface);
+    stress_free(&model->stress);
     obstacles_free(&model->obstacles);
     free(model->inverse_mass);
     free(model->sites);
@@ -263,6 +269,11 @@ double dem_model_omega_max(const dem_model *model)
 double dem_model_mass(const dem_model *model)
 {
     return model->mass;
+}
+
+const double *dem_model_volumes(const dem_model *model)
+{
+    return model->stress.volume;
 }
 
 double dem_model_gap(const dem_model *model, const double x[2])

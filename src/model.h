@@ -6,6 +6,7 @@
 #include "boundary.h"
 #include "obstacle.h"
 #include "springs.h"
+#include "stress.h"
 #include "surface.h"
 #include "triangles.h"
 
@@ -14,6 +15,7 @@ struct dem_model {
     springs springs;
     triangles triangles;
     surface surface; /* edges that may touch */
+    stress_map stress;
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
     dem_index n_sites;

@@ -62,6 +62,11 @@ bool sides_edge_begins(const sides *s, dem_index i, dem_index p)
     return p == s->row[i] || s->list[p].upper != s->list[p - 1].upper;
 }
 
+bool sides_edge_is_boundary(const sides *s, dem_index i, dem_index p)
+{
+    return sides_edge_begins(s, i, p) && (p + 1 == s->row[i + 1] || sides_edge_begins(s, i, p + 1));
+}
+
 dem_status sides_contact_flags(unsigned char *flags, const dem_lattice *lattice)
 {
     const dem_index n = lattice->n_nodes;
@@ -70,10 +75,8 @@ dem_status sides_contact_flags(unsigned char *flags, const dem_lattice *lattice)
     if (lattice->n_triangles == 0) return DEM_OK;
     TRY(sides_create(&s, lattice));
     for (dem_index i = 0; i < n; i++)
-        for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
-            const bool last = p + 1 == s.row[i + 1] || sides_edge_begins(&s, i, p + 1);
-            if (sides_edge_begins(&s, i, p) && last) flags[i] = flags[s.list[p].upper] = DEM_NODE_CONTACT;
-        }
+        for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
+            if (sides_edge_is_boundary(&s, i, p)) flags[i] = flags[s.list[p].upper] = DEM_NODE_CONTACT;
     sides_free(&s);
     return DEM_OK;
 }

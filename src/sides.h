@@ -25,6 +25,9 @@ void sides_free(sides *s);
 /* Whether slot p of row i is the first of its edge. */
 bool sides_edge_begins(const sides *s, dem_index i, dem_index p);
 
+/* Whether it is the only one: an edge of the boundary. */
+bool sides_edge_is_boundary(const sides *s, dem_index i, dem_index p);
+
 /* What flags = NULL stands for: DEM_NODE_CONTACT on the boundary, everywhere without triangles.
  * \param[out] flags  [n_nodes] */
 dem_status sides_contact_flags(unsigned char *flags, const dem_lattice *lattice);

@@ -92,6 +92,20 @@ void springs_free(springs *s)
     *s = (springs){0};
 }
 
+vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u)
+{
+    vec2 out = {0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
+        const vec2 w = vec2_sub(vec2_at(u, s->neighbour[p]), vec2_at(u, i));
+        const double square = vec2_dot(d, d), length = sqrt(square), rest = s->rest_length[p];
+        const double pull = s->stiffness[p] * (length - rest) / (rest * length); /* tension over length */
+        const double along = (s->stiffness[p] / rest - pull) * vec2_dot(d, w) / square;
+        out = vec2_along(vec2_along(out, -pull, w), -along, d);
+    }
+    return out;
+}
+
 static double slot_energy(const springs *s, dem_index i, dem_index p, const double *x)
 {
     const double strain = springs_strain(s, i, p, x);
@@ -125,6 +139,13 @@ void springs_strains(const springs *s, const double *x, double *strain)
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
             if (s->neighbour[p] > i) strain[s->spring[p]] = springs_strain(s, i, p, x);
+}
+
+void springs_forces(const springs *s, const double *x, double *force)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (s->neighbour[p] > i) force[s->spring[p]] = s->stiffness[p] * springs_strain(s, i, p, x);
 }
 
 /* Of the spring in slot p of row i, 1/s. */

@@ -46,6 +46,22 @@ static inline vec2 springs_damping(const springs *s, dem_index i, const double *
     return force;
 }
 
+/** r x f of spring k of a lattice, N m: xx, yy, xy of E_ij (d - d0)/d0 d n n^T, symmetric; the damping left out. Not
+ *  finite where its ends coincide. */
+static inline void springs_virial(const dem_lattice *lattice, dem_index k, const double *x, double virial[3])
+{
+    const vec2 d = vec2_sub(vec2_at(x, lattice->ends[2 * k + 1]), vec2_at(x, lattice->ends[2 * k]));
+    const double length = vec2_norm(d), rest = lattice->rest_length[k];
+    const double tension = lattice->stiffness[k] * (length - rest) / (rest * length); /* N/m, as in springs_force() */
+    virial[0] = tension * d.x * d.x;
+    virial[1] = tension * d.y * d.y;
+    virial[2] = tension * d.x * d.y;
+}
+
+/** Minus the change of the force on node i, N, when the nodes move from x by u: the stiffness of the springs, that of
+ *  their turning under tension included. */
+vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
+
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, dem_index i, const double *x);
 
@@ -57,6 +73,9 @@ double springs_strain(const springs *s, dem_index i, dem_index p, const double *
 
 /** Strain of every spring, in the order of the lattice.  \param[out] strain  [n_springs] */
 void springs_strains(const springs *s, const double *x, double *strain);
+
+/** Force (1) along every spring, > 0 in tension.  \param[out] force  [n_springs] N */
+void springs_forces(const springs *s, const double *x, double *force);
 
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
 double springs_damping_power(const springs *s, const double *x, const double *v);

@@ -28,8 +28,7 @@ static dem_index find_edges(const dem_lattice *l, const sides *list, dem_index *
     for (dem_index i = 0; i < l->n_nodes; i++)
         for (dem_index p = list->row[i]; p < list->row[i + 1]; p++) {
             const dem_index j = list->list[p].upper;
-            const bool last = p + 1 == list->row[i + 1] || sides_edge_begins(list, i, p + 1);
-            if (!sides_edge_begins(list, i, p) || !last || !may_touch(l, i, j)) continue;
+            if (!sides_edge_is_boundary(list, i, p) || !may_touch(l, i, j)) continue;
             const bool forward = runs_from(&l->triangles[3 * list->list[p].triangle], i, j);
             ends[2 * n] = forward ? i : j;
             ends[2 * n + 1] = forward ? j : i;

@@ -36,7 +36,7 @@ typedef struct table {
 } table;
 
 /** Columns are borrowed. Free with table_free().
- *  \param count [TABLE_SETS - 1], of the columns with `of` 1 and more; NULL: no such */
+ *  \param count  [TABLE_SETS - 1], of the columns with `of` 1 and more; NULL: no such */
 dem_status table_init(table *out, const table_column *columns, int n_columns, const dem_index *count);
 void table_free(table *t);
 

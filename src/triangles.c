@@ -25,25 +25,13 @@ static double natural_log(double r)
     return 2.0 * s * series - halvings * ln2;
 }
 
-/* w and its derivatives. */
-typedef struct law {
-    double w, w1, w2;
-} law;
-
-static law guard_law(double area_ratio)
+triangles_law triangles_guard_law(double area_ratio)
 {
-    if (area_ratio >= TRIANGLES_GUARD_ONSET) return (law){0.0, 0.0, 0.0};
+    if (area_ratio >= TRIANGLES_GUARD_ONSET) return (triangles_law){0.0, 0.0, 0.0};
     const double J = fmax(area_ratio, taylor_below), beyond = area_ratio - J;
     const double L = -natural_log(J / TRIANGLES_GUARD_ONSET);
     const double w = L * L * L, w1 = -3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
-    return (law){w + beyond * (w1 + 0.5 * beyond * w2), w1 + beyond * w2, w2};
-}
-
-void triangles_guard_law(double area_ratio, double *energy, double *slope)
-{
-    const law l = guard_law(area_ratio);
-    *energy = l.w;
-    *slope = l.w1;
+    return (triangles_law){w + beyond * (w1 + 0.5 * beyond * w2), w1 + beyond * w2, w2};
 }
 
 static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
@@ -58,21 +46,51 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
+/* w'(J) of area term and guard together, N/m */
+static double slope_at(const triangles *t, dem_index p, double A)
+{
+    const double A0 = t->rest_area[p];
+    double slope = t->area_stiffness != NULL ? t->area_stiffness[p] * (A / A0 - 1.0) : 0.0;
+    if (A < TRIANGLES_GUARD_ONSET * A0) slope += t->guard[p] * triangles_guard_law(A / A0).slope;
+    return slope;
+}
+
+static double curvature_at(const triangles *t, dem_index p, double A)
+{
+    const double curvature = t->guard[p] * triangles_guard_law(A / t->rest_area[p]).curvature;
+    return t->area_stiffness != NULL ? t->area_stiffness[p] + curvature : curvature;
+}
+
 vec2 triangles_force(const triangles *t, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
-        const bool squeezed = A < TRIANGLES_GUARD_ONSET * A0;
-        double slope = 0.0, unused, rise;
-        if (t->area_stiffness != NULL) slope = t->area_stiffness[p] * (A / A0 - 1.0);
-        if (squeezed) {
-            triangles_guard_law(A / A0, &unused, &rise);
-            slope += t->guard[p] * rise;
-        }
+        const double slope = slope_at(t, p, area_at(t, i, p, x));
         if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
     return force;
+}
+
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    const double A = area_at(t, i, p, x);
+    return A * slope_at(t, p, A);
+}
+
+/* dA/dx_i is linear in the positions, so that its change is itself, of u. */
+vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u)
+{
+    vec2 out = {0.0, 0.0};
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const vec2 b = vec2_sub(vec2_at(x, t->next[p]), vec2_at(x, i)),
+                   c = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, i));
+        const vec2 ub = vec2_sub(vec2_at(u, t->next[p]), vec2_at(u, i)),
+                   uc = vec2_sub(vec2_at(u, t->last[p]), vec2_at(u, i));
+        const double A = 0.5 * vec2_cross(b, c), change = 0.5 * (vec2_cross(ub, c) + vec2_cross(b, uc));
+        out = vec2_along(out, curvature_at(t, p, A) * change / t->rest_area[p], gradient(t, p, x));
+        out = vec2_along(out, slope_at(t, p, A), gradient(t, p, u));
+    }
+    return out;
 }
 
 static double slot_area_energy(const triangles *t, dem_index i, dem_index p, const double *x)
@@ -84,9 +102,7 @@ static double slot_area_energy(const triangles *t, dem_index i, dem_index p, con
 
 static double slot_guard_energy(const triangles *t, dem_index i, dem_index p, const double *x)
 {
-    double energy, slope;
-    triangles_guard_law(area_at(t, i, p, x) / t->rest_area[p], &energy, &slope);
-    return t->rest_area[p] * t->guard[p] * energy;
+    return t->rest_area[p] * t->guard[p] * triangles_guard_law(area_at(t, i, p, x) / t->rest_area[p]).energy;
 }
 
 double triangles_node_energy(const triangles *t, dem_index i, const double *x)
@@ -126,9 +142,9 @@ double triangles_guard_bound(const triangles *t, dem_index i, const double *x)
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
         if (!(A < TRIANGLES_GUARD_ONSET * A0)) continue;
-        const law l = guard_law(A / A0);
+        const triangles_law l = triangles_guard_law(A / A0);
         const vec2 dA = gradient(t, p, x);
-        bound += t->guard[p] * (3.0 * l.w2 * vec2_dot(dA, dA) / A0 + turn * fabs(l.w1));
+        bound += t->guard[p] * (3.0 * l.curvature * vec2_dot(dA, dA) / A0 + turn * fabs(l.slope));
     }
     return bound;
 }

@@ -27,6 +27,13 @@ void triangles_free(triangles *t);
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, dem_index i, const double *x);
 
+/** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
+ *  unit tensor. */
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x);
+
+/** Minus the change of that force, N, when the nodes move from x by u: K u, K the second derivative of the energy. */
+vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
+
 /** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, dem_index i, const double *x);
 
@@ -47,8 +54,13 @@ static inline double triangles_area(vec2 a, vec2 b, vec2 c)
     return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
 }
 
-/** w(J) and w'(J): (-ln(J/Jc))^3 below the onset Jc = 0.4, twice continuously differentiable there; below J = 0.05 its
- *  Taylor polynomial of second degree, so that it is finite for every J, inverted triangles included. */
-void triangles_guard_law(double area_ratio, double *energy, double *slope);
+/** A function of J = area / rest area and its derivatives. */
+typedef struct triangles_law {
+    double energy, slope, curvature;
+} triangles_law;
+
+/** w(J) = (-ln(J/Jc))^3 below the onset Jc = 0.4, twice continuously differentiable there; below J = 0.05 its Taylor
+ *  polynomial of second degree, so that it is finite for every J, inverted triangles included. */
+triangles_law triangles_guard_law(double area_ratio);
 
 #endif

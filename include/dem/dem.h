@@ -19,39 +19,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <dem/method.h>
+#include <dem/status.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-#if defined(__GNUC__)
-#define DEM_API __attribute__((visibility("default")))
-#else
-#define DEM_API
-#endif
-
-/* ---- status ------------------------------------------------------------------------------------------------- */
-
-typedef int64_t dem_index;
-
-typedef enum dem_status {
-    DEM_OK = 0,
-    DEM_STOPPED = 1,           /**< an observer asked to stop; the state is valid */
-    DEM_ERROR_MEMORY = -1,     /**< an allocation failed */
-    DEM_ERROR_ARGUMENT = -2,   /**< a NULL, an unknown enum value, a number outside its range */
-    DEM_ERROR_MODEL = -3,      /**< unphysical or inconsistent: mass <= 0, spring without length */
-    DEM_ERROR_INTEGRATOR = -4, /**< the tolerance cannot be met; the state is the last good one */
-    DEM_ERROR_CONTACT = -5,    /**< impacts accumulate faster than time advances */
-    DEM_ERROR_IO = -6          /**< a file cannot be read or written */
-} dem_status;
-
-/** Text of the last failure in this thread; valid until the next failing call. Never NULL. */
-DEM_API const char *dem_status_message(void);
-
-/** Library version, "MAJOR.MINOR.PATCH". */
-DEM_API const char *dem_version(void);
-
-/** Version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
-DEM_API const char *dem_version_sundials(void);
 
 /* ---- lattice: what the body is made of ------------------------------------------------------------------------ */
 
@@ -96,6 +69,9 @@ typedef struct dem_lattice {
     double *guard;          /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
     double *area_stiffness; /**< [n_triangles]   kappa of the area term, of any sign, N/m: the energy
                                 kappa/2 (A - A0)^2/A0 of a triangle of area A; NULL: none */
+    double *thickness;      /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
+    double *modulus;        /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
+                                between them as modulus * thickness * area; NULL: equal */
     unsigned char *flags;   /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
     int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
@@ -125,8 +101,8 @@ DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spac
  *  \return DEM_ERROR_MODEL if nothing is left */
 DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
 
-/** Springs, masses, area term and guard of a triangulation by the finite-element rule: a triangle of area A gives each
- *  edge e the stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
+/** Springs, masses and what triangles have, by the finite-element rule: a triangle of area A gives each edge e the
+ *  stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
  *  stiffness is (lambda - G) h. G = E/(2 (1 + nu)) and lambda = E nu/(1 - nu^2) are those of plane stress; a solid in
  *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
@@ -148,6 +124,14 @@ DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocit
 
 /** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
 DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
+
+/** What each of some nodes has of the boundary edges between them, half of each edge: by its length in the rest shape,
+ *  or, along a unit `direction` [2], by the length of its projection on that. For tractions: dem_boundary's share.
+ *  \param nodes        [n] distinct
+ *  \param direction    may be NULL
+ *  \param[out] length  [n] m, sum over the nodes: length of the edges */
+DEM_API dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
+                                           const double *direction, double *length);
 
 /** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
 DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);
@@ -216,58 +200,42 @@ DEM_API double dem_model_spacing(const dem_model *model);
  *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
 DEM_API double dem_model_omega_max(const dem_model *model);
 
+/** The highest angular frequency about the rest shape itself, rad/s, found by iteration from below, to 1e-6 of it or
+ *  better; 0 without springs. It takes some hundred evaluations of the forces.
+ *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL if it is not found in 2000 iterations */
+DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
+
+/** Elastic constants of a body about its rest shape, read as a plate in plane stress: a solid in plane strain has
+ *  E/(1 - nu^2) and nu/(1 - nu). */
+typedef struct dem_constants {
+    double stiffness[3][3];    /**< C in s = C e, Pa: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
+    double youngs_modulus;     /**< E, Pa, of the isotropic plate nearest to C: the average over all directions */
+    double poissons_ratio;     /**< nu of the same */
+    double anisotropy;         /**< largest over smallest Young's modulus along a direction; 1: isotropic */
+    double longitudinal_speed; /**< m/s, of long waves, with E, nu and the density */
+    double transverse_speed;   /**< m/s */
+    double volume;             /**< m^3, of the triangles */
+} dem_constants;
+
+/** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
+ *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
+ *  volume of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
+ *  \param body  0 <= body < n_bodies
+ *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out);
+
 /** Total mass, kg. */
 DEM_API double dem_model_mass(const dem_model *model);
+
+/** What each node has of the solid's rest volume, m^3: a third of its triangles' areas times their thickness; 0 where
+ *  it is in no triangle. [n_nodes], a view. */
+DEM_API const double *dem_model_volumes(const dem_model *model);
 
 /** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */
 DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
 
 /* ---- simulation: the moving state ------------------------------------------------------------------------------ */
-
-/** How the motion is integrated. A pair of orders p(q), named by both, advances with the higher and chooses its steps
- *  by what the two differ; the methods with one order take steps of one length. */
-typedef enum dem_method {
-    DEM_METHOD_FEHLBERG45 = 0,
-    DEM_METHOD_DOPRI45,     /**< of Dormand and Prince */
-    DEM_METHOD_CASHKARP45,  /**< of Cash and Karp */
-    DEM_METHOD_ZONNEVELD34, /**< of Zonneveld */
-    DEM_METHOD_BS23,        /**< of Bogacki and Shampine */
-    DEM_METHOD_HEUN12,      /**< Heun's method with Euler's */
-    DEM_METHOD_SAYFYABURUB34,
-    DEM_METHOD_ARK23, /**< the explicit halves of Kennedy and Carpenter's additive pairs: this, */
-    DEM_METHOD_ARK34,
-    DEM_METHOD_ARK34B,
-    DEM_METHOD_ARK45,
-    DEM_METHOD_ARK45B, /**< and those up to here */
-    DEM_METHOD_VERNER56,
-    DEM_METHOD_VERNER67, /**< in SUNDIALS from 6.7 on, */
-    DEM_METHOD_VERNER78, /**< as this, */
-    DEM_METHOD_VERNER89, /**< and this */
-    DEM_METHOD_FEHLBERG78,
-    DEM_METHOD_KNOTHWOLKE3, /**< fixed steps */
-    DEM_METHOD_RK4,         /**< the classical Runge-Kutta method, fixed steps */
-    DEM_METHOD_VERLET       /**< velocity Verlet, (5) with contacts located, fixed steps */
-} dem_method;
-
-/** What is known of a method before any step. Undamped oscillations of angular frequency omega are multiplied by
- *  dem_method_growth(method, omega h) in a step h. */
-typedef struct dem_method_traits {
-    const char *name;    /**< as in decks: "fehlberg45" */
-    int32_t order;       /**< of what advances */
-    int32_t evaluations; /**< of the right-hand side (4), in an accepted step without contact events */
-    int32_t adaptive;    /**< 1: chooses its steps; 0: they are of one length, `fixed_step` */
-    double stable;       /**< largest omega h up to which no oscillation grows; 0: each does in each step */
-    double usable;       /**< largest omega h up to which none grows by more than 1e-3 in a step */
-} dem_method_traits;
-
-/** \return DEM_ERROR_ARGUMENT for an unknown method, and for one that the installed SUNDIALS does not have */
-DEM_API dem_status dem_method_describe(dem_method_traits *out, dem_method method);
-
-/** The method of a name, in this SUNDIALS or not.  \return DEM_ERROR_ARGUMENT if there is none */
-DEM_API dem_status dem_method_find(dem_method *out, const char *name);
-
-/** Modulus of the largest eigenvalue of a step h of x'' = -omega^2 x; NAN if dem_method_describe() fails. */
-DEM_API double dem_method_growth(dem_method method, double omega_h);
 
 /** What is done to nodes from outside. */
 typedef enum dem_boundary_kind {
@@ -457,6 +425,16 @@ typedef struct dem_strain {
     dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
+/** Bodies that run into each other, or into themselves: nothing prevents it, contact is with obstacles only. Nodes on
+ *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
+ *  every 16th accepted step. */
+typedef struct dem_overlap {
+    dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
+    double t;                 /**< s, of the first; 0 without one */
+    dem_index node, triangle; /**< of the first; -1 without one */
+    double x[2];              /**< m, where that node was */
+} dem_overlap;
+
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
@@ -477,6 +455,18 @@ DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
 
 /** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
 DEM_API void dem_simulation_strains(const dem_simulation *simulation, double *strain);
+
+/** Force (1) along every spring, > 0 in tension; what damping adds to it is left out.
+ *  \param[out] force  [n_springs] N, in the order of the lattice */
+DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *force);
+
+/** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
+ *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
+ *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
+ *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
+DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+
+DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
 
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 
@@ -500,6 +490,15 @@ DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
  *  `boundaries` NULL. */
 DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
 
+/* ---- stress ----------------------------------------------------------------------------------------------------- */
+
+/** Von Mises' equivalent of a plane stress xx, yy, xy: sqrt(xx^2 - xx yy + yy^2 + 3 xy^2). */
+DEM_API double dem_stress_von_mises(const double stress[3]);
+
+/** Principal values, the larger first, and the unit vector along which the first acts: to the right, or up; along x if
+ *  both are equal. */
+DEM_API void dem_stress_principal(const double stress[3], double value[2], double direction[2]);
+
 /* ---- observers -------------------------------------------------------------------------------------------------- */
 
 /** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK
@@ -514,6 +513,46 @@ typedef struct dem_observer {
 
 /** Copies `observer`. At most 8; to be called before the first advance. */
 DEM_API dem_status dem_simulation_observe(dem_simulation *simulation, const dem_observer *observer);
+
+/* ---- peaks: the most stressed places of a run ------------------------------------------------------------------- */
+
+/** Where and when a node was stressed most. */
+typedef struct dem_node_peak {
+    double von_mises; /**< Pa, the largest so far; 0: none */
+    double t;         /**< s, when */
+    double stress[3]; /**< Pa, at that instant: xx, yy, xy */
+} dem_node_peak;
+
+typedef struct dem_spring_peak {
+    double strain; /**< that of the largest size so far, with its sign */
+    double t;      /**< s, when */
+} dem_spring_peak;
+
+/** The largest von Mises stress of every node and the largest |strain| of every spring, an observer: it looks at t = 0
+ *  and at every `every`-th accepted step. */
+typedef struct dem_peaks dem_peaks;
+
+/** \param every  >= 1. A look costs about an eighth of a step; between looks every 4 steps of 0.5/omega_max the
+ *                 fastest wave of a lattice passes a third of its period. */
+DEM_API dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every);
+
+/** Accepts NULL. */
+DEM_API void dem_peaks_destroy(dem_peaks *peaks);
+
+/** The observer to hand to dem_simulation_observe(), of a simulation of the same model; borrows the peaks. */
+DEM_API dem_observer dem_peaks_observer(dem_peaks *peaks);
+
+/** Peaks so far, [n_nodes] and [n_springs]: views. */
+DEM_API const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks);
+DEM_API const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks);
+
+/** The n nodes of the largest stresses so far, the largest first, equal ones in the order of their numbers.
+ *  \param[out] nodes  [n]
+ *  \return how many there are: less than n where less have been stressed at all */
+DEM_API dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes);
+
+/** The same of the springs and their strains. */
+DEM_API dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *springs);
 
 #ifdef __cplusplus
 }

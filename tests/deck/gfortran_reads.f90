@@ -15,8 +15,8 @@ contains
 
   subroutine read_run()
     character(4096) :: title
-    real(dp) :: t_end, gravity(2)
-    namelist /run/ title, t_end, gravity
+    real(dp) :: t_end, gravity(2), residual
+    namelist /run/ title, t_end, gravity, residual
     read (unit, nml=run, iostat=status, iomsg=message)
   end subroutine
 
@@ -51,6 +51,15 @@ contains
     read (unit, nml=pores, iostat=status, iomsg=message)
   end subroutine
 
+  subroutine read_boundary()
+    integer :: body, nodes(10000)
+    character(4096) :: where, side, kind, components
+    real(dp) :: box(4), centre(2), radius, velocity(2), displacement(2), force(2), traction(2), ramp
+    namelist /boundary/ body, where, side, box, centre, radius, nodes, kind, components, velocity, displacement, &
+      force, traction, ramp
+    read (unit, nml=boundary, iostat=status, iomsg=message)
+  end subroutine
+
   subroutine read_obstacle()
     real(dp), save :: points(100000)
     real(dp) :: resolution, roughness, correlation, restitution, friction
@@ -61,11 +70,11 @@ contains
   end subroutine
 
   subroutine read_contact()
-    character(4096) :: method
+    character(4096) :: method, overlap
     real(dp) :: window, skin, rest_speed
     logical :: vertices
     integer :: max_impacts
-    namelist /contact/ method, window, vertices, skin, rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, overlap, skin, rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 
@@ -78,10 +87,10 @@ contains
 
   subroutine read_output()
     character(4096) :: name, precision
-    real(dp) :: frame_interval
+    real(dp) :: frame_interval, closure
     integer :: deflate
     logical :: events
-    namelist /output/ name, frame_interval, precision, deflate, events
+    namelist /output/ name, frame_interval, precision, deflate, events, closure
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 
@@ -134,6 +143,7 @@ program gfortran_reads
   call read_all('body', read_body)
   call read_all('void', read_void)
   call read_all('pores', read_pores)
+  call read_all('boundary', read_boundary)
   call read_all('obstacle', read_obstacle)
   call read_all('contact', read_contact)
   call read_all('solver', read_solver)

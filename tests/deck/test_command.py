@@ -147,6 +147,7 @@ class Check(Case):
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
                          ["dem", "deck", "lattice", "contact", "impacts", "scales", "time", "stability", "formula",
+                          "constants", "frequency",
                           "estimate"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
@@ -174,6 +175,14 @@ class Check(Case):
         speed, = numbers("formula 6  (|v_x| + |v_y|) h/spacing = # at v_scale along x; it does "
                          "not bound the step", out)
         self.assertAlmostEqual(speed, v_scale * step / spacing, places=4)
+        body, modulus, ratio, anisotropy, longitudinal, transverse = numbers(
+            "constants  body #: E # Pa, nu #, anisotropy #, waves # and # m/s", out)
+        self.assertEqual((body, modulus, ratio, anisotropy), (1, 1e7, 0.33333, 1))
+        self.assertAlmostEqual(longitudinal, (9 / 8 * 1e7 / 1050) ** 0.5, delta=5e-3)
+        self.assertAlmostEqual(transverse, (3 / 8 * 1e7 / 1050) ** 0.5, delta=5e-4)
+        highest, slack = numbers("frequency  highest # rad/s, the bound is # times that", out)
+        self.assertAlmostEqual(highest * slack, omega_max, delta=1e-3 * omega_max)
+        self.assertTrue(1 <= slack < 1.25)
         steps, _, frames, _, _ = numbers("estimate   at least # steps of # evaluations, # frames, up to # MB of "
                                          "output, # MB of memory", out)
         self.assertTrue(abs(steps - t_end / step) <= 2)

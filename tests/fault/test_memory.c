@@ -73,6 +73,14 @@ static dem_status build(dem_lattice *lattice)
     return status;
 }
 
+static dem_status measure(const dem_model *model)
+{
+    dem_constants constants;
+    double omega;
+    const dem_status status = dem_model_constants(model, 1, &constants);
+    return status == DEM_OK ? dem_model_omega(model, &omega) : status;
+}
+
 static dem_status write_and_run(dem_simulation *simulation)
 {
     dem_trajectory *trajectory = NULL;
@@ -101,6 +109,7 @@ static dem_status run(void)
     dem_lattice_init(&lattice);
     dem_status status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(&model, &lattice, &obstacle, 1);
+    if (status == DEM_OK) status = measure(model);
     if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);
     if (status == DEM_OK) status = write_and_run(simulation);
     dem_simulation_destroy(simulation);

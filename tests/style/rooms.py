@@ -11,22 +11,24 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "commit"},
-    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method",
-     "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"motion", "lattice_mesh", "surface", "obstacle", "impact", "schema", "shape", "parts", "clearance", "grid", "table"},
-    {"model", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "uses"},
-    {"touch", "diagnostics", "integrator", "verlet"},
-    {"reaction", "books", "engine"},
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file",
+     "scan", "namelist", "pores", "profile"},
+    {"motion", "lattice_mesh", "surface", "obstacle", "overlap", "impact", "stress", "schema", "shape", "parts",
+     "clearance", "grid", "table"},
+    {"model", "peaks", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body",
+     "loading", "uses"},
+    {"touch", "diagnostics", "integrator", "verlet", "tangent"},
+    {"reaction", "books", "engine", "spectrum", "constants"},
     {"site"},
     {"sites", "search"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
-    {"simulation", "output", "report"},
+    {"simulation", "output", "relaxation", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice"), ("shape", "pores"),
-          ("pores", "shape"), ("body", "uses")}
+          ("pores", "shape"), ("body", "uses"), ("loading", "uses")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),

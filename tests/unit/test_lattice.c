@@ -60,6 +60,8 @@ static void select_keeps_every_array_in_step(void **state)
     lattice.velocity[8] = 7.0;
     lattice.guard[1] = 5.0;
     give_area_stiffness(&lattice);
+    lattice.thickness[1] = 6.0;
+    lattice.modulus[1] = 7.0;
     give_viscosity(&lattice);
     lattice.body = calloc(5, sizeof *lattice.body);
     lattice.flags = calloc(5, sizeof *lattice.flags);
@@ -79,6 +81,8 @@ static void select_keeps_every_array_in_step(void **state)
     assert_close(lattice.position[5], 8.0, 0.0);
     assert_close(lattice.guard[0], 5.0, 0.0);
     assert_close(lattice.area_stiffness[0], -1.0, 0.0);
+    assert_close(lattice.thickness[0], 6.0, 0.0);
+    assert_close(lattice.modulus[0], 7.0, 0.0);
     assert_int_equal(lattice.body[2], 6);
     assert_int_equal(lattice.flags[2], DEM_NODE_FIXED);
     dem_lattice_move(&lattice, 0.0, offset);
@@ -207,6 +211,30 @@ static void append_gives_undamped_springs_no_viscosity_beside_damped_ones(void *
     dem_lattice_free(&plain);
 }
 
+static void append_gives_thickness_and_modulus_1_beside_given_ones(void **state)
+{
+    (void)state;
+    dem_lattice all, given = make_solid(1.0, 1.6, 1.0), plain = make_rectangle(1.0, 1.0, 1.0);
+    dem_lattice_init(&all);
+    plain.mass = calloc(3, sizeof *plain.mass);
+    assert_non_null(plain.mass);
+    given.modulus[1] = 3.0;
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_null(all.thickness);
+    assert_null(all.modulus);
+    assert_int_equal(dem_lattice_append(&all, &given), DEM_OK);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_int_equal(all.n_triangles, 1 + 2 + 1);
+    for (dem_index t = 0; t < 4; t++) assert_close(all.thickness[t], t == 0 || t == 3 ? 1.0 : rubber.thickness, 0.0);
+    const double modulus[4] = {1.0, rubber.youngs_modulus, 3.0, 1.0};
+    assert_memory_equal(all.modulus, modulus, sizeof modulus);
+    dem_lattice_free(&all);
+    assert_null(all.thickness);
+    assert_null(all.modulus);
+    dem_lattice_free(&given);
+    dem_lattice_free(&plain);
+}
+
 static void append_refuses_mixed_and_broken_lattices(void **state)
 {
     (void)state;
@@ -238,6 +266,7 @@ int main(void)
         cmocka_unit_test(append_numbers_nodes_and_bodies_behind_the_others),
         cmocka_unit_test(append_keeps_who_may_touch_and_where_the_motion_starts),
         cmocka_unit_test(append_gives_undamped_springs_no_viscosity_beside_damped_ones),
+        cmocka_unit_test(append_gives_thickness_and_modulus_1_beside_given_ones),
         cmocka_unit_test(append_refuses_mixed_and_broken_lattices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,6 +129,8 @@ static void what_is_not_there_is_null(void **state)
     assert_null(lattice.triangles);
     assert_null(lattice.guard);
     assert_null(lattice.area_stiffness);
+    assert_null(lattice.thickness);
+    assert_null(lattice.modulus);
     assert_null(lattice.flags);
     assert_null(lattice.body);
     assert_null(lattice.position);
@@ -166,21 +168,28 @@ static void integers_do_for_reals(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void viscosity_is_read_and_comes_back_as_it_was_written(void **state)
+static void optional_numbers_are_read_and_come_back_as_they_were_written(void **state)
 {
     (void)state;
-    const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0};
+    const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0}, thickness[2] = {0.1, 3.0}, modulus[2] = {1e7, 2e9};
     put_real("viscosity", 6, 0, viscosity);
+    put_whole("triangles", 2, 3, corners);
+    put_real("thickness", 2, 0, thickness);
+    put_real("modulus", 2, 0, modulus);
     for (int deflate = 0; deflate < 2; deflate++) {
         hdf5_file file;
         dem_lattice lattice = read_lattice();
         assert_memory_equal(lattice.viscosity, viscosity, sizeof viscosity);
+        assert_memory_equal(lattice.thickness, thickness, sizeof thickness);
+        assert_memory_equal(lattice.modulus, modulus, sizeof modulus);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
         assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
         dem_lattice_free(&lattice);
     }
     dem_lattice back = read_lattice();
     assert_memory_equal(back.viscosity, viscosity, sizeof viscosity);
+    assert_memory_equal(back.thickness, thickness, sizeof thickness);
+    assert_memory_equal(back.modulus, modulus, sizeof modulus);
     dem_lattice_free(&back);
 }
 
@@ -270,7 +279,8 @@ static void unknown_names_are_refused(void **state)
         char message[256];
         (void)snprintf(message, sizeof message,
                        "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
-                       "viscosity, triangles, guard, area_stiffness, body, position, velocity, fixed, contact_nodes",
+                       "viscosity, triangles, guard, area_stiffness, "
+                       "thickness, modulus, body, position, velocity, fixed, contact_nodes",
                        path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);
@@ -440,7 +450,7 @@ int main(void)
         WITH_FILE(what_is_not_there_is_null),
         WITH_FILE(any_width_of_number_is_read),
         WITH_FILE(integers_do_for_reals),
-        WITH_FILE(viscosity_is_read_and_comes_back_as_it_was_written),
+        WITH_FILE(optional_numbers_are_read_and_come_back_as_they_were_written),
         WITH_FILE(fixed_nodes_leave_the_rule_of_contact_as_it_is),
         WITH_FILE(a_body_of_one_node_needs_no_springs),
         WITH_FILE(files_that_are_none_are_refused),

@@ -265,7 +265,7 @@ static void stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary(
     dem_lattice_free(&lattice);
 }
 
-static void masses_and_guard_are_those_of_the_triangles(void **state)
+static void masses_guard_thickness_and_modulus_are_those_of_the_triangles(void **state)
 {
     (void)state;
     dem_lattice lattice = make_solid(0.08, 0.13, spacing);
@@ -275,7 +275,11 @@ static void masses_and_guard_are_those_of_the_triangles(void **state)
     assert_close(mass, 3.0 * share * (double)lattice.n_triangles, 1e-12 * mass);
     assert_close(lattice.mass[0], share, 1e-12 * share); /* the corner belongs to one triangle */
     assert_close(lattice.mass[33 + 1], 6.0 * share, 1e-11 * share);
-    for (dem_index t = 0; t < lattice.n_triangles; t++) assert_close(lattice.guard[t], 0.02 * 1e7 * 0.5, 1e-9);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        assert_close(lattice.guard[t], 0.02 * 1e7 * 0.5, 1e-9);
+        assert_close(lattice.thickness[t], 0.5, 0.0);
+        assert_close(lattice.modulus[t], 1e7, 0.0);
+    }
     dem_lattice_free(&lattice);
 }
 
@@ -447,7 +451,7 @@ int main(void)
         cmocka_unit_test(a_cut_refuses_to_leave_nothing_and_to_cut_springs),
         cmocka_unit_test(springs_come_by_lower_then_upper_node_without_duplicates),
         cmocka_unit_test(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary),
-        cmocka_unit_test(masses_and_guard_are_those_of_the_triangles),
+        cmocka_unit_test(masses_guard_thickness_and_modulus_are_those_of_the_triangles),
         cmocka_unit_test(a_material_without_guard_leaves_guard_NULL),
         cmocka_unit_test(viscosity_is_damping_time_times_stiffness),
         cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_its_solid),

@@ -212,7 +212,7 @@ static void spring_and_triangle_arrays_must_be_there(void **state)
     refuse(&s, DEM_ERROR_ARGUMENT, "2 triangles, but their nodes are NULL");
 }
 
-static void triangles_are_counter_clockwise_and_guards_not_negative(void **state)
+static void triangles_are_counter_clockwise_with_numbers_in_range(void **state)
 {
     square s;
     (void)state;
@@ -234,6 +234,12 @@ static void triangles_are_counter_clockwise_and_guards_not_negative(void **state
     s.lattice.area_stiffness = s.area_stiffness;
     s.area_stiffness[1] = -infinite;
     refuse(&s, DEM_ERROR_MODEL, "triangle 1: area stiffness must be finite, got -inf N/m");
+    make_square(&s);
+    s.lattice.thickness = (double[2]){1.0, 0.0};
+    refuse(&s, DEM_ERROR_MODEL, "triangle 1: thickness must be > 0, got 0 m");
+    s.lattice.thickness = (double[2]){1.0, 2.0};
+    s.lattice.modulus = (double[2]){-3.0, 1.0};
+    refuse(&s, DEM_ERROR_MODEL, "triangle 0: modulus must be > 0, got -3 Pa");
 }
 
 static void a_node_without_springs_must_be_a_body_of_its_own(void **state)
@@ -456,7 +462,7 @@ static void area_stiffness_raises_the_frequency_bound(void **state)
 }
 
 /* The triangle 0 1 2 squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Node 2 of 3 kg has the opposite side of 1
- * m, node 1 of 2 kg the diagonal, node 0 of 1 kg the side of 0.2 m. What the guard adds is compared with omega_max^2. */
+ * m, node 1 of 2 kg the diagonal, node 0 of 1 kg the side of 0.2 m. What the guard adds stands beside omega_max^2. */
 static void the_guard_stiffens_what_it_squeezes(void **state)
 {
     const double x[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.2}, L = log(2.0), J = 0.2, A0 = 0.5;
@@ -564,7 +570,7 @@ int main(void)
         cmocka_unit_test(springs_join_two_nodes_of_one_body_with_length_and_stiffness),
         cmocka_unit_test(viscosities_are_finite_and_not_negative),
         cmocka_unit_test(spring_and_triangle_arrays_must_be_there),
-        cmocka_unit_test(triangles_are_counter_clockwise_and_guards_not_negative),
+        cmocka_unit_test(triangles_are_counter_clockwise_with_numbers_in_range),
         cmocka_unit_test(a_node_without_springs_must_be_a_body_of_its_own),
         cmocka_unit_test(body_numbers_have_no_holes),
         cmocka_unit_test(obstacles_are_validated_too),

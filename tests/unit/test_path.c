@@ -206,7 +206,7 @@ static void a_displacement_beyond_rounding_is_followed(void **state)
     assert_close(path_velocity(&p, 1.0, 0).y, 0.0, 0.0);
 }
 
-/* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: the accelerations at the end do not count. */
+/* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: accelerations at the end do not count. */
 static void a_parabolic_path_matches_what_a_method_of_order_2_knows(void **state)
 {
     double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};

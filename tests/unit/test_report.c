@@ -46,7 +46,8 @@ static void follow(logged *l, bool terminal, double t_end)
 {
     l->file = tmpfile();
     assert_non_null(l->file);
-    report_start(&l->report, l->file, terminal, t_end);
+    const deck d = {.t_end = t_end, .closure = 1e-2};
+    report_start(&l->report, l->file, terminal, &d);
     const dem_observer observer = report_observer(&l->report);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
 }
@@ -397,6 +398,40 @@ static void the_header_tells_what_is_about_to_run(void **state)
     drop_logged(l);
 }
 
+/* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
+static void the_header_tells_what_was_measured_of_each_body(void **state)
+{
+    (void)state;
+    const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 0.5};
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    const double x[2] = {9.0, 9.0}, one = 1.0;
+    dem_options options = dem_options_default();
+    dem_lattice lattice, node;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.v_scale = 1.0;
+    assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
+    assert_ok(dem_lattice_assemble(&lattice, &solid));
+    support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
+    assert_ok(dem_lattice_append(&lattice, &node));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    dem_lattice_free(&node);
+    follow(l, false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_close(number_in(l->text, "constants", "E"), 1e7, 1.0);
+    assert_close(number_in(l->text, "constants", "nu"), 0.1, 1e-6);
+    assert_close(number_in(l->text, "constants", "anisotropy"), 1.0, 1e-4);
+    assert_close(number_in(l->text, "constants", "waves"), 100.0 / sqrt(0.99), 1e-2);
+    assert_close(number_in(l->text, "constants", "and"), 100.0 / sqrt(2.2), 1e-2);
+    assert_non_null(strstr(l->text, "\nconstants  body 2: not measured: the body has no triangles, "));
+    assert_close(number_in(l->text, "frequency", "highest") * number_in(l->text, "frequency", "is"),
+                 dem_model_omega_max(l->run.model), 1e-3 * dem_model_omega_max(l->run.model));
+    drop_logged(l);
+}
+
 static void without_an_output_none_is_told(void **state)
 {
     (void)state;
@@ -564,6 +599,7 @@ int main(void)
         cmocka_unit_test(in_a_file_progress_is_a_line_every_twentieth),
         cmocka_unit_test(on_a_terminal_progress_is_rewritten_in_place),
         cmocka_unit_test(the_header_tells_what_is_about_to_run),
+        cmocka_unit_test(the_header_tells_what_was_measured_of_each_body),
         cmocka_unit_test(without_an_output_none_is_told),
         cmocka_unit_test(versions_are_those_in_use),
         cmocka_unit_test(the_header_tells_the_rules_of_impact),

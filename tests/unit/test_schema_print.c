@@ -74,7 +74,8 @@ static void the_echo_marks_defaults_and_what_is_not_given(void **state)
 {
     (void)state;
     char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, SCHEMA_MARKED);
-    assert_contains(echo, "&run\n    title = '' ! default\n    t_end = 0.02\n    gravity = 0, -9.81 ! default\n/\n");
+    assert_contains(echo, "&run\n    title = '' ! default\n    t_end = 0.02\n    gravity = 0, -9.81 ! default\n"
+                          "    ! residual = (not given)\n/\n");
     assert_contains(echo, "    ! clearance = (not given)\n");
     assert_contains(echo, "&solver\n    method = 'fehlberg45' ! default\n    rtol = 1e-06 ! default\n");
     free(echo);

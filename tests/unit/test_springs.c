@@ -65,6 +65,32 @@ static void stir(double *x, dem_index n, double by, unsigned long seed)
     gsl_rng_free(rng);
 }
 
+/* Strain and force of every spring in the order of the lattice, and r x f, from the two ends by hand. */
+static void strain_force_and_virial_are_those_of_each_spring(void **state)
+{
+    double x[2 * n_nodes], strain[n_springs], force[n_springs], virial[3];
+    (void)state;
+    dem_lattice lattice = make_net();
+    springs s = compile_net();
+    memcpy(x, corners, sizeof x);
+    stir(x, n_nodes, 0.3, 5);
+    springs_strains(&s, x, strain);
+    springs_forces(&s, x, force);
+    for (dem_index k = 0; k < n_springs; k++) {
+        const dem_index i = pairs[2 * k], j = pairs[2 * k + 1];
+        const double dx = x[2 * j] - x[2 * i], dy = x[2 * j + 1] - x[2 * i + 1], d = hypot(dx, dy);
+        const double e = d / lattice.rest_length[k] - 1.0, f = lattice.stiffness[k] * e;
+        springs_virial(&lattice, k, x, virial);
+        assert_close(strain[k], e, 1e-15);
+        assert_close(force[k], f, 1e-12);
+        assert_close(virial[0], f * dx * dx / d, 1e-12);
+        assert_close(virial[1], f * dy * dy / d, 1e-12);
+        assert_close(virial[2], f * dx * dy / d, 1e-12);
+    }
+    springs_free(&s);
+    dem_lattice_free(&lattice);
+}
+
 /* ---- rows ---- */
 
 static void rows_list_the_neighbours_in_ascending_order(void **state)
@@ -410,6 +436,7 @@ static void the_damping_bound_of_a_net_is_above_the_highest_rate(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strain_force_and_virial_are_those_of_each_spring),
         cmocka_unit_test(rows_list_the_neighbours_in_ascending_order),
         cmocka_unit_test(two_springs_between_the_same_nodes_are_named),
         cmocka_unit_test(nodes_without_springs_feel_nothing),

@@ -13,16 +13,12 @@ static const double onset = 0.4, taylor_below = 0.05;
 
 static double energy_at(double ratio)
 {
-    double energy, slope;
-    triangles_guard_law(ratio, &energy, &slope);
-    return energy;
+    return triangles_guard_law(ratio).energy;
 }
 
 static double slope_at(double ratio)
 {
-    double energy, slope;
-    triangles_guard_law(ratio, &energy, &slope);
-    return slope;
+    return triangles_guard_law(ratio).slope;
 }
 
 /* ---- the law ---- */
@@ -73,6 +69,19 @@ static void its_slope_is_the_derivative_of_its_energy(void **state)
     for (double ratio = -1.0; ratio < 0.5; ratio += 0.00701)
         assert_close((energy_at(ratio + d) - energy_at(ratio - d)) / (2.0 * d), slope_at(ratio),
                      1e-6 + 1e-15 * energy_at(ratio) / d);
+}
+
+/* Central differences of the slope over d = 1e-6: d^2 w''''/6 with |w''''| < 3e7 at 0.05, and rounding of 1e-15 w'/d;
+ * not across 0.05, where the third derivative jumps. */
+static void its_curvature_is_the_derivative_of_its_slope(void **state)
+{
+    const double d = 1e-6;
+    (void)state;
+    for (double ratio = -1.0; ratio < 0.5; ratio += 0.00701) {
+        if (fabs(ratio - taylor_below) < 2.0 * d || fabs(ratio - onset) < 2.0 * d) continue;
+        assert_close((slope_at(ratio + d) - slope_at(ratio - d)) / (2.0 * d), triangles_guard_law(ratio).curvature,
+                     1e-5 + 1e-15 * fabs(slope_at(ratio)) / d);
+    }
 }
 
 /* Where the polynomial takes over: values, slopes and difference quotients of slopes from the two sides. The
@@ -339,6 +348,34 @@ static void the_bound_of_the_guard_is_above_its_second_variation(void **state)
     gsl_rng_free(rng);
 }
 
+/* Central differences of the forces along a random motion, over 1e-6 m: truncation 1e-12 g w'''' A0 (dJ/dx)^4 = 1e-4
+ * N/m at worst where nothing crosses the ends of the polynomial, rounding 1e-15 * 1e5 N/1e-6 m. */
+static void the_tangent_is_the_derivative_of_the_force(void **state)
+{
+    const double step = 1e-6;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    double x[2 * n_nodes], u[2 * n_nodes], above[2 * n_nodes], below[2 * n_nodes];
+    (void)state;
+    triangles t = compile_fan(strengths, kappas);
+    for (int trial = 0; trial < 50; trial++) {
+        squeeze(x, rng);
+        for (int k = 0; k < 2 * n_nodes; k++) {
+            u[k] = 2.0 * gsl_rng_uniform(rng) - 1.0;
+            above[k] = x[k] + step * u[k];
+            below[k] = x[k] - step * u[k];
+        }
+        for (dem_index i = 0; i < n_nodes; i++) {
+            const vec2 change = vec2_sub(triangles_force(&t, i, below), triangles_force(&t, i, above));
+            const vec2 tangent = triangles_tangent(&t, i, x, u);
+            const double scale = 1.0 + vec2_norm(tangent);
+            assert_close(tangent.x, change.x / (2.0 * step), 1e-6 * scale);
+            assert_close(tangent.y, change.y / (2.0 * step), 1e-6 * scale);
+        }
+    }
+    triangles_free(&t);
+    gsl_rng_free(rng);
+}
+
 /* Rounding of sums of 12 terms, against the largest force. */
 static void triangles_exert_no_force_and_no_torque_on_the_whole(void **state)
 {
@@ -382,6 +419,7 @@ int main(void)
         cmocka_unit_test(the_guard_sets_in_with_the_third_power_of_the_distance),
         cmocka_unit_test(its_logarithm_agrees_with_libm),
         cmocka_unit_test(its_slope_is_the_derivative_of_its_energy),
+        cmocka_unit_test(its_curvature_is_the_derivative_of_its_slope),
         cmocka_unit_test(the_polynomial_takes_over_twice_continuously_differentiable),
         cmocka_unit_test(it_is_a_finite_rising_parabola_down_to_inverted_triangles),
         cmocka_unit_test(rows_hold_the_guarded_triangles_of_each_node_in_order),
@@ -392,6 +430,7 @@ int main(void)
         cmocka_unit_test(the_block_of_a_node_has_the_triangles_that_stiffen_it),
         cmocka_unit_test(a_squeezed_triangle_pushes_its_corner_back),
         cmocka_unit_test(forces_are_minus_the_gradient_of_the_energy),
+        cmocka_unit_test(the_tangent_is_the_derivative_of_the_force),
         cmocka_unit_test(the_bound_of_the_guard_is_above_its_second_variation),
         cmocka_unit_test(triangles_exert_no_force_and_no_torque_on_the_whole),
         cmocka_unit_test(area_is_positive_counter_clockwise),

@@ -104,8 +104,8 @@ static void a_step_is_a_kick_a_drift_and_a_kick(void **state)
     assert_close(y[3], 2.0 - g * h, 1e-15);
 }
 
-/* With damping too, whose velocity is extrapolated: halving the step quarters the differences, of which the first over the
- * second is 4 to what the next order adds. */
+/* With damping too, whose velocity is extrapolated: halving the step quarters the difference, to what the next order
+ * adds. */
 static void the_order_is_two_with_forces_of_any_kind(void **state)
 {
     const double y0[4] = {1.0, 0.0, 0.5, 0.0};

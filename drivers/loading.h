@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the groups &boundary mean: which nodes, and what is done to them. */
+#ifndef DEM_LOADING_H
+#define DEM_LOADING_H
+
+#include <dem/dem.h>
+
+#include "schema.h"
+
+/* A body in the lattice of all: its nodes, and how its own coordinates were turned (radians) and shifted (m). */
+typedef struct loading_body {
+    dem_index first, n_nodes;
+    double angle, offset[2];
+} loading_body;
+
+/* Faults that can be told without geometry. */
+void loading_check_all(const schema_deck *groups, namelist_errors *errors);
+
+/* Takes the defaults of keys away that a group does not use. */
+void loading_drop_unused(schema_deck *groups);
+
+/* Finds the nodes and makes the boundaries, in the order of the deck; takes nodes with prescribed motion from contact.
+ * Faults are appended to `errors`. Returns false only when memory runs out. Free with loading_free in any case.
+ * \param bodies    [number of &body]
+ * \param[out] list  [number of &boundary] */
+bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const loading_body *bodies,
+                   const schema_deck *groups, namelist_errors *errors);
+void loading_free(dem_boundary *list, dem_index n);
+
+#endif

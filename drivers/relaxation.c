@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* When damped bodies have come to rest. */
+#include "relaxation.h"
+
+#include <math.h>
+
+enum { between_looks = 16 }; /* steps: a look costs as much as half an evaluation */
+
+static const double pi = 3.14159265358979323846;
+
+/* The diagonal of all nodes' box, m: no body is longer. */
+static double extent_of(const dem_lattice *l)
+{
+    double low[2] = {(double)INFINITY, (double)INFINITY}, high[2] = {-(double)INFINITY, -(double)INFINITY};
+    for (dem_index k = 0; k < 2 * l->n_nodes; k++) {
+        low[k % 2] = fmin(low[k % 2], l->x[k]);
+        high[k % 2] = fmax(high[k % 2], l->x[k]);
+    }
+    return hypot(high[0] - low[0], high[1] - low[1]);
+}
+
+double relaxation_damping(const dem_model *model)
+{
+    const double c = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model);
+    const double extent = extent_of(dem_model_lattice(model));
+    return extent > 0.0 ? pi * c / extent : 0.0;
+}
+
+relaxation relaxation_start(double residual, const dem_options *options)
+{
+    relaxation r = {.residual = residual, .reached = (double)INFINITY};
+    for (dem_index k = 0; k < options->n_boundaries; k++) r.settled = fmax(r.settled, options->boundaries[k].ramp);
+    return r;
+}
+
+static dem_status look(void *context, const dem_simulation *simulation)
+{
+    relaxation *r = context;
+    dem_state state = {.struct_size = sizeof state};
+    if (++r->steps < between_looks) return DEM_OK;
+    dem_simulation_state(simulation, &state);
+    const double residual = dem_simulation_residual(simulation);
+    if (state.t < r->settled || isinf(residual)) return DEM_OK;
+    r->steps = 0;
+    r->reached = residual;
+    r->t = state.t;
+    r->done = residual <= r->residual;
+    return r->done ? DEM_STOPPED : DEM_OK;
+}
+
+dem_observer relaxation_observer(relaxation *r)
+{
+    return (dem_observer){.step = look, .context = r};
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Quasi-static runs: bodies are damped until what acts on every node is in balance. */
+#ifndef DEM_RELAXATION_H
+#define DEM_RELAXATION_H
+
+#include <stdbool.h>
+
+#include <dem/dem.h>
+
+typedef struct relaxation {
+    double residual;   /* at which the bodies are at rest; see dem_simulation_residual() */
+    double settled;    /* s, when the last ramp has ended */
+    long steps;        /* since the last look */
+    double reached, t; /* residual at the last look, and when that was */
+    bool done;
+} relaxation;
+
+/* Damping of the masses, 1/s, that is critical for the slowest stretch of a body held at one end: twice
+ * pi c/(2 L), L the extent of all nodes, c = omega_max spacing/2 the speed of sound of a chain. */
+double relaxation_damping(const dem_model *model);
+
+/* A run that is to end at this residual. */
+relaxation relaxation_start(double residual, const dem_options *options);
+
+/* To be handed to the simulation, behind all others: stops it when all ramps are over and the residual is small. */
+dem_observer relaxation_observer(relaxation *r);
+
+#endif

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The patch test: in a block of a regular lattice under any uniform strain every node, those of the boundary and the
+ * corners too, has the one stress that the lattice's law gives, to rounding.
+ *
+ * With F the deformation and e_b the directions of the springs, lambda_b = |F e_b| is the stretch of all springs
+ * along e_b. The sum of r x f over a cell is S = sum over b of c_b (lambda_b - 1)/lambda_b (F e_b)(F e_b)^T. For
+ * equilateral triangles c_b = E in the three directions; for squares of side a with springs E_ij = 3/4 E h a along
+ * the sides and 3/8 E h a sqrt(2) along the diagonals it is 3/4 E in all four. Both are E and nu = 1/3 to first
+ * order. For another nu c_b is 8/3 G in equilateral triangles, and their area term adds kappa/h J (J - 1), J = det
+ * F, to xx and yy. */
+#include "support.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+static const double modulus = 2.5e7, thickness = 0.3, spacing = 5e-3;
+
+typedef struct law {
+    int n;                               /* directions */
+    double stiffness[4], at[4][2], area; /* c_b; kappa/h */
+} law;
+
+static const double diagonal = 0.70710678118654752440, half_sqrt3 = 0.86602540378443864676;
+
+/* Plane stress: G = E/(2 (1 + nu)), kappa/h = lambda - G, lambda = E nu/(1 - nu^2). */
+static law triangular(double nu)
+{
+    const double G = modulus / (2.0 * (1.0 + nu)), lambda = modulus * nu / (1.0 - nu * nu), c = 8.0 / 3.0 * G;
+    return (law){3, {c, c, c}, {{1.0, 0.0}, {0.5, half_sqrt3}, {-0.5, half_sqrt3}}, lambda - G};
+}
+
+static law square(void)
+{
+    const double c = 0.75 * modulus;
+    return (law){4, {c, c, c, c}, {{1.0, 0.0}, {0.0, 1.0}, {diagonal, diagonal}, {-diagonal, diagonal}}, 0.0};
+}
+
+static void exact_stress(const law *d, const double F[4], double stress[3])
+{
+    const double J = F[0] * F[3] - F[1] * F[2];
+    stress[0] = stress[1] = d->area * J * (J - 1.0);
+    stress[2] = 0.0;
+    for (int b = 0; b < d->n; b++) {
+        const double x = F[0] * d->at[b][0] + F[1] * d->at[b][1], y = F[2] * d->at[b][0] + F[3] * d->at[b][1];
+        const double stretch = hypot(x, y), tension = d->stiffness[b] * (stretch - 1.0) / stretch;
+        stress[0] += tension * x * x;
+        stress[1] += tension * y * y;
+        stress[2] += tension * x * y;
+    }
+}
+
+/* ---- blocks ---- */
+
+static dem_lattice make_triangular(double nu, dem_plane plane)
+{
+    const dem_material material = {.youngs_modulus = modulus,
+                                   .poissons_ratio = nu,
+                                   .plane = plane,
+                                   .density = 1000.0,
+                                   .thickness = thickness,
+                                   .guard = 0.02};
+    dem_lattice lattice;
+    assert_ok(dem_lattice_rectangle(&lattice, 8 * spacing, 6 * spacing, spacing));
+    assert_ok(dem_lattice_assemble(&lattice, &material));
+    return lattice;
+}
+
+enum { columns = 6, rows = 5, n_square = columns * rows };
+
+static dem_index put_spring(dem_lattice *l, dem_index i, dem_index j, double stiffness)
+{
+    const dem_index k = l->n_springs++;
+    l->ends[2 * k] = i;
+    l->ends[2 * k + 1] = j;
+    l->rest_length[k] = hypot(l->x[2 * i] - l->x[2 * j], l->x[2 * i + 1] - l->x[2 * j + 1]);
+    l->stiffness[k] = stiffness;
+    return k;
+}
+
+/* The triangles of a cell are cut along either diagonal by turns; the other one is a spring across two triangles. */
+static void put_cell(dem_lattice *l, dem_index i, int turn)
+{
+    const dem_index a = i, b = i + 1, c = i + columns + 1, d = i + columns;
+    const double along = 0.375 * modulus * thickness * spacing * sqrt(2.0);
+    const dem_index corners[2][6] = {{a, b, c, a, c, d}, {a, b, d, b, c, d}};
+    for (int k = 0; k < 6; k++) l->triangles[3 * l->n_triangles + k] = corners[turn][k];
+    l->n_triangles += 2;
+    put_spring(l, a, c, along);
+    put_spring(l, b, d, along);
+}
+
+static dem_lattice make_square(void)
+{
+    const double side = 0.75 * modulus * thickness * spacing;
+    double x[2 * n_square], mass[n_square];
+    dem_lattice l;
+    for (int i = 0; i < n_square; i++) {
+        x[2 * i] = spacing * (i % columns);
+        x[2 * i + 1] = spacing * (i / columns);
+        mass[i] = 1.0;
+    }
+    support_lattice(&l, n_square, x, mass, 4 * n_square, (dem_index[8 * n_square]){0}, 1.0, 1.0, NULL);
+    l.n_springs = 0;
+    l.triangles = calloc(6 * n_square, sizeof *l.triangles);
+    l.thickness = calloc(2 * n_square, sizeof *l.thickness);
+    assert_true(l.triangles != NULL && l.thickness != NULL);
+    for (int k = 0; k < 2 * n_square; k++) l.thickness[k] = thickness;
+    for (dem_index i = 0; i < n_square; i++) {
+        const bool right = i % columns < columns - 1, up = i / columns<rows - 1, inner = i % columns> 0;
+        if (right) put_spring(&l, i, i + 1, up && i >= columns ? side : 0.5 * side);
+        if (up) put_spring(&l, i, i + columns, right && inner ? side : 0.5 * side);
+        if (right && up) put_cell(&l, i, (int)(i % 2));
+    }
+    return l;
+}
+
+/* ---- the law ---- */
+
+/* The stresses of the lattice under x -> F x; to be freed. */
+static double *stresses(dem_lattice *lattice, const double F[4])
+{
+    const dem_index n = lattice->n_nodes;
+    support_run run;
+    dem_options options = dem_options_default();
+    double *stress = malloc(3 * (size_t)n * sizeof *stress);
+    free(lattice->position);
+    lattice->position = malloc(2 * (size_t)n * sizeof *lattice->position);
+    assert_true(stress != NULL && lattice->position != NULL);
+    for (dem_index i = 0; i < n; i++)
+        for (int c = 0; c < 2; c++)
+            lattice->position[2 * i + c] = F[2 * c] * lattice->x[2 * i] + F[2 * c + 1] * lattice->x[2 * i + 1];
+    support_open(&run, lattice, NULL, 0, &options);
+    dem_simulation_stress(run.simulation, stress);
+    support_close(&run);
+    return stress;
+}
+
+static const double cases[][4] = {
+    {1.0 + 1e-3, 0.0, 0.0, 1.0}, /* uniaxial strain */
+    {1.0, 0.0, 0.0, 1.0 - 2e-2}, /* the other axis */
+    {1.0, 0.05, 0.0, 1.0},       /* simple shear */
+    {1.3, 0.0, 0.0, 0.85},       /* large stretch and compression */
+    {0.6, -0.8, 0.8, 0.6},       /* a turn: no stress */
+    {0.72, -0.76, 0.91, 0.44},   /* a turn and a stretch */
+};
+enum { n_cases = sizeof cases / sizeof *cases };
+
+static const double ratios[] = {0.0, 0.1, 1.0 / 3.0, 0.45};
+enum { n_ratios = sizeof ratios / sizeof *ratios };
+
+/* Rounding: strains are differences of coordinates of some 10 spacings over one. */
+static void check_block(dem_lattice *lattice, const law *d)
+{
+    for (int k = 0; k < n_cases; k++) {
+        double expected[3], *stress = stresses(lattice, cases[k]);
+        exact_stress(d, cases[k], expected);
+        for (dem_index i = 0; i < 3 * lattice->n_nodes; i++) assert_close(stress[i], expected[i % 3], 1e-12 * modulus);
+        free(stress);
+    }
+    dem_lattice_free(lattice);
+}
+
+static void every_node_of_a_triangular_block_has_the_exact_stress(void **state)
+{
+    (void)state;
+    for (int k = 0; k < n_ratios; k++) {
+        const law d = triangular(ratios[k]);
+        dem_lattice lattice = make_triangular(ratios[k], DEM_PLANE_STRESS);
+        check_block(&lattice, &d);
+    }
+}
+
+static void every_node_of_a_square_block_has_the_exact_stress(void **state)
+{
+    const law d = square();
+    (void)state;
+    dem_lattice lattice = make_square();
+    assert_int_equal(lattice.n_springs, (columns - 1) * rows + columns * (rows - 1) + 2 * (columns - 1) * (rows - 1));
+    check_block(&lattice, &d);
+}
+
+/* Stresses of a plate of E and nu, to what is quadratic in a strain of 1e-7. */
+static void check_hooke(dem_lattice *lattice, double E, double nu)
+{
+    const double xx = 1e-7, yy = -4e-8, xy = 3e-8, F[4] = {1.0 + xx, 2.0 * xy, 0.0, 1.0 + yy};
+    const double plate = E / (1.0 - nu * nu);
+    double *stress = stresses(lattice, F);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        assert_close(stress[3 * i], plate * (xx + nu * yy), 2e-13 * modulus);
+        assert_close(stress[3 * i + 1], plate * (yy + nu * xx), 2e-13 * modulus);
+        assert_close(stress[3 * i + 2], plate * (1.0 - nu) * xy, 2e-13 * modulus);
+    }
+    free(stress);
+    dem_lattice_free(lattice);
+}
+
+/* In plane strain with E/(1 - nu^2) and nu/(1 - nu) in place of E and nu. */
+static void small_strains_follow_hookes_law(void **state)
+{
+    (void)state;
+    dem_lattice squares = make_square();
+    check_hooke(&squares, modulus, 1.0 / 3.0);
+    for (int k = 0; k < n_ratios; k++) {
+        const double nu = ratios[k];
+        dem_lattice thin = make_triangular(nu, DEM_PLANE_STRESS), thick = make_triangular(nu, DEM_PLANE_STRAIN);
+        check_hooke(&thin, modulus, nu);
+        check_hooke(&thick, modulus / (1.0 - nu * nu), nu / (1.0 - nu));
+    }
+}
+
+/* Turning a strained body turns its stress: S(Q F) = Q S(F) Q^T; Q by an angle of 3-4-5. */
+static void stress_turns_with_the_body(void **state)
+{
+    const double c = 0.8, s = 0.6, F[4] = {1.1, 0.2, -0.1, 0.9};
+    const double turned[4] = {c * F[0] - s * F[2], c * F[1] - s * F[3], s * F[0] + c * F[2], s * F[1] + c * F[3]};
+    (void)state;
+    dem_lattice lattice = make_triangular(0.45, DEM_PLANE_STRESS);
+    double *before = stresses(&lattice, F), *after = stresses(&lattice, turned);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) {
+        const double xx = before[3 * i], yy = before[3 * i + 1], xy = before[3 * i + 2];
+        assert_close(after[3 * i], c * c * xx + s * s * yy - 2.0 * s * c * xy, 1e-12 * modulus);
+        assert_close(after[3 * i + 1], s * s * xx + c * c * yy + 2.0 * s * c * xy, 1e-12 * modulus);
+        assert_close(after[3 * i + 2], s * c * (xx - yy) + (c * c - s * s) * xy, 1e-12 * modulus);
+    }
+    free(before);
+    free(after);
+    dem_lattice_free(&lattice);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_node_of_a_triangular_block_has_the_exact_stress),
+        cmocka_unit_test(every_node_of_a_square_block_has_the_exact_stress),
+        cmocka_unit_test(small_strains_follow_hookes_law),
+        cmocka_unit_test(stress_turns_with_the_body),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
