@@ -107,13 +107,45 @@ static dem_status stop_at_overlap(void *context, const dem_simulation *simulatio
     return dem_simulation_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
 }
 
-/* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap. */
-static dem_status advance(const deck *d, dem_simulation *simulation, dem_trajectory *trajectory, report *log,
-                          relaxation *rest)
+/* Who watches a run. */
+typedef struct audience {
+    dem_peaks *peaks; /* NULL: not wanted */
+    dem_trajectory *trajectory;
+    report log;
+    relaxation rest;
+} audience;
+
+static dem_status gather(audience *a, const deck *d, const dem_simulation *simulation, const char *path)
 {
-    const dem_observer frames = dem_trajectory_observer(trajectory), followed = report_observer(log);
-    const dem_observer resting = relaxation_observer(rest), overlapping = {.step = stop_at_overlap};
-    dem_status status = write_provenance(trajectory, d);
+    dem_trajectory_options options = dem_trajectory_options_default();
+    dem_status status = DEM_OK;
+    if (d->peak_every > 0) status = dem_peaks_create(&a->peaks, dem_simulation_model(simulation), d->peak_every);
+    options.frame_interval = d->frame_interval;
+    options.double_precision = d->double_precision;
+    options.deflate = d->deflate;
+    options.events = d->events;
+    options.fields = d->fields;
+    options.peaks = a->peaks;
+    options.most_stressed = d->most_stressed;
+    options.n_probes = d->n_probes;
+    options.probes = d->probes;
+    return status == DEM_OK ? dem_trajectory_create(&a->trajectory, path, simulation, &options) : status;
+}
+
+static void dismiss(audience *a)
+{
+    dem_trajectory_destroy(a->trajectory);
+    dem_peaks_destroy(a->peaks);
+}
+
+/* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap. */
+static dem_status advance(const deck *d, dem_simulation *simulation, audience *a)
+{
+    const dem_observer frames = dem_trajectory_observer(a->trajectory), followed = report_observer(&a->log);
+    const dem_observer peaks = dem_peaks_observer(a->peaks), resting = relaxation_observer(&a->rest);
+    const dem_observer overlapping = {.step = stop_at_overlap};
+    dem_status status = write_provenance(a->trajectory, d);
+    if (status == DEM_OK && a->peaks != NULL) status = dem_simulation_observe(simulation, &peaks);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &frames);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &followed);
     if (status == DEM_OK && d->residual > 0.0) status = dem_simulation_observe(simulation, &resting);
@@ -156,24 +188,22 @@ static bool ends(const deck *d, const dem_simulation *simulation)
 static int run(const deck *d, dem_simulation *simulation, const char *path)
 {
     (void)signal(SIGPIPE, SIG_IGN);
-    dem_trajectory *trajectory;
-    report log;
-    dem_trajectory_options options = dem_trajectory_options_default();
-    options.frame_interval = d->frame_interval;
-    options.double_precision = d->double_precision;
-    options.deflate = d->deflate;
-    options.events = d->events;
-    const dem_status created = dem_trajectory_create(&trajectory, path, simulation, &options);
-    if (created != DEM_OK) return complain(code_of(created), path);
+    audience a = {0};
+    dem_status status = gather(&a, d, simulation, path);
+    if (status != DEM_OK) {
+        dismiss(&a);
+        return complain(code_of(status), path);
+    }
     report_header(stdout, d, simulation, path);
-    report_start(&log, stdout, isatty(STDOUT_FILENO) == 1, d);
-    relaxation rest = relaxation_start(d->residual, &d->options);
-    dem_status status = advance(d, simulation, trajectory, &log, &rest);
-    if (status == DEM_OK) report_summary(&log, simulation);
-    const bool good = status == DEM_OK && succeeds(d, simulation, &rest);
-    if (good) status = dem_trajectory_finish(trajectory);
+    report_start(&a.log, stdout, isatty(STDOUT_FILENO) == 1, d);
+    a.log.peaks = a.peaks;
+    a.rest = relaxation_start(d->residual, &d->options);
+    status = advance(d, simulation, &a);
+    if (status == DEM_OK) report_summary(&a.log, simulation);
+    const bool good = status == DEM_OK && succeeds(d, simulation, &a.rest);
+    if (good) status = dem_trajectory_finish(a.trajectory);
     const int code = status != DEM_OK ? complain(code_of(status), d->path) : (good ? EXIT_DONE : EXIT_NUMERICS);
-    dem_trajectory_destroy(trajectory);
+    dismiss(&a);
     return code;
 }
 

@@ -125,8 +125,8 @@ static bool stays_not_given(const schema_key *key)
     return key->initial != NULL && key->initial[0] == '\0';
 }
 
-/* Many choices take several lines. */
-static void print_choices(FILE *file, const char *choices)
+/* Many choices take several lines.  \return the width of the last */
+static size_t print_choices(FILE *file, const char *choices)
 {
     size_t width = 0;
     for (const char *c = choices; *c != '\0'; c++) {
@@ -135,23 +135,28 @@ static void print_choices(FILE *file, const char *choices)
         (void)fprintf(file, "\n    !     ");
         width = 0;
     }
+    return width;
 }
 
 static void print_facts(FILE *file, const schema_key *key)
 {
+    size_t width = 0;
     (void)fprintf(file, "    ! [%s", type_names[key->type]);
     if (key->max_count == 0) (void)fprintf(file, "s, at least %d", key->min_count);
-    if (key->max_count > 1) (void)fprintf(file, "s, %d of them", key->max_count);
+    if (key->max_count > key->min_count)
+        (void)fprintf(file, "s, %d to %d of them", key->min_count, key->max_count);
+    else if (key->max_count > 1)
+        (void)fprintf(file, "s, %d of them", key->max_count);
     if (strcmp(key->unit, "-") != 0) (void)fprintf(file, ", %s", key->unit);
     if (key->range[0] != '\0') (void)fprintf(file, ", %s%s", key->range[0] == '[' ? "in " : "", key->range);
     if (key->choices != NULL) {
         (void)fprintf(file, ", ");
-        print_choices(file, key->choices);
+        width = print_choices(file, key->choices);
     }
     if (is_required(key))
         (void)fprintf(file, "; must be given");
     else if (!stays_not_given(key))
-        (void)fprintf(file, "; default: %s", key->initial);
+        (void)fprintf(file, ";%sdefault: %s", width + strlen(key->initial) > LINE ? "\n    !  " : " ", key->initial);
     (void)fprintf(file, "]\n");
 }
 
@@ -181,6 +186,8 @@ static void print_type(FILE *file, const schema_key *key)
 {
     if (key->max_count == 0)
         (void)fprintf(file, "%d or more ", key->min_count);
+    else if (key->max_count > key->min_count)
+        (void)fprintf(file, "%d to %d ", key->min_count, key->max_count);
     else if (key->max_count > 1)
         (void)fprintf(file, "%d ", key->max_count);
     (void)fprintf(file, "%s%s", type_names[key->type], key->max_count == 1 ? "" : "s");

@@ -510,9 +510,13 @@ void dem_simulation_forces(const dem_simulation *s, double *force)
 
 void dem_simulation_stress(const dem_simulation *s, double *stress)
 {
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) dem_simulation_stress_at(s, i, stress + 3 * i);
+}
+
+void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
+{
     const dem_model *m = s->model;
-    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
-        stress_of_node(&m->stress, &m->lattice, &m->triangles, i, s->seen, stress + 3 * i);
+    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, s->seen, stress);
 }
 
 dem_overlap dem_simulation_overlap(const dem_simulation *s)
