@@ -169,8 +169,8 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "constants",
-                          "frequency", "estimate"])
+                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "stability",
+                          "formula", "constants", "frequency", "estimate"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -193,9 +193,15 @@ class Check(Case):
             "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, skin # m", out)
         self.assertAlmostEqual(spacing, 0.01)
         self.assertTrue(1e4 < omega_max < 1e5 and v_scale == 10 and 0 < skin <= 1e-8)
-        t_end, rtol, step = numbers("time       t_end # s, fehlberg45, rtol #, largest step # s", out)
-        self.assertEqual((t_end, rtol), (8e-3, 1e-6))
+        t_end, order, rtol, step = numbers("time       t_end # s, fehlberg45 of order #, rtol #, largest step # s", out)
+        self.assertEqual((t_end, order, rtol), (8e-3, 5, 1e-6))
         self.assertAlmostEqual(step * omega_max, 0.5, places=3)
+        share, growth = numbers("stability  omega_max h = #; with fehlberg45 undamped oscillations grow at any step, "
+                                "here by # a step", out)
+        self.assertEqual((share, growth), (0.5, 1.3e-5))
+        speed, = numbers("formula 6  (|v_x| + |v_y|) h/spacing = # at v_scale along x; it does "
+                         "not bound the step", out)
+        self.assertAlmostEqual(speed, v_scale * step / spacing, places=4)
         body, modulus, ratio, anisotropy, longitudinal, transverse = numbers(
             "constants  body #: E # Pa, nu #, anisotropy #, waves # and # m/s", out)
         self.assertEqual((body, modulus, ratio, anisotropy), (1, 1e7, 0.33333, 1))
@@ -208,6 +214,19 @@ class Check(Case):
                                          "output, # MB of memory", out)
         self.assertTrue(abs(steps - t_end / step) <= 2)
         self.assertEqual(frames, 9)
+
+    def test_steps_of_one_length(self):
+        self.put(coarse() + "&solver method = 'rk4' /\n")
+        out = self.call(0, "--check", "deck.nml")
+        omega_max = float(re.search(f"omega_max ({NUMBER}) rad/s", out)[1])
+        step = float(re.search(f"rk4 of order 4, rtol 1e-06, fixed step ({NUMBER}) s", out)[1])
+        self.assertAlmostEqual(step * omega_max, 8 ** 0.5 / 8, places=3)
+        _, bound, longest = numbers("stability  omega_max h = #; rk4 is stable up to #, h = # s", out)
+        self.assertAlmostEqual(bound, 8 ** 0.5, places=2)
+        self.assertAlmostEqual(longest * omega_max, bound, places=2)
+        self.assertNotIn("WARNING", out)
+        self.put(coarse() + f"&solver method = 'rk4', fixed_step = {1.1 * longest} /\n")
+        self.assertIn("WARNING", self.call(0, "--check", "deck.nml"))
 
     def test_a_body_that_stands_on_the_floor_stays_there(self):
         for floor in ("-1, 0, 1, 0", "-1, -1, 0, 0, 1, -1"):
