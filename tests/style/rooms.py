@@ -10,9 +10,9 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "commit"},
+    {"vec2", "status", "random", "commit"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"lattice_mesh", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
+    {"lattice_mesh", "solid", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
     {"model", "peaks", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "loading", "uses"},
     {"touch", "diagnostics", "integrator", "tangent"},
     {"reaction", "books", "spectrum", "constants"},
@@ -110,8 +110,9 @@ for source in sources:
         if len(row) > MAX_LINE:
             complain(source, number, f"line of {len(row)} characters")
     rows = without_comments(text).splitlines()
-    if len(rows) > MAX_FILE and source.relative_to(ROOT).parts[0] != "tests":
-        complain(source, MAX_FILE, f"{len(rows)} lines")
+    length = sum(1 for row in rows if row.strip())
+    if length > MAX_FILE and source.relative_to(ROOT).parts[0] != "tests":
+        complain(source, 1, f"{length} lines of code")
     check_functions(source, rows)
     if source.relative_to(ROOT).parts[0] in ("src", "drivers"):
         check_includes(source, rows)
