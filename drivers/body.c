@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies: checks of their groups, then mesh or file, parts, place, clearance, velocity. */
+/* Bodies: checks of their groups, then form or file, parts, place, clearance, velocity. */
 #include "body.h"
 
 #include <float.h>
@@ -9,10 +9,6 @@
 #include <string.h>
 
 #include <dem/trajectory.h>
-
-#include "parts.h"
-#include "shape.h"
-#include "uses.h"
 
 enum { MATERIALS_LISTED = 5 };
 
@@ -37,27 +33,6 @@ static const double *reals_of(const schema_instance *group, const char *key)
 static bool has_shape(const schema_instance *group, const char *name)
 {
     return strcmp(schema_text(group, "shape"), name) == 0;
-}
-
-/* ---- checks: keys of a shape ---- */
-
-static const uses_key body_keys[] = {
-    {"size", "rectangle", true},
-    {"radius", "disc", true},
-    {"spacing", "rectangle, disc", true},
-    {"lattice", "rectangle, disc", false},
-    {"material", "rectangle, disc", false},
-    {"file", "file", true},
-};
-static const uses_key void_keys[] = {{"size", "rectangle", true}, {"radius", "disc", true}};
-
-static const uses body_uses = {"body", "shape", sizeof body_keys / sizeof *body_keys, body_keys};
-static const uses void_uses = {"void", "shape", sizeof void_keys / sizeof *void_keys, void_keys};
-
-void body_drop_unused(schema_deck *groups)
-{
-    uses_drop(groups, &body_uses);
-    uses_drop(groups, &void_uses);
 }
 
 /* ---- checks: materials ---- */
@@ -118,7 +93,7 @@ static void check_materials(const schema_deck *groups, namelist_errors *errors)
     bool needed = false;
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
-        needed = needed || has_shape(body, "rectangle") || has_shape(body, "disc");
+        needed = needed || (schema_text(body, "shape")[0] != '\0' && !has_shape(body, "file"));
     }
     if (needed && schema_count(groups, "material") == 0 && !groups->misspelt)
         namelist_errors_add(errors, (namelist_place){1, 1}, "&material must be given");
@@ -147,20 +122,7 @@ static void check_ratios(const schema_deck *groups, namelist_errors *errors)
     }
 }
 
-/* ---- checks: sizes, references ---- */
-
-static void check_spacing(const schema_instance *body, namelist_errors *errors)
-{
-    const double *size = reals_of(body, "size"), *radius = reals_of(body, "radius");
-    const double spacing = schema_real(body, "spacing");
-    if (has_shape(body, "rectangle") && size != NULL && (spacing > size[0] || spacing > size[1]))
-        namelist_errors_add(errors, place_of(body, "spacing"),
-                            "'spacing' in &body must not exceed the size, %g m x %g m, got %g m", size[0], size[1],
-                            spacing);
-    if (has_shape(body, "disc") && radius != NULL && spacing > radius[0])
-        namelist_errors_add(errors, place_of(body, "spacing"),
-                            "'spacing' in &body must not exceed the radius, %g m, got %g m", radius[0], spacing);
-}
+/* ---- checks: references ---- */
 
 static void check_clearance(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
 {
@@ -173,38 +135,6 @@ static void check_clearance(const schema_deck *groups, const schema_instance *bo
         namelist_errors_add(errors, place, "'clearance' in &body needs gravity, which is 0");
 }
 
-static void check_file(const schema_instance *body, namelist_errors *errors)
-{
-    if (has_shape(body, "file") && is_given(body, "file") && schema_text(body, "file")[0] == '\0')
-        namelist_errors_add(errors, place_of(body, "file"), "'file' in &body must name a lattice file, got ''");
-}
-
-/* The body that a &void or &pores is for, from 1 in the deck. */
-static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
-{
-    const size_t n = schema_count(groups, "body");
-    const double number = schema_real(group, "body");
-    if (n == 0 || groups->misspelt) return;
-    if (number > (double)n)
-        namelist_errors_add(errors, place_of(group, "body"), "&%s is for body %.0f, but the number of bodies is %zu",
-                            group->group->name, number, n);
-    else if (has_shape(schema_get(groups, "body", (size_t)number - 1), "file"))
-        namelist_errors_add(errors, place_of(group, "body"), "&%s is for body %.0f, which is of shape 'file'",
-                            group->group->name, number);
-}
-
-static void check_pores(const schema_instance *pores, namelist_errors *errors)
-{
-    const double *radius = reals_of(pores, "radius");
-    if (radius != NULL && radius[0] > radius[1])
-        namelist_errors_add(errors, place_of(pores, "radius"),
-                            "'radius' in &pores must be the smallest, then the largest one, got %g, %g", radius[0],
-                            radius[1]);
-    if (schema_real(pores, "number") > PORES_MAX)
-        namelist_errors_add(errors, place_of(pores, "number"), "'number' in &pores must be at most %d, got %.0f",
-                            PORES_MAX, schema_real(pores, "number"));
-}
-
 /* ---- building ---- */
 
 /* A body on its way. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status after reporting a fault. */
@@ -214,6 +144,7 @@ typedef struct builder {
     size_t number; /* from 1 */
     namelist_errors *errors;
     dem_lattice lattice;
+    body_facts facts;
     body_start start;
 } builder;
 
@@ -222,46 +153,6 @@ static dem_status report(const builder *b, dem_status status, const char *key)
 {
     if (status != DEM_OK && status != DEM_ERROR_MEMORY)
         namelist_errors_add(b->errors, place_of(b->body, key), "body %zu: %s", b->number, dem_status_message());
-    return status;
-}
-
-static shape_outline read_outline(const schema_instance *group)
-{
-    const double *size = reals_of(group, "size");
-    shape_outline outline = {.disc = has_shape(group, "disc"), .radius = schema_real(group, "radius")};
-    for (int c = 0; c < 2 && size != NULL; c++) outline.size[c] = size[c];
-    return outline;
-}
-
-static dem_status add_voids(const builder *b, shape *s)
-{
-    const schema_deck *groups = b->scene->groups;
-    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
-        const schema_instance *group = schema_get(groups, "void", k);
-        const double *centre = reals_of(group, "centre");
-        const shape_void v = {.outline = read_outline(group), .centre = {centre[0], centre[1]}};
-        if ((size_t)schema_real(group, "body") == b->number && !shape_add_void(s, &v)) return DEM_ERROR_MEMORY;
-    }
-    return DEM_OK;
-}
-
-static dem_status add_pores(const builder *b, shape *s, const schema_instance *group)
-{
-    const double *radius = reals_of(group, "radius"), *wall = reals_of(group, "wall");
-    pores_recipe recipe = {.number = (size_t)schema_real(group, "number"),
-                           .radius_min = radius[0],
-                           .radius_max = radius[1],
-                           .wall = wall != NULL ? wall[0] : 2.0 * s->spacing,
-                           .seed = (unsigned long)schema_real(group, "seed")};
-    size_t n_placed;
-    double radius_lost;
-    const dem_status status = shape_add_pores(s, &recipe, &n_placed, &radius_lost);
-    if (status == DEM_ERROR_MODEL)
-        namelist_errors_add(b->errors, group->place,
-                            "pore %zu of %zu, of radius %g m, finds no place in body %zu with walls of %g m%s; "
-                            "take fewer or smaller ones, or a thinner 'wall'",
-                            n_placed + 1, recipe.number, radius_lost, b->number, recipe.wall,
-                            wall == NULL ? ", the default" : "");
     return status;
 }
 
@@ -274,10 +165,11 @@ static const char *fault_of(double x)
 /* Whether an equilateral triangle has an area, a mass and a stiffness to compute with. */
 static dem_status check_scales(const builder *b, const dem_material *m)
 {
-    const double spacing = schema_real(b->body, "spacing"), area = 0.43301270189221932 * spacing * spacing;
+    const char *key = has_shape(b->body, "mesh") ? "scale" : "spacing";
+    const double spacing = b->facts.form.spacing, area = 0.43301270189221932 * spacing * spacing;
     const double mass = m->density * m->thickness * area / 3.0, stiffness = m->youngs_modulus * m->thickness * spacing;
     if (fault_of(area) != NULL)
-        namelist_errors_add(b->errors, place_of(b->body, "spacing"),
+        namelist_errors_add(b->errors, place_of(b->body, key),
                             "body %zu: the area of a triangle, %g m^2, is %s; its sides are %g m", b->number, area,
                             fault_of(area), spacing);
     else if (fault_of(mass) != NULL)
@@ -293,39 +185,41 @@ static dem_status check_scales(const builder *b, const dem_material *m)
     return isnormal(area) && isnormal(mass) && isnormal(stiffness) ? DEM_OK : DEM_ERROR_MODEL;
 }
 
-/* A void that takes nothing is a fault where it is not in the body at all; one between nodes is only small. */
-static dem_status check_voids(const builder *b, const shape *s)
+/* ---- parts ---- */
+
+static void report_parts(const builder *b)
 {
-    const schema_deck *groups = b->scene->groups;
-    dem_status status = DEM_OK;
-    size_t v = 0; /* the voids of a shape begin with those of its groups */
-    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
-        const schema_instance *group = schema_get(groups, "void", k);
-        if ((size_t)schema_real(group, "body") != b->number) continue;
-        const shape_void *hole = &s->voids[v++];
-        if (shape_outline_depth(s, hole->centre) > 0.0 || shape_takes(s, hole, &b->lattice)) continue;
-        namelist_errors_add(b->errors, place_of(group, "centre"),
-                            "void takes no node of body %zu: its centre is in the body's own coordinates", b->number);
-        status = DEM_ERROR_MODEL;
-    }
-    return status;
+    const bool triangles = b->lattice.n_springs == 0, one = b->facts.loose.n == 1;
+    char list[PARTS_LIST];
+    parts_print(list, &b->facts.loose, triangles ? "triangle" : "node");
+    namelist_errors_add(b->errors, place_of(b->body, "disconnected"),
+                        "body %zu has %lld part%s that %s its largest, of %s m in its own coordinates; 'disconnected' "
+                        "can remove or keep such parts",
+                        b->number, (long long)b->facts.loose.n, one ? "" : "s",
+                        !triangles ? "no spring connects to" : (one ? "shares no edge with" : "share no edge with"),
+                        list);
 }
 
-static dem_status triangulate(builder *b, const shape *s)
+/* Of a triangulation what shares edges, of a solid what springs connect. */
+static dem_status settle_parts(builder *b)
 {
-    dem_status status = shape_mesh(&b->lattice, s);
-    if (status == DEM_ERROR_MODEL)
-        namelist_errors_add(b->errors, place_of(b->body, "spacing"),
-                            "body %zu would have more nodes than 2^40 with the spacing %g m", b->number, s->spacing);
-    if (status == DEM_OK) status = check_voids(b, s);
-    if (status != DEM_OK) return status;
-    const dem_index n = b->lattice.n_nodes;
-    status = shape_cut(&b->lattice, s);
-    if (status == DEM_ERROR_MODEL)
-        namelist_errors_add(b->errors, b->body->place, "body %zu: its voids and pores take all of its %lld nodes",
-                            b->number, (long long)n);
-    return status;
+    const bool triangles = b->lattice.n_springs == 0, refuse = schema_is(b->body, "disconnected", "refuse");
+    const bool remove = schema_is(b->body, "disconnected", "remove");
+    unsigned char *kept = calloc((size_t)(triangles ? b->lattice.n_triangles : b->lattice.n_nodes) + 1, sizeof *kept);
+    if (kept == NULL) return DEM_ERROR_MEMORY;
+    dem_status status = parts_find(&b->facts.loose, kept, &b->lattice);
+    b->facts.removed = remove;
+    if (status == DEM_OK && b->facts.loose.n > 0 && remove) {
+        status = triangles ? dem_lattice_trim(&b->lattice, kept) : dem_lattice_select(&b->lattice, kept);
+    } else if (status == DEM_OK && b->facts.loose.n > 0 && refuse) {
+        report_parts(b);
+        status = DEM_ERROR_MODEL;
+    }
+    free(kept);
+    return status == DEM_OK ? parts_find_hinges(&b->facts.hinges, &b->lattice) : status;
 }
+
+/* ---- shape, material ---- */
 
 static dem_status make_mesh(builder *b)
 {
@@ -338,22 +232,18 @@ static dem_status make_mesh(builder *b)
                                    .thickness = schema_real(m, "thickness"),
                                    .guard = schema_real(m, "guard"),
                                    .damping_time = schema_real(m, "damping_time")};
-    shape s = {.outline = read_outline(b->body), .spacing = schema_real(b->body, "spacing")};
-    dem_status status = add_voids(b, &s);
-    for (size_t k = 0; status == DEM_OK && k < schema_count(groups, "pores"); k++) {
-        const schema_instance *group = schema_get(groups, "pores", k);
-        if ((size_t)schema_real(group, "body") == b->number) status = add_pores(b, &s, group);
-    }
-    if (status == DEM_OK) status = triangulate(b, &s);
+    const body_scene *scene = b->scene;
+    dem_status status = form_triangulate(&b->lattice, &b->facts.form, groups, b->number - 1, scene->folder, b->errors);
     if (status == DEM_OK) status = check_scales(b, &material);
-    if (status == DEM_OK) status = report(b, dem_lattice_assemble(&b->lattice, &material), "spacing");
-    shape_free(&s);
+    if (status == DEM_OK) status = settle_parts(b);
+    if (status == DEM_OK) status = report(b, dem_lattice_assemble(&b->lattice, &material), "shape");
+    b->facts.true_mass = material.density * material.thickness * b->facts.form.area;
     return status;
 }
 
 static dem_status read_file(builder *b)
 {
-    char *path = body_file(b->scene, b->body);
+    char *path = form_file(b->scene->folder, b->body);
     if (path == NULL) return DEM_ERROR_MEMORY;
     const dem_status status = dem_lattice_read(&b->lattice, path);
     if (status == DEM_ERROR_IO && strstr(dem_status_message(), "file signature not found") != NULL)
@@ -361,42 +251,7 @@ static dem_status read_file(builder *b)
     else
         (void)report(b, status, "file");
     free(path);
-    return status;
-}
-
-/* ---- parts ---- */
-
-static void report_parts(const builder *b, const parts_loose *loose)
-{
-    const double *x = b->lattice.x + 2 * loose->node;
-    const char *more = loose->n > PARTS_LISTED ? ", ..." : "";
-    char sizes[160] = "";
-    size_t n = 0;
-    for (dem_index k = 0; k < loose->n && k < PARTS_LISTED; k++)
-        n += (size_t)snprintf(sizes + n, sizeof sizes - n, "%s%lld", k == 0 ? "" : ", ", (long long)loose->n_nodes[k]);
-    namelist_errors_add(
-        b->errors, place_of(b->body, "disconnected"),
-        "body %zu has %lld part%s that no spring connects to its largest, of %s%s nodes, one at (%g, %g) m in "
-        "its own coordinates; 'disconnected' can remove or keep such parts",
-        b->number, (long long)loose->n, loose->n == 1 ? "" : "s", sizes, more, x[0], x[1]);
-}
-
-static dem_status settle_parts(builder *b)
-{
-    const char *wish = schema_text(b->body, "disconnected");
-    parts_loose loose;
-    if (strcmp(wish, "keep") == 0) return DEM_OK;
-    unsigned char *kept = calloc((size_t)b->lattice.n_nodes + 1, sizeof *kept);
-    if (kept == NULL) return DEM_ERROR_MEMORY;
-    dem_status status = parts_find(&loose, kept, &b->lattice);
-    if (status == DEM_OK && loose.n > 0 && strcmp(wish, "remove") == 0) {
-        status = dem_lattice_select(&b->lattice, kept);
-    } else if (status == DEM_OK && loose.n > 0) {
-        report_parts(b, &loose);
-        status = DEM_ERROR_MODEL;
-    }
-    free(kept);
-    return status;
+    return status == DEM_OK ? settle_parts(b) : status;
 }
 
 /* ---- place and velocity ---- */
@@ -454,6 +309,7 @@ static dem_status put(builder *b)
     for (int c = 0; c < 2; c++) b->start.offset[c] = position[c];
     dem_lattice_move(&b->lattice, b->start.angle, position);
     dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
+    if (status == DEM_OK) status = report(b, dem_lattice_spin(&b->lattice, schema_real(b->body, "spin")), "spin");
     if (status == DEM_OK) status = check_place(b);
     if (status == DEM_OK)
         status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),
@@ -511,37 +367,19 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
+    form_check_all(groups, errors);
     check_names(groups, errors);
     check_ratios(groups, errors);
     check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
-        uses_check(body, &body_uses, errors);
         check_material(groups, body, errors);
-        check_spacing(body, errors);
         check_clearance(groups, body, errors);
-        check_file(body, errors);
-    }
-    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
-        uses_check(schema_get(groups, "void", k), &void_uses, errors);
-        check_owner(groups, schema_get(groups, "void", k), errors);
-    }
-    for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
-        check_owner(groups, schema_get(groups, "pores", k), errors);
-        check_pores(schema_get(groups, "pores", k), errors);
     }
 }
 
-char *body_file(const body_scene *scene, const schema_instance *body)
-{
-    const char *file = schema_text(body, "file"), *folder = file[0] == '/' ? "" : scene->folder;
-    const size_t size = strlen(folder) + strlen(file) + 1;
-    char *path = malloc(size);
-    if (path != NULL) (void)snprintf(path, size, "%s%s", folder, file);
-    return path;
-}
-
-bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
+bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
+                namelist_errors *errors)
 {
     const double none = (double)INFINITY;
     builder b = {.scene = scene,
@@ -551,10 +389,11 @@ bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, si
                  .start = {.depth = -none, .rest_length = none}};
     dem_lattice_init(&b.lattice);
     dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
-    if (status == DEM_OK) status = settle_parts(&b);
     if (status == DEM_OK) status = put(&b);
+    for (dem_index i = 0; status == DEM_OK && i < b.lattice.n_nodes; i++) b.facts.mass += b.lattice.mass[i];
     if (status != DEM_OK) dem_lattice_free(&b.lattice);
     *out = b.lattice;
+    *facts = b.facts;
     *start = b.start;
     return status != DEM_ERROR_MEMORY;
 }

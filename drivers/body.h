@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the keys of &material, &body, &void and &pores mean: from the groups to a lattice in its place. */
+/* What the keys of &material and &body mean, form apart: from the groups to a lattice in its place. */
 #ifndef DEM_BODY_H
 #define DEM_BODY_H
 
 #include <dem/dem.h>
 
 #include "clearance.h"
+#include "form.h"
+#include "parts.h"
 #include "schema.h"
 
 /* What a body is built from and put into. */
@@ -20,9 +22,6 @@ typedef struct body_scene {
 /* What can be said without geometry: keys a shape lacks or does not use, names and numbers that refer to nothing. */
 void body_check_all(const schema_deck *groups, namelist_errors *errors);
 
-/* Takes the defaults of keys away that a shape does not use: they mean nothing, and stated they are faults. */
-void body_drop_unused(schema_deck *groups);
-
 /* How a body starts: its node that may touch and lies deepest in the obstacles; their point deepest in its triangles */
 typedef struct body_start {
     double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */
@@ -32,15 +31,22 @@ typedef struct body_start {
     double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
 } body_start;
 
+/* What is to be told of a body. */
+typedef struct body_facts {
+    double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
+    form form;
+    parts_loose loose; /* apart from its largest part */
+    bool removed;      /* they have been */
+    parts_hinges hinges;
+} body_facts;
+
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.
  * Returns false only when memory runs out (*out is then empty). Caller owns *out. */
-bool body_build(dem_lattice *out, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors);
+bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
+                namelist_errors *errors);
 
 /* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `skin`, m. Returns false only when
  * memory runs out. */
 bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors);
-
-/* Path of the lattice file of a body of shape 'file', malloc'ed; NULL when memory runs out. */
-char *body_file(const body_scene *scene, const schema_instance *body);
 
 #endif

@@ -4,16 +4,16 @@
 #include "deck.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "body.h"
+#include "file.h"
 #include "loading.h"
+#include "probes.h"
 #include "profile.h"
 #include "schema.h"
 #include "uses.h"
@@ -32,39 +32,19 @@ static const uses profile_uses = {"obstacle", "profile", sizeof profile_keys / s
 
 /* ---- the file ---- */
 
-static deck_status refuse(namelist_errors *errors, const char *why)
-{
-    namelist_errors_add(errors, (namelist_place){0, 0}, "%s", why);
-    return DECK_UNREADABLE;
-}
-
-/* `text` has NAMELIST_MAX_FILE + 2 bytes: one more than a deck may have tells that it is too long. */
-static deck_status read_bytes(char *text, size_t *size, int file, namelist_errors *errors)
-{
-    struct stat info;
-    if (fstat(file, &info) != 0) return refuse(errors, strerror(errno));
-    if (!S_ISREG(info.st_mode)) return refuse(errors, "not a regular file");
-    for (*size = 0; *size <= NAMELIST_MAX_FILE;) {
-        const ssize_t n = read(file, text + *size, NAMELIST_MAX_FILE + 1 - *size);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return refuse(errors, strerror(errno));
-        if (n == 0) break;
-        *size += (size_t)n;
-    }
-    text[*size] = '\0';
-    if (*size > NAMELIST_MAX_FILE) return refuse(errors, "the file is larger than 4 MiB");
-    return *size == 0 ? refuse(errors, "the file is empty") : DECK_OK;
-}
-
 static deck_status read_text(deck *d, size_t *size, namelist_errors *errors)
 {
-    d->source = malloc(NAMELIST_MAX_FILE + 2);
-    if (d->source == NULL) return DECK_MEMORY;
-    const int file = open(d->path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a pipe without writer must not hang */
-    if (file < 0) return refuse(errors, strerror(errno));
-    const deck_status status = read_bytes(d->source, size, file, errors);
-    (void)close(file);
-    return status;
+    char why[FILE_WHY];
+    switch (file_read(&d->source, size, d->path, NAMELIST_MAX_FILE, why)) {
+    case FILE_READ:
+        return DECK_OK;
+    case FILE_REFUSED:
+        namelist_errors_add(errors, (namelist_place){0, 0}, "%s", why);
+        return DECK_UNREADABLE;
+    case FILE_MEMORY:
+        break;
+    }
+    return DECK_MEMORY;
 }
 
 /* ---- checks ---- */
@@ -237,6 +217,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
         check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
     loading_check_all(groups, errors);
+    probes_check(groups, errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
 }
@@ -276,6 +257,25 @@ static void set_options(dem_options *options, const schema_deck *groups)
     if (schema_value_of(contact, "window")->given) options->window = schema_real(contact, "window");
 }
 
+static uint32_t fields_of(const schema_value *names)
+{
+    static const struct {
+        const char *name;
+        uint32_t field;
+    } all[] = {{"displacement", DEM_FIELD_DISPLACEMENT},
+               {"velocity", DEM_FIELD_VELOCITY},
+               {"stress", DEM_FIELD_STRESS},
+               {"von_mises", DEM_FIELD_VON_MISES},
+               {"principal", DEM_FIELD_PRINCIPAL},
+               {"strain", DEM_FIELD_STRAIN},
+               {"force", DEM_FIELD_FORCE}};
+    uint32_t fields = 0;
+    for (int k = 0; k < names->count; k++)
+        for (size_t f = 0; f < sizeof all / sizeof *all; f++)
+            if (strcmp(names->texts[k], all[f].name) == 0) fields |= all[f].field;
+    return fields;
+}
+
 static bool set_scalars(deck *d, const schema_deck *groups)
 {
     const schema_instance *run = schema_get(groups, "run", 0), *output = schema_get(groups, "output", 0);
@@ -283,10 +283,14 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->t_end = schema_real(run, "t_end");
     d->residual = schema_real(run, "residual");
     d->closure = schema_real(output, "closure");
+    d->stop_at_overlap = strcmp(schema_text(schema_get(groups, "contact", 0), "overlap"), "stop") == 0;
     d->frame_interval = schema_real(output, "frame_interval");
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
     d->events = schema_real(output, "events") != 0.0;
+    d->fields = fields_of(schema_value_of(output, "fields"));
+    d->peak_every = (dem_index)schema_real(output, "peak_every");
+    d->most_stressed = (dem_index)schema_real(output, "most_stressed");
     d->title = strdup(schema_text(run, "title"));
     d->name = strdup(schema_text(output, "name"));
     return d->title != NULL && d->name != NULL;
@@ -350,9 +354,9 @@ static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 }
 
 /* Puts a file's whole path in the place of its name. */
-static bool name_file(schema_instance *body, const body_scene *scene, namelist_errors *errors)
+static bool name_file(schema_instance *body, const char *folder, namelist_errors *errors)
 {
-    char here[4096] = "", *path = body_file(scene, body);
+    char here[4096] = "", *path = form_file(folder, body);
     if (path == NULL) return false;
     if (path[0] != '/' && getcwd(here, sizeof here) == NULL)
         namelist_errors_add(errors, schema_value_of(body, "file")->place, "%s: %s", path, strerror(errno));
@@ -380,18 +384,18 @@ static bool hash_file(schema_instance *body, namelist_errors *errors)
     return schema_set_text(body, "file", text);
 }
 
+/* Whether a group is a body that is made from a file. */
 static bool is_file(const schema_instance *group)
 {
-    return strcmp(group->group->name, "body") == 0 && strcmp(schema_text(group, "shape"), "file") == 0;
+    return strcmp(group->group->name, "body") == 0 && schema_given(group, "file");
 }
 
 /* Echoes and hashes; to be called when the bodies are built, since it changes the names of files in `groups`. */
 static bool set_texts(deck *d, schema_deck *groups, const char *folder, namelist_errors *errors)
 {
-    const body_scene scene = {.folder = folder};
     char *bare = NULL;
     for (size_t k = 0; k < groups->n_instances; k++)
-        if (is_file(&groups->instances[k]) && !name_file(&groups->instances[k], &scene, errors)) return false;
+        if (is_file(&groups->instances[k]) && !name_file(&groups->instances[k], folder, errors)) return false;
     if (errors->n > 0) return true;
     if (!schema_echo(groups, SCHEMA_MARKED, &d->echo)) return false;
     for (size_t k = 0; k < groups->n_instances; k++)
@@ -407,7 +411,7 @@ static bool set_body(deck *d, body_start *start, const body_scene *scene, size_t
 {
     const schema_instance *group = schema_get(scene->groups, "body", k);
     dem_lattice body;
-    if (!body_build(&body, start, scene, k, errors)) return false;
+    if (!body_build(&body, &d->bodies[k], start, scene, k, errors)) return false;
     const dem_status status = dem_lattice_append(&d->lattice, &body);
     dem_lattice_free(&body);
     if (status == DEM_ERROR_MEMORY) return false;
@@ -427,6 +431,15 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     return true;
 }
 
+static bool set_probes(deck *d, const schema_deck *groups, const placement *bodies, namelist_errors *errors)
+{
+    const size_t n = schema_count(groups, "probe");
+    d->probes = calloc(n + 1, sizeof *d->probes);
+    if (d->probes == NULL) return false;
+    d->n_probes = (dem_index)n;
+    return probes_find(d->probes, groups, &d->lattice, bodies, errors);
+}
+
 static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, namelist_errors *errors)
 {
     const body_scene scene = {.groups = groups,
@@ -436,19 +449,22 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
     const size_t n = schema_count(groups, "body");
     body_start *starts = calloc(n + 1, sizeof *starts);
-    loading_body *places = calloc(n + 1, sizeof *places);
-    bool good = starts != NULL && places != NULL;
+    placement *places = calloc(n + 1, sizeof *places);
+    d->bodies = calloc(n + 1, sizeof *d->bodies);
+    d->n_bodies = n;
+    bool good = starts != NULL && places != NULL && d->bodies != NULL;
     for (size_t k = 0; k < n && good; k++) {
         const dem_index first = d->lattice.n_nodes;
         good = set_body(d, &starts[k], &scene, k, errors);
-        places[k] = (loading_body){.first = first,
-                                   .n_nodes = d->lattice.n_nodes - first,
-                                   .angle = starts[k].angle,
-                                   .offset = {starts[k].offset[0], starts[k].offset[1]}};
+        places[k] = (placement){.first = first,
+                                .n_nodes = d->lattice.n_nodes - first,
+                                .angle = starts[k].angle,
+                                .offset = {starts[k].offset[0], starts[k].offset[1]}};
     }
     good = good && check_starts(d, starts, &scene, errors);
     if (good && errors->n == 0)
         good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
+    if (good && errors->n == 0) good = set_probes(d, groups, places, errors);
     d->options.boundaries = d->boundaries;
     d->options.n_boundaries = d->n_boundaries;
     free(starts);
@@ -461,7 +477,7 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
 static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *errors)
 {
     char *folder = folder_of(d->path);
-    body_drop_unused(groups);
+    form_drop_unused(groups);
     loading_drop_unused(groups);
     uses_drop(groups, &profile_uses);
     bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
@@ -511,7 +527,9 @@ void deck_free(deck *d)
 {
     for (dem_index k = 0; k < d->n_obstacles; k++) free((void *)d->obstacles[k].points);
     free(d->obstacles);
+    probes_free(d->probes, (size_t)d->n_probes);
     dem_lattice_free(&d->lattice);
+    free(d->bodies);
     loading_free(d->boundaries, d->n_boundaries);
     free(d->path);
     free(d->source);

@@ -4,8 +4,9 @@
 #ifndef DEM_DECK_H
 #define DEM_DECK_H
 
-#include <dem/dem.h>
+#include <dem/trajectory.h>
 
+#include "body.h"
 #include "namelist.h"
 
 typedef enum deck_status {
@@ -19,13 +20,16 @@ typedef enum deck_status {
 typedef struct deck {
     char *path, *source;  /* the file's name and text */
     char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
-    uint64_t hash;     /* FNV-1a of `physics`, in which a lattice file stands as the hash of its bytes: the problem */
+    uint64_t hash;     /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;
-    double t_end;            /* s */
-    double residual;         /* > 0: a quasi-static run ends there */
-    double closure;          /* share of the energy from which on the log warns */
-    dem_lattice lattice;     /* all bodies, in the order of the deck */
+    double t_end;    /* s */
+    double residual; /* > 0: a quasi-static run ends there */
+    int stop_at_overlap;
+    double closure;      /* share of the energy from which on the log warns */
+    dem_lattice lattice; /* all bodies, in the order of the deck */
+    body_facts *bodies;  /* [n_bodies], one for each group */
+    size_t n_bodies;
     dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
     dem_boundary *boundaries; /* [n_boundaries] */
@@ -33,6 +37,11 @@ typedef struct deck {
     dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` */
     double frame_interval; /* s */
     int double_precision, deflate, events;
+    uint32_t fields;         /* DEM_FIELD_... */
+    dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
+    dem_index most_stressed; /* that are listed */
+    dem_probe *probes;       /* [n_probes] */
+    dem_index n_probes;
 } deck;
 
 /* Reads and builds. Faults of syntax, of keys and of their meaning are reported together; geometry is built only where

@@ -101,31 +101,77 @@ static dem_status write_provenance(dem_trajectory *trajectory, const deck *d)
     return status;
 }
 
-/* What a quasi-static run ends at is a frame of its own. */
-static dem_status advance(const deck *d, dem_simulation *simulation, dem_trajectory *trajectory, report *log,
-                          relaxation *rest)
+static dem_status stop_at_overlap(void *context, const dem_simulation *simulation)
 {
-    const dem_observer frames = dem_trajectory_observer(trajectory), followed = report_observer(log);
-    const dem_observer resting = relaxation_observer(rest);
-    dem_status status = write_provenance(trajectory, d);
+    (void)context;
+    return dem_simulation_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
+}
+
+/* Who watches a run. */
+typedef struct audience {
+    dem_peaks *peaks; /* NULL: not wanted */
+    dem_trajectory *trajectory;
+    report log;
+    relaxation rest;
+} audience;
+
+static dem_status gather(audience *a, const deck *d, const dem_simulation *simulation, const char *path)
+{
+    dem_trajectory_options options = dem_trajectory_options_default();
+    dem_status status = DEM_OK;
+    if (d->peak_every > 0) status = dem_peaks_create(&a->peaks, dem_simulation_model(simulation), d->peak_every);
+    options.frame_interval = d->frame_interval;
+    options.double_precision = d->double_precision;
+    options.deflate = d->deflate;
+    options.events = d->events;
+    options.fields = d->fields;
+    options.peaks = a->peaks;
+    options.most_stressed = d->most_stressed;
+    options.n_probes = d->n_probes;
+    options.probes = d->probes;
+    return status == DEM_OK ? dem_trajectory_create(&a->trajectory, path, simulation, &options) : status;
+}
+
+static void dismiss(audience *a)
+{
+    dem_trajectory_destroy(a->trajectory);
+    dem_peaks_destroy(a->peaks);
+}
+
+/* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap. */
+static dem_status advance(const deck *d, dem_simulation *simulation, audience *a)
+{
+    const dem_observer frames = dem_trajectory_observer(a->trajectory), followed = report_observer(&a->log);
+    const dem_observer peaks = dem_peaks_observer(a->peaks), resting = relaxation_observer(&a->rest);
+    const dem_observer overlapping = {.step = stop_at_overlap};
+    dem_status status = write_provenance(a->trajectory, d);
+    if (status == DEM_OK && a->peaks != NULL) status = dem_simulation_observe(simulation, &peaks);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &frames);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &followed);
     if (status == DEM_OK && d->residual > 0.0) status = dem_simulation_observe(simulation, &resting);
+    if (status == DEM_OK && d->stop_at_overlap) status = dem_simulation_observe(simulation, &overlapping);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, d->t_end);
     if (status == DEM_STOPPED) status = frames.frame(frames.context, simulation);
     return status;
 }
 
-/* A quasi-static run that has not come to rest has no result: its output stays unfinished. */
-static int tell_rest(const deck *d, const relaxation *rest)
+/* Whether a run has come to what the deck asks for, and says so. One that has not has no result: its output stays
+ * unfinished. */
+static bool succeeds(const deck *d, const dem_simulation *simulation, const relaxation *rest)
 {
-    if (rest->done) {
-        (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
-        return EXIT_DONE;
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (d->stop_at_overlap && o.node >= 0) {
+        (void)fprintf(stderr, "%s: error: node %lld is inside triangle %lld of a body at (%g, %g) m, t = %.6g s\n",
+                      d->path, (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+        return false;
     }
-    (void)fprintf(stderr, "%s: error: not at rest at t_end = %g s: the residual is %.3g, %.3g is asked for\n", d->path,
-                  d->t_end, rest->reached, d->residual);
-    return EXIT_NUMERICS;
+    if (d->residual > 0.0 && !rest->done) {
+        (void)fprintf(stderr, "%s: error: not at rest at t_end = %g s: the residual is %.3g, %.3g is asked for\n",
+                      d->path, d->t_end, rest->reached, d->residual);
+        return false;
+    }
+    if (d->residual > 0.0) (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
+    return true;
 }
 
 /* Whether the run has an end; says so if it has none. */
@@ -142,25 +188,22 @@ static bool ends(const deck *d, const dem_simulation *simulation)
 static int run(const deck *d, dem_simulation *simulation, const char *path)
 {
     (void)signal(SIGPIPE, SIG_IGN);
-    dem_trajectory *trajectory;
-    report log;
-    dem_trajectory_options options = dem_trajectory_options_default();
-    options.frame_interval = d->frame_interval;
-    options.double_precision = d->double_precision;
-    options.deflate = d->deflate;
-    options.events = d->events;
-    const dem_status created = dem_trajectory_create(&trajectory, path, simulation, &options);
-    if (created != DEM_OK) return complain(code_of(created), path);
+    audience a = {0};
+    dem_status status = gather(&a, d, simulation, path);
+    if (status != DEM_OK) {
+        dismiss(&a);
+        return complain(code_of(status), path);
+    }
     report_header(stdout, d, simulation, path);
-    report_start(&log, stdout, isatty(STDOUT_FILENO) == 1, d);
-    relaxation rest = relaxation_start(d->residual, &d->options);
-    dem_status status = advance(d, simulation, trajectory, &log, &rest);
-    const bool rested = !(d->residual > 0.0) || rest.done;
-    if (status == DEM_OK && rested) status = dem_trajectory_finish(trajectory);
-    int code = status == DEM_OK ? EXIT_DONE : complain(code_of(status), d->path);
-    if (status == DEM_OK) report_summary(&log, simulation);
-    if (status == DEM_OK && d->residual > 0.0) code = tell_rest(d, &rest);
-    dem_trajectory_destroy(trajectory);
+    report_start(&a.log, stdout, isatty(STDOUT_FILENO) == 1, d);
+    a.log.peaks = a.peaks;
+    a.rest = relaxation_start(d->residual, &d->options);
+    status = advance(d, simulation, &a);
+    if (status == DEM_OK) report_summary(&a.log, simulation);
+    const bool good = status == DEM_OK && succeeds(d, simulation, &a.rest);
+    if (good) status = dem_trajectory_finish(a.trajectory);
+    const int code = status != DEM_OK ? complain(code_of(status), d->path) : (good ? EXIT_DONE : EXIT_NUMERICS);
+    dismiss(&a);
     return code;
 }
 

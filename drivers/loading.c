@@ -25,7 +25,7 @@ static const uses by_kind = {"boundary", "kind", sizeof kind_keys / sizeof *kind
 /* A group with the body that it is about. */
 typedef struct target {
     const schema_instance *group;
-    const loading_body *body;
+    const placement *body;
     const dem_lattice *lattice;
     double reach; /* m, half the shortest spring of the body: what counts as its outermost nodes */
 } target;
@@ -92,9 +92,7 @@ void loading_drop_unused(schema_deck *groups)
 /* Rest position in the body's own coordinates. */
 static void own_place(const target *t, dem_index i, double own[2])
 {
-    const double *x = &t->lattice->x[2 * i], *o = t->body->offset, c = cos(t->body->angle), s = sin(t->body->angle);
-    own[0] = c * (x[0] - o[0]) + s * (x[1] - o[1]);
-    own[1] = c * (x[1] - o[1]) - s * (x[0] - o[0]);
+    placement_own(t->body, t->lattice->x + 2 * i, own);
 }
 
 /* Which coordinate tells a side, and in which sense it grows outwards. */
@@ -243,7 +241,7 @@ static bool build_one(dem_boundary *out, const target *t, dem_lattice *lattice, 
 }
 
 /* Half the shortest spring of a body, m. */
-static double reach_of(const dem_lattice *lattice, const loading_body *body)
+static double reach_of(const dem_lattice *lattice, const placement *body)
 {
     double shortest = (double)INFINITY;
     for (dem_index k = 0; k < lattice->n_springs; k++) {
@@ -253,7 +251,7 @@ static double reach_of(const dem_lattice *lattice, const loading_body *body)
     return isfinite(shortest) ? 0.5 * shortest : 0.0;
 }
 
-bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const loading_body *bodies,
+bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const placement *bodies,
                    const schema_deck *groups, namelist_errors *errors)
 {
     const size_t count = schema_count(groups, "boundary");
@@ -261,7 +259,7 @@ bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, cons
     *list = calloc(count + 1, sizeof **list);
     for (size_t k = 0; *list != NULL && k < count; k++) {
         const schema_instance *group = schema_get(groups, "boundary", k);
-        const loading_body *body = &bodies[(size_t)schema_real(group, "body") - 1];
+        const placement *body = &bodies[(size_t)schema_real(group, "body") - 1];
         const target t = {group, body, lattice, reach_of(lattice, body)};
         const bool good = build_one(&(*list)[(*n)++], &t, lattice, errors);
         if (!good) return false;

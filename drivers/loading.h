@@ -5,13 +5,8 @@
 
 #include <dem/dem.h>
 
+#include "placement.h"
 #include "schema.h"
-
-/* A body in the lattice of all: its nodes, and how its own coordinates were turned (radians) and shifted (m). */
-typedef struct loading_body {
-    dem_index first, n_nodes;
-    double angle, offset[2];
-} loading_body;
 
 /* Faults that can be told without geometry. */
 void loading_check_all(const schema_deck *groups, namelist_errors *errors);
@@ -23,7 +18,7 @@ void loading_drop_unused(schema_deck *groups);
  * Faults are appended to `errors`. Returns false only when memory runs out. Free with loading_free in any case.
  * \param bodies    [number of &body]
  * \param[out] list  [number of &boundary] */
-bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const loading_body *bodies,
+bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const placement *bodies,
                    const schema_deck *groups, namelist_errors *errors);
 void loading_free(dem_boundary *list, dem_index n);
 

@@ -3,7 +3,8 @@
 #ifndef DEM_PORES_H
 #define DEM_PORES_H
 
-#include <dem/dem.h>
+#include <stdbool.h>
+#include <stddef.h>
 
 /* More than this many in one recipe are refused: placing takes time of order number^2. */
 #define PORES_MAX 10000
@@ -12,23 +13,41 @@ typedef struct pore {
     double centre[2], radius; /* m */
 } pore;
 
-/* A region that pores may lie in: signed distance of x to its boundary, > 0 inside, m. */
-typedef double (*pores_region)(void *context, const double x[2]);
+/* A region that pores may lie in: whether a disc about x is all inside. */
+typedef bool (*pores_region)(void *context, const double x[2], double radius);
+
+typedef enum pores_distribution { PORES_UNIFORM, PORES_LOGNORMAL, PORES_NORMAL } pores_distribution;
 
 typedef struct pores_recipe {
-    double box[4];                 /* x_min, y_min, x_max, y_max: where centres are drawn */
-    size_t number;                 /* of pores, <= PORES_MAX */
-    double radius_min, radius_max; /* m, uniform between them; 0 < radius_min <= radius_max */
-    double wall;                   /* m, least material between pores, and between a pore and the boundary; >= 0 */
+    double box[4];                   /* x_min, y_min, x_max, y_max: where centres are drawn */
+    size_t number;                   /* of pores, <= PORES_MAX; 0: as many as the area needs */
+    double area;                     /* m^2, that all pores shall have, where number is 0; they miss it by at most half
+                                        of the last one's; >= 0 */
+    double radius_min, radius_max;   /* m, 0 < radius_min <= radius_max: none is drawn beyond */
+    pores_distribution distribution; /* of the radii */
+    double mean, deviation;          /* m, > 0, of all numbers drawn, those beyond included; not of a uniform one, which
+                                        goes from radius_min to radius_max */
+    double wall;                     /* m, least material between pores, and between a pore and the boundary; >= 0 */
     unsigned long seed;
 } pores_recipe;
 
+typedef struct pores {
+    size_t n, n_placed; /* wanted, and how many of them have a place */
+    pore *list;         /* [n] by falling radius; malloc'ed */
+} pores;
+
+typedef enum pores_status {
+    PORES_PLACED,
+    PORES_CROWDED,  /* list[n_placed] finds no place: its radius is set, its centre is not */
+    PORES_TOO_MANY, /* the area needs more than PORES_MAX */
+    PORES_RARE,     /* none of 100,000 radii drawn lies between the smallest and the largest */
+    PORES_UNSOUND,  /* a recipe outside the ranges above */
+    PORES_MEMORY
+} pores_status;
+
 /* Draws radii, places the largest first, each at the first admissible of at most 100,000 random centres. Same recipe,
- * same pores on every machine. Sets no message: that is left to the caller, who knows what the numbers are called.
- * \param[out] out       [recipe->number] by falling radius
- * \param[out] n_placed  pores before the first that finds no place
- * \return DEM_ERROR_MODEL if one finds no place: its radius is out[*n_placed].radius, its centre is not set;
- *         DEM_ERROR_ARGUMENT for a recipe outside the ranges above; DEM_ERROR_MEMORY */
-dem_status pores_place(pore *out, size_t *n_placed, const pores_recipe *recipe, pores_region region, void *context);
+ * same pores on every machine. The list is empty, and not to be freed, unless PORES_PLACED or PORES_CROWDED is
+ * returned. */
+pores_status pores_place(pores *out, const pores_recipe *recipe, pores_region fits, void *context);
 
 #endif

@@ -2,8 +2,10 @@
 /* Plain text for people and for grep: one topic a line, its name in the first column. */
 #include "report.h"
 
+#include <gsl/gsl_math.h> /* M_PI */
 #include <gsl/gsl_version.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -96,6 +98,18 @@ static void watch_ledger(report *r, const dem_state *state)
                   r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
 }
 
+static void watch_overlap(report *r, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (r->overlapped || o.node < 0) return;
+    r->overlapped = true;
+    (void)fprintf(
+        r->out,
+        "%swarning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
+        "%.4e s\n",
+        r->terminal ? "\n" : "", (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+}
+
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
@@ -121,6 +135,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_strain(r, simulation, state.t);
     follow_contact(r, simulation, &state);
     watch_ledger(r, &state);
+    watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;
 }
@@ -190,6 +205,42 @@ static void print_sizes(FILE *out, const dem_model *model)
                   (long long)size.n_segments);
 }
 
+static double frame_bytes(const deck *d, const dem_model_size *size)
+{
+    static const struct {
+        uint32_t field;
+        double of_node, of_spring; /* numbers */
+    } fields[] = {{DEM_FIELD_DISPLACEMENT, 3.0, 0.0}, {DEM_FIELD_VELOCITY, 3.0, 0.0},  {DEM_FIELD_STRESS, 6.0, 0.0},
+                  {DEM_FIELD_VON_MISES, 1.0, 0.0},    {DEM_FIELD_PRINCIPAL, 2.0, 0.0}, {DEM_FIELD_STRAIN, 0.0, 1.0},
+                  {DEM_FIELD_FORCE, 0.0, 1.0}};
+    const double width = d->double_precision ? 8.0 : 4.0;
+    double of_node = 24.0, of_spring = 1.0;
+    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {
+        if ((d->fields & fields[k].field) == 0) continue;
+        of_node += width * fields[k].of_node;
+        of_spring += width * fields[k].of_spring;
+    }
+    return of_node * (double)size->n_nodes + of_spring * (double)size->n_springs;
+}
+
+/* What is probed, where at rest. */
+static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
+{
+    static const char *const kinds[] = {
+        [DEM_PROBE_NODE] = "node", [DEM_PROBE_SPRING] = "spring", [DEM_PROBE_GAUGE] = "gauge from node"};
+    for (dem_index k = 0; k < d->n_probes; k++) {
+        const dem_probe *p = &d->probes[k];
+        const dem_index a = p->kind == DEM_PROBE_SPRING ? l->ends[2 * p->number[0]] : p->number[0];
+        const dem_index b = p->kind == DEM_PROBE_SPRING  ? l->ends[2 * p->number[0] + 1]
+                            : p->kind == DEM_PROBE_GAUGE ? p->number[1]
+                                                         : a;
+        (void)fprintf(out, "probe      %s: %s %lld", p->name, kinds[p->kind], (long long)p->number[0]);
+        if (p->kind == DEM_PROBE_GAUGE) (void)fprintf(out, " to %lld", (long long)p->number[1]);
+        (void)fprintf(out, " at (%.6g, %.6g) m\n", 0.5 * (l->x[2 * a] + l->x[2 * b]),
+                      0.5 * (l->x[2 * a + 1] + l->x[2 * b + 1]));
+    }
+}
+
 /* As the library measures them, by loading the model. */
 static void print_constants(FILE *out, const dem_model *model)
 {
@@ -231,20 +282,46 @@ static void print_measured(FILE *out, const dem_model *model)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }
 
+/* Numbered from 1, as decks are. */
+static void print_body(FILE *out, size_t number, const body_facts *b)
+{
+    char list[PARTS_LIST];
+    if (b->true_mass > 0.0)
+        (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
+                      b->true_mass, b->mass / b->true_mass);
+    if (b->form.n_pores > 0)
+        (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->form.n_pores,
+                      b->form.pore_area / (b->form.area + b->form.pore_area));
+    if (b->form.n_cracked > 0)
+        (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
+                      (long long)b->form.n_cracked);
+    parts_print(list, &b->loose, b->true_mass > 0.0 ? "triangle" : "node");
+    if (b->loose.n > 0)
+        (void)fprintf(out, "parts      body %zu: %lld %s, of %s m in its own coordinates\n", number,
+                      (long long)b->loose.n, b->removed ? "removed" : "apart from the largest", list);
+    if (b->hinges.n > 0)
+        (void)fprintf(out, "hinges     body %zu: %lld node%s between triangles that share no edge, one at (%g, %g) m\n",
+                      number, (long long)b->hinges.n, b->hinges.n == 1 ? "" : "s", b->hinges.x[0], b->hinges.x[1]);
+}
+
+static void print_bodies(FILE *out, const deck *d)
+{
+    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) print_body(out, k + 1, &d->bodies[k]);
+    if (d->n_bodies > most_listed)
+        (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
+}
+
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_options o = dem_simulation_options(simulation);
     const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
-    const double width = d->double_precision ? 8.0 : 4.0;
-    const double frame_bytes =
-        (double)size.n_nodes * (24.0 + 6.0 * width) + (double)size.n_springs * (2.0 * width + 1.0);
     const double history_bytes = 8.0 * (30.0 + 5.0 * (double)size.n_bodies + 9.0 * (double)size.n_obstacles);
-    const double state_bytes = (double)size.n_nodes * 4.0 * 8.0 * 24.0 + (double)size.n_springs * 2.0 * 32.0;
+    const double state_bytes = (double)size.n_nodes * (4.0 * 8.0 * 24.0 + 300.0) + (double)size.n_springs * 2.0 * 44.0;
     (void)fprintf(
         out,
         "estimate   at least %.0f steps of %d evaluations, %.0f frames, up to %.3g MB of output, %.3g MB of memory\n",
-        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes + steps * history_bytes),
+        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes(d, &size) + steps * history_bytes),
         1e-6 * state_bytes);
 }
 
@@ -280,6 +357,8 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
                   (unsigned long long)d->hash);
     print_sizes(out, model);
+    print_bodies(out, d);
+    print_probes(out, d, dem_model_lattice(model));
     print_rules(out, &o, model);
     (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
@@ -295,6 +374,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
 void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
     *r = (report){.out = out, .terminal = terminal, .t_end = d->t_end, .closure = d->closure, .area_min = 1.0};
+    r->most_stressed = d->most_stressed;
     r->strain_min.spring_min = r->strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
 }
@@ -331,6 +411,41 @@ static void print_strain(const report *r)
         (void)fprintf(
             r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most, %lld inverted\n",
             r->area_min, r->area_min_t, (long long)r->guarded_max, (long long)r->inverted_max);
+}
+
+/* Place at rest. */
+static void print_node_peak(FILE *out, dem_index node, const dem_node_peak *peak, const double x[2])
+{
+    double value[2], direction[2];
+    dem_stress_principal(peak->stress, value, direction);
+    (void)fprintf(out,
+                  "stressed   node %lld at (%.6g, %.6g) m: von Mises %.4g Pa at %.4e s, principal %+.4g Pa at %.0f "
+                  "degrees, %+.4g Pa\n",
+                  (long long)node, x[0], x[1], peak->von_mises, peak->t, value[0],
+                  180.0 / M_PI * atan2(direction[1], direction[0]), value[1]);
+}
+
+static void print_spring_peak(FILE *out, dem_index spring, const dem_spring_peak *peak, const dem_lattice *l)
+{
+    const double *a = l->x + 2 * l->ends[2 * spring], *b = l->x + 2 * l->ends[2 * spring + 1];
+    (void)fprintf(out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4f, force %+.4g N at %.4e s\n",
+                  (long long)spring, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), peak->strain,
+                  l->stiffness[spring] * peak->strain, peak->t);
+}
+
+static void print_peaks(const report *r, const dem_lattice *l)
+{
+    dem_index *list = calloc((size_t)r->most_stressed + 1, sizeof *list);
+    if (r->peaks == NULL || list == NULL) {
+        free(list);
+        return;
+    }
+    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most_stressed, list);
+    for (dem_index k = 0; k < n; k++)
+        print_node_peak(r->out, list[k], &dem_peaks_nodes(r->peaks)[list[k]], l->x + 2 * list[k]);
+    const dem_index m = dem_peaks_most_strained_springs(r->peaks, r->most_stressed, list);
+    for (dem_index k = 0; k < m; k++) print_spring_peak(r->out, list[k], &dem_peaks_springs(r->peaks)[list[k]], l);
+    free(list);
 }
 
 /* What took energy, beside impacts, if it did. */
@@ -404,15 +519,25 @@ static void print_boundaries(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "boundary   %d to %lld: see /history\n", (int)most_listed + 1, (long long)n);
 }
 
+static void print_overlap(FILE *out, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (o.node >= 0)
+        (void)fprintf(out, "overlap    first at %.4e s, node %lld in triangle %lld; %lld at most, %lld now\n", o.t,
+                      (long long)o.node, (long long)o.triangle, (long long)o.most, (long long)o.now);
+}
+
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = dem_simulation_counts(simulation);
     if (r->terminal) (void)fprintf(r->out, "\n");
     print_contact(r, simulation);
     print_strain(r);
+    print_peaks(r, dem_model_lattice(dem_simulation_model(simulation)));
     print_energy(r, dem_simulation_energy(simulation));
     print_obstacles(r->out, simulation);
     print_boundaries(r->out, simulation);
+    print_overlap(r->out, simulation);
     print_events(r->out, &c);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,

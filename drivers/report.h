@@ -13,7 +13,7 @@ typedef struct report {
     bool terminal;  /* progress is rewritten in place */
     double t_end;   /* s */
     double closure; /* from which on the ledger is warned of */
-    bool warned;
+    bool warned, overlapped;
     double wall_start, wall_shown; /* s */
     double t_shown;                /* s */
     double energy_start;           /* J, total at t = 0 */
@@ -26,6 +26,8 @@ typedef struct report {
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
     dem_index contacts_before, impacts_before;
+    const dem_peaks *peaks; /* for the summary; to be set behind report_start(), NULL: none */
+    dem_index most_stressed;
 } report;
 
 /** Starts the log of a run. */
@@ -37,7 +39,8 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
-/** First and last contact, rebound, strains, energy ledger and its closure, obstacles, counts, wall time. */
+/** First and last contact, rebound, strains, what was stressed most, energy ledger and its closure, obstacles,
+ *  counts, wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
 
 /** The versions of program, compiler and libraries in one line. */

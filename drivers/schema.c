@@ -303,12 +303,14 @@ static bool has_decimal_comma(const assembly *a)
 
 static void check_count(resolver *r, assembly *a)
 {
-    const size_t least = (size_t)a->key->min_count;
-    const bool comma = a->key->max_count != 0 && a->n > least && has_decimal_comma(a);
+    const size_t least = (size_t)a->key->min_count, most = (size_t)a->key->max_count;
+    const bool comma = most != 0 && a->n > least && has_decimal_comma(a);
+    char range[32] = "";
     if (a->counts) return;
-    namelist_errors_add(r->errors, a->place, "'%s' in &%s expects %s%zu value%s, got %zu%s", a->key->name,
-                        a->group->name, a->key->max_count == a->key->min_count ? "" : "at least ", least,
-                        least == 1 ? "" : "s", a->n, comma ? "; a decimal point is written '.', not ','" : "");
+    if (most > least) (void)snprintf(range, sizeof range, " to %zu", most);
+    namelist_errors_add(r->errors, a->place, "'%s' in &%s expects %s%zu%s value%s, got %zu%s", a->key->name,
+                        a->group->name, most == 0 ? "at least " : "", least, range, least == 1 && most == 1 ? "" : "s",
+                        a->n, comma ? "; a decimal point is written '.', not ','" : "");
     a->fault = true;
 }
 
@@ -536,6 +538,26 @@ const char *schema_text(const schema_instance *instance, const char *key)
 {
     const schema_value *value = schema_value_of(instance, key);
     return value->count > 0 ? value->texts[0] : "";
+}
+
+const double *schema_reals(const schema_instance *instance, const char *key)
+{
+    return schema_value_of(instance, key)->reals;
+}
+
+bool schema_is(const schema_instance *instance, const char *key, const char *text)
+{
+    return strcmp(schema_text(instance, key), text) == 0;
+}
+
+bool schema_given(const schema_instance *instance, const char *key)
+{
+    return schema_value_of(instance, key)->given;
+}
+
+namelist_place schema_place(const schema_instance *instance, const char *key)
+{
+    return schema_value_of(instance, key)->place;
 }
 
 bool schema_nearest(const char *word, const char *const *names, size_t n_names, size_t *nearest)

@@ -76,8 +76,12 @@ bool schema_set_text(schema_instance *instance, const char *key, const char *tex
 
 /* A value by key name; the key must be in the table. */
 const schema_value *schema_value_of(const schema_instance *instance, const char *key);
-double schema_real(const schema_instance *instance, const char *key);      /* first real; 0 if not given */
-const char *schema_text(const schema_instance *instance, const char *key); /* first text; "" if not given */
+double schema_real(const schema_instance *instance, const char *key);         /* first real; 0 if not given */
+const char *schema_text(const schema_instance *instance, const char *key);    /* first text; "" if not given */
+const double *schema_reals(const schema_instance *instance, const char *key); /* NULL if not given */
+bool schema_is(const schema_instance *instance, const char *key, const char *text);
+bool schema_given(const schema_instance *instance, const char *key);
+namelist_place schema_place(const schema_instance *instance, const char *key);
 
 typedef enum schema_form {
     SCHEMA_MARKED,  /* every key, "! default" behind what was not given */

@@ -125,18 +125,27 @@ static bool stays_not_given(const schema_key *key)
     return key->initial != NULL && key->initial[0] == '\0';
 }
 
+/* Whether choices and default do not go into one line. */
+static bool is_long(const schema_key *key)
+{
+    return key->choices != NULL && strlen(key->choices) + strlen(key->initial) > LINE;
+}
+
 static void print_facts(FILE *file, const schema_key *key)
 {
     (void)fprintf(file, "    ! [%s", type_names[key->type]);
     if (key->max_count == 0) (void)fprintf(file, "s, at least %d", key->min_count);
-    if (key->max_count > 1) (void)fprintf(file, "s, %d of them", key->max_count);
+    if (key->max_count > key->min_count)
+        (void)fprintf(file, "s, %d to %d of them", key->min_count, key->max_count);
+    else if (key->max_count > 1)
+        (void)fprintf(file, "s, %d of them", key->max_count);
     if (strcmp(key->unit, "-") != 0) (void)fprintf(file, ", %s", key->unit);
     if (key->range[0] != '\0') (void)fprintf(file, ", %s%s", key->range[0] == '[' ? "in " : "", key->range);
     if (key->choices != NULL) (void)fprintf(file, ", %s", key->choices);
     if (is_required(key))
         (void)fprintf(file, "; must be given");
     else if (!stays_not_given(key))
-        (void)fprintf(file, "; default: %s", key->initial);
+        (void)fprintf(file, ";%sdefault: %s", is_long(key) ? "\n    !  " : " ", key->initial);
     (void)fprintf(file, "]\n");
 }
 
@@ -166,6 +175,8 @@ static void print_type(FILE *file, const schema_key *key)
 {
     if (key->max_count == 0)
         (void)fprintf(file, "%d or more ", key->min_count);
+    else if (key->max_count > key->min_count)
+        (void)fprintf(file, "%d to %d ", key->min_count, key->max_count);
     else if (key->max_count > 1)
         (void)fprintf(file, "%d ", key->max_count);
     (void)fprintf(file, "%s%s", type_names[key->type], key->max_count == 1 ? "" : "s");

@@ -39,17 +39,20 @@ static const schema_key material_keys[] = {
 };
 
 static const schema_key body_keys[] = {
-    {"shape", SCHEMA_CHOICE, 1, 1, "-", REQUIRED, ANY, "rectangle|disc|file", PHYSICS,
-     "Shape of the body; its own origin is the middle of a rectangle's lower edge, the centre of a disc.",
+    {"shape", SCHEMA_CHOICE, 1, 1, "-", REQUIRED, ANY, "rectangle|disc|ring|polygon|mask|mesh|file", PHYSICS,
+     "Shape; own origin: middle of a rectangle's or image's lower edge, centre of a disc or ring, else as given.",
      "'rectangle'"},
     {"size", SCHEMA_REAL, 2, 2, "m", NONE, "> 0", NULL, PHYSICS, "Width and height of a rectangle.", "0.08, 0.13"},
-    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc.", NULL},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc, outer radius of a ring.", NULL},
+    {"inner_radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of the hole of a ring.", NULL},
+    {"points", SCHEMA_REAL, 6, 0, "m", NONE, ANY, NULL, PHYSICS,
+     "x and y of each corner of a polygon, either way round, in the body's own coordinates.", NULL},
     {"lattice", SCHEMA_CHOICE, 1, 1, "-", "'triangular'", ANY, "triangular", PHYSICS,
-     "Arrangement of the nodes of a rectangle or a disc.", NULL},
+     "Arrangement of the nodes of a body that is neither a mesh nor a file.", NULL},
     {"spacing", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
-     "Distance between neighbouring nodes of a rectangle or a disc.", "0.01"},
+     "Distance between neighbouring nodes of a body that is neither a mesh nor a file.", "0.01"},
     {"material", SCHEMA_STRING, 1, 1, "-", "'solid'", ANY, NULL, PHYSICS,
-     "Name of the material of a rectangle or a disc.", "'rubber'"},
+     "Name of the material of a body that is no file.", "'rubber'"},
     {"position", SCHEMA_REAL, 2, 2, "m", "0, 0", ANY, NULL, PHYSICS, "Where the body's own origin is placed, x and y.",
      NULL},
     {"angle", SCHEMA_REAL, 1, 1, "degrees", "0", ANY, NULL, PHYSICS,
@@ -58,32 +61,60 @@ static const schema_key body_keys[] = {
      "If given, the body is then moved along gravity until the smallest gap of its nodes to an obstacle is this.",
      "2e-4"},
     {"velocity", SCHEMA_REAL, 2, 2, "m/s", "0, 0", ANY, NULL, PHYSICS, "Initial velocity, x and y.", "0, -10"},
+    {"spin", SCHEMA_REAL, 1, 1, "rad/s", "0", ANY, NULL, PHYSICS,
+     "Initial rotation about the centre of mass, counter-clockwise.", NULL},
     {"disconnected", SCHEMA_CHOICE, 1, 1, "-", "'refuse'", ANY, "refuse|remove|keep", PHYSICS,
-     "What becomes of parts that springs do not connect to the largest one: an error, taken away, or kept.", NULL},
+     "What becomes of parts that share no edge with the largest one: an error, taken away, or kept.", NULL},
     {"file", SCHEMA_STRING, 1, 1, "-", NONE, ANY, NULL, PHYSICS,
-     "Lattice file of a body of shape 'file'; a relative path starts at the deck's folder.", NULL},
+     "Lattice file, image (PGM, PNG) or Gmsh mesh (MSH 4.1, text); a relative path starts at the deck's folder.", NULL},
+    {"scale", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Side of a pixel of a mask; length of 1 in the coordinates of a mesh.", NULL},
+    {"threshold", SCHEMA_REAL, 1, 1, "-", "0.5", "[0, 1]", NULL, PHYSICS,
+     "Pixels of a mask are material from this brightness on: 0 is black, 1 white.", NONE},
 };
 
 static const schema_key void_keys[] = {
     {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
      "Number of the body that has the void, in the order of the deck.", NULL},
-    {"shape", SCHEMA_CHOICE, 1, 1, "-", "'disc'", ANY, "disc|rectangle", PHYSICS, "Shape of the void.", NULL},
+    {"shape", SCHEMA_CHOICE, 1, 1, "-", "'disc'", ANY, "disc|rectangle|ring|polygon", PHYSICS, "Shape of the void.",
+     NULL},
     {"centre", SCHEMA_REAL, 2, 2, "m", REQUIRED, ANY, NULL, PHYSICS,
-     "Centre of the void, x and y in the body's own coordinates.", "0, 0.03"},
-    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc.", "0.01"},
+     "Centre of the void, x and y in the body's own coordinates; a polygon's points are counted from it.", "0, 0.03"},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc, outer radius of a ring.", "0.01"},
+    {"inner_radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Inner radius of a ring, within which there is material.", NULL},
     {"size", SCHEMA_REAL, 2, 2, "m", NONE, "> 0", NULL, PHYSICS, "Width and height of a rectangle.", NULL},
+    {"points", SCHEMA_REAL, 6, 0, "m", NONE, ANY, NULL, PHYSICS,
+     "x and y of each corner of a polygon, counted from its centre, either way round.", NULL},
+    {"angle", SCHEMA_REAL, 1, 1, "degrees", "0", ANY, NULL, PHYSICS,
+     "Turn of a rectangle or a polygon about its centre, counter-clockwise.", NONE},
 };
 
 static const schema_key pores_keys[] = {
     {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
      "Number of the body that has the pores, in the order of the deck.", NULL},
-    {"number", SCHEMA_INTEGER, 1, 1, "-", REQUIRED, ">= 1", NULL, PHYSICS, "Number of round pores.", "3"},
-    {"radius", SCHEMA_REAL, 2, 2, "m", REQUIRED, "> 0", NULL, PHYSICS,
-     "Smallest and largest radius; the radii are uniformly distributed between them.", "0.006, 0.007"},
+    {"number", SCHEMA_INTEGER, 1, 1, "-", NONE, ">= 1", NULL, PHYSICS,
+     "Number of round pores; it or the porosity must be given.", "3"},
+    {"porosity", SCHEMA_REAL, 1, 1, "-", NONE, "(0, 1)", NULL, PHYSICS,
+     "Area of the pores over that of the body, less its voids, without them: the nearest number of pores.", NULL},
+    {"radius", SCHEMA_REAL, 2, 2, "m", REQUIRED, "> 0", NULL, PHYSICS, "Smallest and largest radius.", "0.006, 0.007"},
+    {"distribution", SCHEMA_CHOICE, 1, 1, "-", "'uniform'", ANY, "uniform|lognormal|normal", PHYSICS,
+     "Distribution of the radii between the smallest and the largest one.", NULL},
+    {"mean", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+     "Mean of a lognormal or normal distribution before it is cut off at the smallest and the largest radius.", NULL},
+    {"deviation", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Its standard deviation.", NULL},
     {"wall", SCHEMA_REAL, 1, 1, "m", NONE, ">= 0", NULL, PHYSICS,
      "Least material between two pores, and between a pore and the boundary; default: twice the spacing.", "0.01"},
     {"seed", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 0", NULL, PHYSICS,
      "Seed of the random numbers; the same seed gives the same pores on every machine.", NULL},
+};
+
+static const schema_key crack_keys[] = {
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
+     "Number of the body that has the crack, in the order of the deck.", NULL},
+    {"points", SCHEMA_REAL, 4, 0, "m", REQUIRED, ANY, NULL, PHYSICS,
+     "x and y of its points in the body's own coordinates; along a row of nodes it takes what is on its left.",
+     "-0.04, 0.085, -0.01, 0.085"},
 };
 
 static const schema_key boundary_keys[] = {
@@ -144,6 +175,8 @@ static const schema_key contact_keys[] = {
      "Impacts nearer in time than this are taken together, 0: each by itself; default: by docs/method.md.", "0"},
     {"vertices", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, PHYSICS,
      "Whether the edges of bodies touch convex vertices of obstacles; if not, only nodes touch.", NULL},
+    {"overlap", SCHEMA_CHOICE, 1, 1, "-", "'warn'", ANY, "warn|stop", PHYSICS,
+     "What follows when a body runs into another one or into itself, which nothing prevents.", NULL},
     {"skin", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
      "Depth at which an impact is taken; default: 1e-6 of the spacing.", "1e-8"},
     {"rest_speed", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
@@ -181,6 +214,28 @@ static const schema_key output_keys[] = {
     {"closure", SCHEMA_REAL, 1, 1, "-", "1e-2", "> 0", NULL, false,
      "The log warns when the energy ledger is open by this share of the largest energy of motion and strain so far.",
      NULL},
+    {"fields", SCHEMA_CHOICE, 1, 0, "-", "'displacement', 'velocity', 'stress', 'von_mises', 'strain', 'force'", ANY,
+     "displacement|velocity|stress|von_mises|principal|strain|force", false,
+     "What the frames show, beside the positions: the first five of nodes, the last two of springs.", NULL},
+    {"peak_every", SCHEMA_INTEGER, 1, 1, "-", "4", ">= 0", NULL, false,
+     "Accepted steps from one look for the largest stresses and strains of the run to the next; 0: no looks.", NULL},
+    {"most_stressed", SCHEMA_INTEGER, 1, 1, "-", "5", "[0, 1000]", NULL, false,
+     "How many of the most stressed nodes and most strained springs of the run are listed.", NULL},
+};
+
+static const schema_key probe_keys[] = {
+    {"name", SCHEMA_STRING, 1, 1, "-", REQUIRED, ANY, NULL, false,
+     "Name of the table in the output, /probes/NAME: letters, digits, '_' and '-'.", "'above_the_void'"},
+    {"kind", SCHEMA_CHOICE, 1, 1, "-", "'node'", ANY, "node|spring|gauge", false,
+     "A node, a spring, or a gauge: the distance between two nodes.", NULL},
+    {"place", SCHEMA_REAL, 2, 4, "m", NONE, ANY, NULL, false,
+     "The node or spring nearest to this place, x and y in the body's own coordinates; of a gauge two places.",
+     "0, 0.05"},
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, false,
+     "Number of the body that has the place, in the order of the deck.", NULL},
+    {"number", SCHEMA_INTEGER, 1, 2, "-", NONE, ">= 0", NULL, false,
+     "Instead of a place: number of the node or spring in the output, from 0; of a gauge two nodes.", NULL},
+    {"every", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, false, "Accepted steps from one row to the next.", NULL},
 };
 
 #define KEYS(keys) (int)(sizeof(keys) / sizeof(keys)[0]), keys
@@ -192,6 +247,8 @@ static const schema_group groups[] = {
     {"body", true, true, "An elastic body; one group for each.", KEYS(body_keys)},
     {"void", false, true, "A hole cut out of a body; one group for each.", KEYS(void_keys)},
     {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},
+    {"crack", false, true, "A crack: a polyline that takes away every triangle which it crosses, with its springs.",
+     KEYS(crack_keys)},
     {"boundary", false, true, "Nodes that are held, moved or loaded; prescribed ones touch no obstacle.",
      KEYS(boundary_keys)},
     {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},
@@ -199,6 +256,8 @@ static const schema_group groups[] = {
      "How nodes and edges of bodies touch obstacles; free ends of open polylines touch no edges.", KEYS(contact_keys)},
     {"solver", false, false, "Integration in time.", KEYS(solver_keys)},
     {"output", false, false, "Files written, and the log.", KEYS(output_keys)},
+    {"probe", false, true, "A table over time in the output, of a node, a spring or a gauge; one group for each.",
+     KEYS(probe_keys)},
 };
 
 const schema_group *schema_groups(int *n_groups)

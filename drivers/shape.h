@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rectangle or a disc with voids, in its own coordinates: how deep a point lies in its material, and its lattice. */
+/* An outline or a mask, less voids, in its own coordinates: what lies in its material, and its lattice. */
 #ifndef DEM_SHAPE_H
 #define DEM_SHAPE_H
 
@@ -7,48 +7,40 @@
 
 #include <dem/dem.h>
 
+#include "mask.h"
+#include "outline.h"
 #include "pores.h"
 
-/* A rectangle stands on its origin (the middle of its lower edge), as a void about its centre, like a disc. */
-typedef struct shape_outline {
-    bool disc;
-    double size[2], radius; /* m; of a rectangle, of a disc */
-} shape_outline;
-
-typedef struct shape_void {
-    shape_outline outline;
-    double centre[2]; /* m */
-} shape_void;
-
 typedef struct shape {
-    shape_outline outline;
-    double spacing; /* m */
+    outline outline; /* owned; of a mask the rectangle of its image */
+    mask mask;       /* owned; without pixels: none */
+    double spacing;  /* m */
     size_t n_voids;
-    shape_void *voids; /* owned */
+    outline *voids; /* owned */
 } shape;
 
 void shape_free(shape *s);
 
-/* Returns false when memory runs out. */
-bool shape_add_void(shape *s, const shape_void *v);
+/* Takes the void over, also where memory runs out: then it returns false. */
+bool shape_add_void(shape *s, outline *hole);
 
-/* Signed distance to the nearest edge, of the outline or of a void, m: > 0 in the material. */
-double shape_depth(const shape *s, const double x[2]);
+/* Whether x lies in the material, voids apart; on the edge it does. */
+bool shape_outline_has(const shape *s, const double x[2]);
 
-/* The same of the outline alone. */
-double shape_outline_depth(const shape *s, const double x[2]);
+/* Whether a disc about x is all material, m. */
+bool shape_fits(const shape *s, const double x[2], double radius);
 
 /* Whether one of its voids takes a node of a lattice. */
-bool shape_takes(const shape *s, const shape_void *hole, const dem_lattice *lattice);
+bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice);
 
-/* Adds pores as voids; the recipe's box is set here. Failures as of pores_place(); *radius is that of the pore without
- * a place, *n_placed the number of pores before it. */
-dem_status shape_add_pores(shape *s, pores_recipe *recipe, size_t *n_placed, double *radius);
+/* Adds pores as voids; the recipe's box is set here. `out` is that of pores_place(), for the caller to free. */
+pores_status shape_add_pores(shape *s, pores *out, pores_recipe *recipe);
 
-/* Triangulation of its outline, without voids. Caller owns *out. */
+/* Triangulation that has the rectangle or disc of its outline, or covers any other one, without voids. Caller owns
+ * *out. */
 dem_status shape_mesh(dem_lattice *out, const shape *s);
 
-/* Takes the voids out of it: nodes on the rim of one stay.
+/* Takes out what is beyond the outline or in a void: nodes on the edge of one stay.
  * \return DEM_ERROR_MODEL if nothing is left */
 dem_status shape_cut(dem_lattice *lattice, const shape *s);
 

@@ -24,6 +24,7 @@ static const table_column columns[] = {
     {"/history/area_min", HDF5_F64, RUN, 1},
     {"/history/guarded", HDF5_I64, RUN, 1},
     {"/history/inverted", HDF5_I64, RUN, 1},
+    {"/history/overlaps", HDF5_I64, RUN, 1},
     {"/history/contacts", HDF5_I64, RUN, 1},
     {"/history/impacts", HDF5_I64, RUN, 1},
     {"/history/vertex_impacts", HDF5_I64, RUN, 1},
@@ -60,9 +61,25 @@ static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, c
     const double reals[] = {state->t,   state->step, e->kinetic,  e->elastic, e->area,       e->guard,
                             e->gravity, e->impact,   e->friction, e->damping, e->projection, e->boundary,
                             closure,    s.min,       s.max,       s.area_min};
-    const dem_index counts[] = {s.guarded,  s.inverted, state->n_contacts, n.impacts,  n.vertex_impacts, n.early,
-                                n.closings, n.releases, n.slips,           n.sticks,   n.passings,       n.late,
-                                n.behind,   n.events,   n.steps,           n.rejected, n.retries,        n.evaluations};
+    const dem_index counts[] = {s.guarded,
+                                s.inverted,
+                                dem_simulation_overlap(simulation).now,
+                                state->n_contacts,
+                                n.impacts,
+                                n.vertex_impacts,
+                                n.early,
+                                n.closings,
+                                n.releases,
+                                n.slips,
+                                n.sticks,
+                                n.passings,
+                                n.late,
+                                n.behind,
+                                n.events,
+                                n.steps,
+                                n.rejected,
+                                n.retries,
+                                n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }

@@ -43,6 +43,26 @@ static void unite(dem_index *parent, dem_index i, dem_index j)
         parent[a] = b;
 }
 
+/* n things that are all apart; NULL without memory. */
+static dem_index *make_parents(dem_index n)
+{
+    dem_index *parent = lattice_zeros(n, sizeof *parent);
+    for (dem_index i = 0; parent != NULL && i < n; i++) parent[i] = i;
+    return parent;
+}
+
+/* Numbers parts by their lowest members. \param[out] part  [n]; may be NULL */
+static dem_index number_parts(dem_index *part, dem_index *parent, dem_index n)
+{
+    dem_index n_parts = 0;
+    for (dem_index i = 0; i < n; i++) {
+        const dem_index root = root_of(parent, i);
+        if (part != NULL) part[i] = root == i ? n_parts : part[root];
+        n_parts += root == i;
+    }
+    return n_parts;
+}
+
 /* ---- selection: arrays shrink in place ---- */
 
 static void pack(void *array, size_t size, dem_index n, const unsigned char *keep)
@@ -53,12 +73,11 @@ static void pack(void *array, size_t size, dem_index n, const unsigned char *kee
         if (keep[i]) memmove(bytes + size * (size_t)kept++, bytes + size * (size_t)i, size);
 }
 
-/* Drops the tuples that lost a node, renumbers the others. \param[out] whole  [n] which stayed */
+/* Drops tuples not wanted or without a node, renumbers the others. \param whole  [n] in: wanted, out: stayed */
 static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const dem_index *number, unsigned char *whole)
 {
     dem_index kept = 0;
     for (dem_index k = 0; k < n; k++) {
-        whole[k] = 1;
         for (int c = 0; c < arity; c++) whole[k] = whole[k] && number[corner[arity * k + c]] >= 0;
         if (!whole[k]) continue;
         for (int c = 0; c < arity; c++) corner[arity * kept + c] = number[corner[arity * k + c]];
@@ -95,6 +114,34 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
     pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
     pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
     pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
+}
+
+/* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. At least one node stays. */
+static dem_status select_both(dem_lattice *lattice, const unsigned char *keep, const unsigned char *wanted)
+{
+    const dem_index n_springs = lattice->n_springs, n_triangles = lattice->n_triangles;
+    dem_index *number = lattice_zeros(lattice->n_nodes, sizeof *number), n = 0;
+    unsigned char *whole = lattice_zeros(n_springs + n_triangles, sizeof *whole);
+    dem_status status = DEM_OK;
+    if (number == NULL || whole == NULL) {
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory");
+        goto out;
+    }
+    for (dem_index i = 0; i < lattice->n_nodes; i++) number[i] = keep[i] ? n++ : -1;
+    if (n == 0) {
+        status = status_fail(DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)lattice->n_nodes);
+        goto out;
+    }
+    memset(whole, 1, (size_t)(n_springs + n_triangles));
+    for (dem_index t = 0; wanted != NULL && t < n_triangles; t++) whole[n_springs + t] = wanted[t] != 0;
+    pack_springs(lattice, number, whole);
+    pack_triangles(lattice, number, whole + n_springs);
+    pack_nodes(lattice, keep);
+    lattice->n_nodes = n;
+out:
+    free(number);
+    free(whole);
+    return status;
 }
 
 /* ---- moving ---- */
@@ -292,17 +339,45 @@ dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem
 {
     TRY(lattice_check(lattice));
     CHECK(n_parts != NULL, DEM_ERROR_ARGUMENT, "n_parts is NULL");
-    dem_index *parent = lattice_zeros(lattice->n_nodes, sizeof *parent), n = 0;
+    dem_index *parent = make_parents(lattice->n_nodes);
     CHECK_MEMORY(parent);
-    for (dem_index i = 0; i < lattice->n_nodes; i++) parent[i] = i;
     for (dem_index k = 0; k < lattice->n_springs; k++) unite(parent, lattice->ends[2 * k], lattice->ends[2 * k + 1]);
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        const dem_index root = root_of(parent, i);
-        if (part != NULL) part[i] = root == i ? n : part[root];
-        n += root == i;
-    }
+    *n_parts = number_parts(part, parent, lattice->n_nodes);
     free(parent);
-    *n_parts = n;
+    return DEM_OK;
+}
+
+dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, dem_index *piece)
+{
+    sides s;
+    TRY(lattice_check(lattice));
+    CHECK(n_pieces != NULL, DEM_ERROR_ARGUMENT, "n_pieces is NULL");
+    TRY(sides_create(&s, lattice));
+    dem_index *parent = make_parents(lattice->n_triangles);
+    for (dem_index i = 0; parent != NULL && i < lattice->n_nodes; i++)
+        for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
+            if (!sides_edge_begins(&s, i, p)) unite(parent, s.list[p - 1].triangle, s.list[p].triangle);
+    sides_free(&s);
+    CHECK_MEMORY(parent);
+    *n_pieces = number_parts(piece, parent, lattice->n_triangles);
+    free(parent);
+    return DEM_OK;
+}
+
+dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges)
+{
+    sides s;
+    TRY(lattice_check(lattice));
+    CHECK(n_edges != NULL, DEM_ERROR_ARGUMENT, "n_edges is NULL");
+    TRY(sides_create(&s, lattice));
+    for (dem_index i = 0; i < lattice->n_nodes; i++) n_edges[i] = 0;
+    for (dem_index i = 0; i < lattice->n_nodes; i++)
+        for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
+            if (!sides_edge_is_boundary(&s, i, p)) continue;
+            n_edges[i]++;
+            n_edges[s.list[p].upper]++;
+        }
+    sides_free(&s);
     return DEM_OK;
 }
 
@@ -310,25 +385,21 @@ dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep)
 {
     TRY(lattice_check(lattice));
     CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
-    dem_status status = DEM_OK;
-    dem_index *number = lattice_zeros(lattice->n_nodes, sizeof *number), n = 0;
-    unsigned char *whole = lattice_zeros(lattice->n_springs + lattice->n_triangles, sizeof *whole);
-    if (number == NULL || whole == NULL) {
-        status = status_fail(DEM_ERROR_MEMORY, "out of memory");
-        goto out;
-    }
-    for (dem_index i = 0; i < lattice->n_nodes; i++) number[i] = keep[i] ? n++ : -1;
-    if (n == 0) {
-        status = status_fail(DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)lattice->n_nodes);
-        goto out;
-    }
-    pack_springs(lattice, number, whole);
-    pack_triangles(lattice, number, whole);
-    pack_nodes(lattice, keep);
-    lattice->n_nodes = n;
-out:
-    free(number);
-    free(whole);
+    return select_both(lattice, keep, NULL);
+}
+
+dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep)
+{
+    TRY(lattice_check(lattice));
+    CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
+    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be trimmed: %lld springs",
+          (long long)lattice->n_springs);
+    unsigned char *used = lattice_zeros(lattice->n_nodes, sizeof *used);
+    CHECK_MEMORY(used);
+    for (dem_index k = 0; k < 3 * lattice->n_triangles; k++)
+        if (keep[k / 3]) used[lattice->triangles[k]] = 1;
+    const dem_status status = select_both(lattice, used, keep);
+    free(used);
     return status;
 }
 
@@ -350,6 +421,27 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         lattice->velocity[2 * i] += velocity[0];
         lattice->velocity[2 * i + 1] += velocity[1];
+    }
+    return DEM_OK;
+}
+
+dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
+{
+    TRY(lattice_check(lattice));
+    CHECK(isfinite(angular_velocity), DEM_ERROR_ARGUMENT, "the angular velocity %g rad/s is not finite",
+          angular_velocity);
+    CHECK(lattice->mass != NULL, DEM_ERROR_MODEL, "a lattice without masses has no centre of mass to turn about");
+    TRY(dem_lattice_launch(lattice, (const double[2]){0.0, 0.0})); /* there are velocities then */
+    const double *x = lattice->position != NULL ? lattice->position : lattice->x;
+    vec2 centre = {0.0, 0.0};
+    double mass = 0.0;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        centre = vec2_along(centre, lattice->mass[i], vec2_at(x, i));
+        mass += lattice->mass[i];
+    }
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        const vec2 arm = vec2_along(vec2_at(x, i), -1.0 / mass, centre), before = vec2_at(lattice->velocity, i);
+        vec2_put(lattice->velocity, i, vec2_along(before, angular_velocity, (vec2){-arm.y, arm.x}));
     }
     return DEM_OK;
 }

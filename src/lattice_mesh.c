@@ -239,17 +239,18 @@ dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, cons
     CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
     CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be cut: %lld springs",
           (long long)lattice->n_springs);
-    unsigned char *stays = lattice_zeros(2 * lattice->n_nodes, sizeof *stays);
-    CHECK_MEMORY(stays);
-    unsigned char *used = stays + lattice->n_nodes;
-    for (dem_index i = 0; i < lattice->n_nodes; i++) stays[i] = keep(context, lattice->x + 2 * i) != 0;
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
+    unsigned char *stays = lattice_zeros(lattice->n_nodes, sizeof *stays);
+    unsigned char *whole = lattice_zeros(lattice->n_triangles, sizeof *whole);
+    const bool complete = stays != NULL && whole != NULL;
+    for (dem_index i = 0; complete && i < lattice->n_nodes; i++) stays[i] = keep(context, lattice->x + 2 * i) != 0;
+    for (dem_index t = 0; complete && t < lattice->n_triangles; t++) {
         const dem_index *corner = lattice->triangles + 3 * t;
-        if (stays[corner[0]] && stays[corner[1]] && stays[corner[2]])
-            used[corner[0]] = used[corner[1]] = used[corner[2]] = 1;
+        whole[t] = stays[corner[0]] && stays[corner[1]] && stays[corner[2]];
     }
-    const dem_status status = dem_lattice_select(lattice, used);
+    const dem_status status =
+        complete ? dem_lattice_trim(lattice, whole) : status_fail(DEM_ERROR_MEMORY, "out of memory");
     free(stays);
+    free(whole);
     return status;
 }
 

@@ -9,9 +9,13 @@
 #include "contact.h"
 #include "diagnostics.h"
 #include "integrator.h"
+#include "overlap.h"
 #include "status.h"
 
-enum { max_observers = 8 };
+enum {
+    max_observers = 8,
+    between_looks = 16 /* accepted steps, for overlaps */
+};
 
 static const double window_share = 0.1; /* of 1/omega_max: default window, by the table in docs/method.md */
 
@@ -31,6 +35,7 @@ struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
     boundaries boundaries;
+    overlap overlap;
     contact contact;
     integrator *integrator;
     double t;      /* s, of y */
@@ -46,7 +51,8 @@ struct dem_simulation {
     dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
     dem_index n_contacts;
     measures *measures;
-    bool damped; /* whether springs or masses are */
+    bool damped;  /* whether springs or masses are */
+    int unlooked; /* steps since overlaps were looked for */
     dem_index events;
     watcher watchers[max_observers];
     int n_watchers;
@@ -223,6 +229,12 @@ static dem_status go_on(dem_simulation *s, dem_status status)
     return status == DEM_ERROR_CONTACT ? status : first_of(status, tell_step(s));
 }
 
+static void look_for_overlaps(dem_simulation *s)
+{
+    overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
+    s->unlooked = 0;
+}
+
 static dem_status commit_step(dem_simulation *s)
 {
     const contact_listener listener = {tell_event, s};
@@ -232,6 +244,7 @@ static dem_status commit_step(dem_simulation *s)
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
+    if (++s->unlooked >= between_looks) look_for_overlaps(s);
     if (!s->at_event) return tell_step(s);
     s->events++;
     return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
@@ -385,6 +398,8 @@ static dem_status set_up(dem_simulation *s)
                                         .max_step = o->max_step,
                                         .fixed_step = o->fixed_step};
     TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
+    TRY(overlap_create(&s->overlap, &model->lattice));
+    look_for_overlaps(s);
     look_at(s, 0.0, s->y);
     return DEM_OK;
 }
@@ -412,6 +427,7 @@ void dem_simulation_destroy(dem_simulation *s)
     integrator_destroy(s->integrator);
     contact_destroy(&s->contact);
     boundaries_free(&s->boundaries);
+    overlap_destroy(&s->overlap);
     free(s->y);
     free(s->frame);
     free(s->contacts);
@@ -478,9 +494,18 @@ void dem_simulation_forces(const dem_simulation *s, double *force)
 
 void dem_simulation_stress(const dem_simulation *s, double *stress)
 {
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) dem_simulation_stress_at(s, i, stress + 3 * i);
+}
+
+void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
+{
     const dem_model *m = s->model;
-    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
-        stress_of_node(&m->stress, &m->lattice, &m->triangles, i, s->seen, stress + 3 * i);
+    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, s->seen, stress);
+}
+
+dem_overlap dem_simulation_overlap(const dem_simulation *s)
+{
+    return s->overlap.found;
 }
 
 dem_counts dem_simulation_counts(const dem_simulation *s)

@@ -46,6 +46,13 @@ static inline vec2 springs_damping(const springs *s, dem_index i, const double *
     return force;
 }
 
+/** (d - d0)/d0 of spring k of a lattice. */
+static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, const double *x)
+{
+    const vec2 d = vec2_sub(vec2_at(x, lattice->ends[2 * k + 1]), vec2_at(x, lattice->ends[2 * k]));
+    return (vec2_norm(d) - lattice->rest_length[k]) / lattice->rest_length[k];
+}
+
 /** r x f of spring k of a lattice, N m: xx, yy, xy of E_ij (d - d0)/d0 d n n^T, symmetric; the damping left out. Not
  *  finite where its ends coincide. */
 static inline void springs_virial(const dem_lattice *lattice, dem_index k, const double *x, double virial[3])

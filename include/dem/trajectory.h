@@ -14,12 +14,43 @@ extern "C" {
 
 typedef struct dem_trajectory dem_trajectory;
 
+/** Arrays of the frames, beside the positions. */
+enum {
+    DEM_FIELD_DISPLACEMENT = 1,
+    DEM_FIELD_VELOCITY = 2,
+    DEM_FIELD_STRESS = 4,     /**< of the nodes: dem_simulation_stress() */
+    DEM_FIELD_VON_MISES = 8,  /**< dem_stress_von_mises() */
+    DEM_FIELD_PRINCIPAL = 16, /**< both principal stresses */
+    DEM_FIELD_STRAIN = 32,    /**< of the springs */
+    DEM_FIELD_FORCE = 64,
+    DEM_FIELD_ALL = 127
+};
+
+typedef enum dem_probe_kind {
+    DEM_PROBE_NODE,   /**< t, x, v, stress, von_mises */
+    DEM_PROBE_SPRING, /**< t, strain, force */
+    DEM_PROBE_GAUGE   /**< t, length, strain of the distance between two nodes */
+} dem_probe_kind;
+
+/** What is recorded over time in the table /probes/NAME, at t = 0 and at every `every`-th accepted step. */
+typedef struct dem_probe {
+    const char *name; /**< 1 to 63 letters, digits, _ and -; of no other probe */
+    dem_probe_kind kind;
+    dem_index number[2]; /**< of the node or spring; of a gauge's two nodes, which are apart at rest */
+    dem_index every;     /**< >= 1 */
+} dem_probe;
+
 typedef struct dem_trajectory_options {
-    size_t struct_size;    /**< set by dem_trajectory_options_default() */
-    double frame_interval; /**< s between frames; <= 0: none, only the history */
-    int double_precision;  /**< 0: displacement, velocity, strain, force in single precision; 1: in double */
-    int deflate;           /**< compression 0 (none) to 9; default 1 */
-    int events;            /**< 1: the table /events of all contact events; default 0 */
+    size_t struct_size;     /**< set by dem_trajectory_options_default() */
+    double frame_interval;  /**< s between frames; <= 0: none, only the history */
+    int double_precision;   /**< 0: displacement, velocity, strain, force in single precision; 1: in double */
+    int deflate;            /**< compression 0 (none) to 9; default 1 */
+    int events;             /**< 1: the table /events of all contact events; default 0 */
+    uint32_t fields;        /**< DEM_FIELD_... ORed; default all but DEM_FIELD_PRINCIPAL */
+    const dem_peaks *peaks; /**< written by dem_trajectory_finish(), until when they are borrowed; default NULL: none */
+    dem_index most_stressed; /**< nodes and springs of the peaks that are listed; default 5 */
+    dem_index n_probes;      /**< default 0 */
+    const dem_probe *probes; /**< [n_probes] copied */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)
@@ -27,6 +58,8 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
     dem_trajectory_options options = {0};
     options.struct_size = sizeof options;
     options.deflate = 1;
+    options.most_stressed = 5;
+    options.fields = DEM_FIELD_ALL & ~DEM_FIELD_PRINCIPAL;
     return options;
 }
 
@@ -42,7 +75,8 @@ DEM_API dem_observer dem_trajectory_observer(dem_trajectory *trajectory);
 /** Stores a string in /provenance under `name`. */
 DEM_API dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text);
 
-/** Writes what is buffered, syncs, and renames the part to its final name, replacing a file of that name. */
+/** Writes what is buffered, and the peaks, syncs, and renames the part to its final name, replacing a file of that
+ *  name. */
 DEM_API dem_status dem_trajectory_finish(dem_trajectory *trajectory);
 
 /** Accepts NULL. Without a finish before it the part file stays as of its last frame. */

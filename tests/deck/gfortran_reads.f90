@@ -29,26 +29,36 @@ contains
 
   subroutine read_body()
     character(4096) :: shape, lattice, material, disconnected, file
-    real(dp) :: size(2), radius, spacing, position(2), angle, clearance, velocity(2)
-    namelist /body/ shape, size, radius, lattice, spacing, material, position, angle, clearance, velocity, &
-      disconnected, file
+    real(dp), save :: points(20000)
+    real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), spin, scale, threshold
+    namelist /body/ shape, size, radius, inner_radius, points, lattice, spacing, material, position, angle, clearance, &
+      velocity, spin, disconnected, file, scale, threshold
     read (unit, nml=body, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_void()
     integer :: body
     character(4096) :: shape
-    real(dp) :: centre(2), radius, size(2)
-    namelist /void/ body, shape, centre, radius, size
+    real(dp), save :: points(20000)
+    real(dp) :: centre(2), radius, inner_radius, size(2), angle
+    namelist /void/ body, shape, centre, radius, inner_radius, size, points, angle
     read (unit, nml=void, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_pores()
     integer :: body, number
     integer(selected_int_kind(18)) :: seed
-    real(dp) :: radius(2), wall
-    namelist /pores/ body, number, radius, wall, seed
+    character(4096) :: distribution
+    real(dp) :: porosity, radius(2), mean, deviation, wall
+    namelist /pores/ body, number, porosity, radius, distribution, mean, deviation, wall, seed
     read (unit, nml=pores, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_crack()
+    integer :: body
+    real(dp), save :: points(20000)
+    namelist /crack/ body, points
+    read (unit, nml=crack, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_boundary()
@@ -70,11 +80,11 @@ contains
   end subroutine
 
   subroutine read_contact()
-    character(4096) :: method
+    character(4096) :: method, overlap
     real(dp) :: window, skin, rest_speed
     logical :: vertices
     integer :: max_impacts
-    namelist /contact/ method, window, vertices, skin, rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, overlap, skin, rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 
@@ -88,10 +98,19 @@ contains
   subroutine read_output()
     character(4096) :: name, precision
     real(dp) :: frame_interval, closure
-    integer :: deflate
+    character(32) :: fields(7)
+    integer :: deflate, peak_every, most_stressed
     logical :: events
-    namelist /output/ name, frame_interval, precision, deflate, events, closure
+    namelist /output/ name, frame_interval, precision, deflate, events, closure, fields, peak_every, most_stressed
     read (unit, nml=output, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_probe()
+    character(4096) :: name, kind
+    real(dp) :: place(4)
+    integer :: body, number(2), every
+    namelist /probe/ name, kind, place, body, number, every
+    read (unit, nml=probe, iostat=status, iomsg=message)
   end subroutine
 
   !> Number of lines that begin with the group.
@@ -143,9 +162,11 @@ program gfortran_reads
   call read_all('body', read_body)
   call read_all('void', read_void)
   call read_all('pores', read_pores)
+  call read_all('crack', read_crack)
   call read_all('boundary', read_boundary)
   call read_all('obstacle', read_obstacle)
   call read_all('contact', read_contact)
   call read_all('solver', read_solver)
   call read_all('output', read_output)
+  call read_all('probe', read_probe)
 end program

@@ -3,7 +3,7 @@
 """Reads a trajectory as its users do, with VTK's reader and with h5py, and compares the two value by value; holds the
 history and the table of events against the laws of momentum and energy.
 
-usage: read_vtkhdf.py RUN.vtkhdf [--expect-frames N] [--interval DT] [--bounces N]
+usage: read_vtkhdf.py RUN.vtkhdf [--expect-frames N] [--interval DT] [--bounces N] [--fields NAME,...] [--probes N]
 Exit code: 0 all equal, 1 a difference, 77 a Python package is missing."""
 import argparse
 import os
@@ -94,7 +94,7 @@ def frame_of(vtk_group, kind, name, frame, n_frames):
     """The rows of frame `frame`, found from the shape alone and checked against the stored offset."""
     data = vtk_group[f"{kind}/{name}"]
     offset = vtk_group[f"Steps/{kind}Offsets/{name}"][frame]
-    changes = kind == "FieldData" or name not in ("id", "body")
+    changes = kind == "FieldData" or not (name in ("id", "body") or name.startswith("peak_"))
     rows = data.shape[0] // n_frames if changes else data.shape[0]
     same(f"offset of {kind}/{name}", offset, frame * rows if changes else 0)
     return data[offset:offset + rows]
@@ -117,20 +117,134 @@ def check_frame(file, grid, frame, n_frames):
 
 
 def check_physics(here, lattice, points, vtk_group, frame, n_frames):
-    x = lattice["x"][...]
-    displacement = frame_of(vtk_group, "PointData", "displacement", frame, n_frames)
-    strain = frame_of(vtk_group, "CellData", "strain", frame, n_frames)
-    force = frame_of(vtk_group, "CellData", "force", frame, n_frames)
-    moved = points[:, :2] - x
+    found = {name: frame_of(vtk_group, kind, name, frame, n_frames)
+             for kind in ("PointData", "CellData") for name in vtk_group[kind]}
     same(here + "z", points[:, 2], np.zeros(len(points)))
-    close(here + "displacement", displacement[:, :2], moved, 2e-7 * np.max(np.abs(moved), initial=0.0))
-    ends, rest = lattice["ends"][...], lattice["rest_length"][...]
-    length = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
-    expected = (length - rest) / rest
-    largest = np.max(np.abs(expected), initial=0.0)
-    close(here + "strain", strain, expected, 2e-7 * largest + 1e-13)
-    stiffness = lattice["stiffness"][...]
-    close(here + "force", force, stiffness * expected, (2e-7 * largest + 1e-13) * np.max(stiffness, initial=0.0))
+    moved = points[:, :2] - lattice["x"][...]
+    ends, rest, stiffness = (lattice[name][...] for name in ("ends", "rest_length", "stiffness"))
+    strain = (np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1) - rest) / rest
+    largest = np.max(np.abs(strain), initial=0.0)
+    if "displacement" in found:
+        close(here + "displacement", found["displacement"][:, :2], moved, 2e-7 * np.max(np.abs(moved), initial=0.0))
+    if "strain" in found:
+        close(here + "strain", found["strain"], strain, 2e-7 * largest + 1e-13)
+    if "force" in found:
+        close(here + "force", found["force"], stiffness * strain,
+              (2e-7 * largest + 1e-13) * np.max(stiffness, initial=0.0))
+    check_stresses(here, lattice, points[:, :2], found)
+
+
+def von_mises_of(stress):
+    xx, yy, xy = stress[:, 0], stress[:, 1], stress[:, -1 if stress.shape[1] == 3 else 3]
+    return np.sqrt(xx * xx - xx * yy + yy * yy + 3.0 * xy * xy)
+
+
+def check_stresses(here, lattice, points, found):
+    """Those in double precision must agree with the triangles' to rounding, others to that of single precision."""
+    if "stress" not in found:
+        return
+    stress, expected = found["stress"], stress_of(lattice, points)
+    scale = 1e-300 + np.max(np.abs(expected), initial=0.0)
+    modulus = np.max(lattice["modulus"][...], initial=0.0) if "modulus" in lattice else 0.0
+    close(here + "stress", stress[:, [0, 1, 3]], expected, 2e-7 * scale + 1e-11 * modulus)
+    same(here + "stress across the plane", stress[:, [2, 4, 5]], np.zeros((len(stress), 3)))
+    if "von_mises" in found:
+        close(here + "von Mises", found["von_mises"], von_mises_of(stress), 1e-6 * scale)
+    if "principal_stress" in found:
+        tensors = np.stack([stress[:, [0, 3]], stress[:, [3, 1]]], axis=1)
+        close(here + "principal stress", found["principal_stress"], np.linalg.eigvalsh(tensors)[:, ::-1], 1e-6 * scale)
+
+
+def slopes_of(lattice, area, rest_area):
+    """dW/dA of the triangles: area term and folding guard."""
+    J, n = area / rest_area, len(area)
+    guard = lattice["guard"][...] if "guard" in lattice else np.zeros(n)
+    kappa = lattice["area_stiffness"][...] if "area_stiffness" in lattice else np.zeros(n)
+    capped = np.clip(J, 0.05, 0.4)
+    L = np.log(0.4 / capped)
+    bend = (6.0 * L + 3.0 * L * L) / capped**2
+    return kappa * (J - 1.0) + guard * (-3.0 * L * L / capped + np.minimum(J - capped, 0.0) * bend)
+
+
+def stress_of(lattice, points):
+    """Triangle by triangle: a side's r x f by the share of modulus * thickness * area, then the mean at the nodes."""
+    n, corners = len(points), lattice["triangles"][...] if "triangles" in lattice else np.empty((0, 3), int)
+    x, count = lattice["x"][...], len(corners)
+    thickness = lattice["thickness"][...] if "thickness" in lattice else np.ones(count)
+    modulus = lattice["modulus"][...] if "modulus" in lattice else np.ones(count)
+
+    def areas(at):
+        a, b, c = (at[corners[:, k]] for k in range(3))
+        return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+    rest_area, area = areas(x), areas(points)
+    springs = {tuple(sorted(pair)): k for k, pair in enumerate(lattice["ends"][...].tolist())}
+    side = np.array([[springs[tuple(sorted((t[k], t[(k + 1) % 3])))] for k in range(3)] for t in corners.tolist()],
+                    dtype=int).reshape(-1, 3)
+    weight = modulus * thickness * rest_area
+    sums = np.zeros(len(springs))
+    np.add.at(sums, side, weight[:, None])
+    i, j = lattice["ends"][...].T
+    r, rest = points[j] - points[i], lattice["rest_length"][...]
+    length = np.linalg.norm(r, axis=1)
+    tension = lattice["stiffness"][...] * (length - rest) / rest / length
+    virial = tension[:, None] * np.stack([r[:, 0]**2, r[:, 1]**2, r[:, 0] * r[:, 1]], axis=1)
+    of_triangle = np.einsum("tk,tkc->tc", weight[:, None] / sums[side], virial[side])
+    of_triangle[:, :2] += (area * slopes_of(lattice, area, rest_area))[:, None]
+    total, volume = np.zeros((n, 3)), np.zeros(n)
+    np.add.at(total, corners, of_triangle[:, None, :] / 3.0)
+    np.add.at(volume, corners, (thickness * rest_area)[:, None] / 3.0)
+    return total / np.where(volume > 0.0, volume, 1.0)[:, None]
+
+
+def check_peaks(file):
+    """The arrays against the lists, and both against the instants of the history."""
+    nodes, springs, vtk_group = file["most_stressed/nodes"], file["most_stressed/springs"], file["VTKHDF"]
+    lattice, t = file["lattice"], file["history/t"][...]
+    size, strain = vtk_group["PointData/peak_von_mises"][...], vtk_group["CellData/peak_strain"][...]
+    close("von Mises of peaks", size, von_mises_of(vtk_group["PointData/peak_stress"][...]), 1e-6 * np.max(size, initial=0.0))
+    for found, values, name, key in ((nodes, size, "node", "von_mises"), (springs, np.abs(strain), "spring", "strain")):
+        ranks = found[key][...]
+        if np.any(np.diff(np.abs(ranks)) > 0):
+            sys.exit(f"most stressed: {key} is in no order")
+        close(f"most stressed {name}", np.abs(ranks), np.sort(values)[::-1][:len(ranks)], 1e-6 * np.max(values, initial=0.0))
+        close(f"value of {name}", values[found[name][...]], np.abs(ranks), 1e-6 * np.max(values, initial=0.0))
+        same(f"instants of {name}", np.isin(found["t"][...], t), np.ones(len(ranks), bool))
+    for name in ("PointData/peak_von_mises_time", "CellData/peak_strain_time"):
+        same(name, np.isin(vtk_group[name][...], t), np.ones(len(vtk_group[name]), bool))
+    close("stress of the most stressed", von_mises_of(nodes["stress"][...]), nodes["von_mises"][...],
+          1e-12 * np.max(size, initial=0.0))
+    same("place of nodes", nodes["x"][...], lattice["x"][...][nodes["node"][...]])
+    chosen = springs["spring"][...]
+    close("place of springs", springs["x"][...], lattice["x"][...][lattice["ends"][...][chosen]].mean(axis=1), 1e-15)
+    close("force of springs", springs["force"][...], lattice["stiffness"][...][chosen] * springs["strain"][...], 1e-9)
+
+
+PROBE_COLUMNS = {"node": {"t": "s", "x": "m", "v": "m/s", "stress": "Pa", "von_mises": "Pa"},
+                 "spring": {"t": "s", "strain": "1", "force": "N"}, "gauge": {"t": "s", "length": "m", "strain": "1"}}
+
+
+def check_probe(probe, file):
+    """Instants, units, and the first row against the first frame's positions."""
+    kind, number = probe.attrs["kind"].decode(), np.atleast_1d(probe.attrs["number"])
+    units = {name: probe[name].attrs["unit"].decode() for name in probe}
+    same("columns of a probe", sorted(units.items()), sorted(PROBE_COLUMNS[kind].items()))
+    same("instants of a probe", probe["t"][...], file["history/t"][...][::probe.attrs["every"]])
+    lattice, points = file["lattice"], file["VTKHDF/Points"][...][:len(file["lattice/x"]), :2]
+    if kind == "node":
+        same("place of a probe", probe["x"][0], points[number[0]])
+        close("stress of a probe", probe["stress"][0], stress_of(lattice, points)[number[0]], 1.0)
+        close("von Mises of a probe", probe["von_mises"][...], von_mises_of(probe["stress"][...]), 1e-6)
+        return
+    ends = lattice["ends"][...][number[0]] if kind == "spring" else number
+    length = np.linalg.norm(points[ends[1]] - points[ends[0]])
+    rest = np.linalg.norm(np.diff(lattice["x"][...][ends], axis=0)) if kind == "gauge" else \
+        lattice["rest_length"][number[0]]
+    close("strain of a probe", probe["strain"][0], length / rest - 1.0, 1e-13)
+    if kind == "gauge":
+        close("length of a gauge", probe["length"][...], rest * (1.0 + probe["strain"][...]), 1e-13 * rest)
+    else:
+        close("force of a probe", probe["force"][...], lattice["stiffness"][number[0]] * probe["strain"][...], 1e-9)
 
 
 def check_history(history):
@@ -266,6 +380,8 @@ def main():
     parser.add_argument("--expect-frames", type=int)
     parser.add_argument("--interval", type=float)
     parser.add_argument("--bounces", type=int)
+    parser.add_argument("--fields")
+    parser.add_argument("--probes", type=int, default=0)
     options = parser.parse_args()
     with h5py.File(options.path, "r") as file:
         grid = Grid(options.path)
@@ -282,6 +398,17 @@ def main():
         rows = check_history(file["history"])
         check_fields(file["VTKHDF"], file["history"])
         events = check_events(file) if "events" in file else "no"
+        if "most_stressed" in file:
+            check_peaks(file)
+        probes = list(file.get("probes", {}).values())
+        same("number of probes", len(probes), options.probes)
+        for probe in probes:
+            check_probe(probe, file)
+        if options.fields is not None:
+            vtk_group = file["VTKHDF"]
+            found = {*vtk_group["PointData"], *vtk_group["CellData"]} - {"id", "body", "broken"}
+            same("fields", sorted(name for name in found if not name.startswith("peak_")),
+                 sorted(options.fields.split(",")))
         if options.bounces is not None:
             check_bounces(file, options.bounces)
         size = file["lattice/x"].shape[0], file["lattice/ends"].shape[0]

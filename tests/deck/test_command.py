@@ -146,8 +146,8 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "contact", "impacts", "scales", "time", "constants", "frequency",
-                          "estimate"])
+                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "constants",
+                          "frequency", "estimate"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -155,6 +155,11 @@ class Check(Case):
         self.assertTrue(1 - 4 <= nodes - springs + triangles <= 0, "Euler: one piece with up to four holes")
         self.assertEqual(bodies, 1)
         self.assertTrue(0.7 < mass / (1050 * 0.08 * 0.13) < 1.01)
+        area = 0.08 * 0.13 - math.pi * (6e-3 ** 2 + 8e-3 ** 2 + 5e-3 ** 2 + 4e-3 ** 2)
+        body, got, true, ratio = numbers("mass       body #: # kg, of the true shape # kg (ratio #)", out)
+        self.assertEqual((body, got), (1, mass))
+        self.assertAlmostEqual(true / (1050 * area), 1, delta=1e-5)
+        self.assertAlmostEqual(got / true, ratio, delta=1e-4)
         may_touch, obstacles, segments = numbers("contact    # nodes may touch # obstacle of # segments", out)
         self.assertTrue(0 < may_touch < nodes)
         self.assertEqual((obstacles, segments), (1, 8))

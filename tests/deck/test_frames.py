@@ -14,12 +14,20 @@ except ImportError as error:
 
 DEM_BATCH, INPUTS, READER = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 
+PROBES = """
+&probe name = 'spring', kind = 'spring', number = 7, every = 3 /
+&probe name = 'gauge', kind = 'gauge', place = 0, 0, 0, 0.1 /
+"""
+
 DECKS = [
-    # name, changes, frames, interval
-    ("rectangle", {"2.5e-3": "1e-2", "'rectangle'\n    frame": "'rectangle'\n    events = T\n    frame"}, 21, 1e-3),
-    ("disc", {"2.5e-3": "1e-2", "t_end   = 20e-3": "t_end   = 7e-3"}, 8, 1e-3),
-    ("every_key", {"precision = 'single'": "precision = 'double'", "deflate = 1": "deflate = 0",
-                   "events = .false.": "events = .true."}, 6, 1e-3),
+    # name, changes, frames, interval, further options
+    ("rectangle", {"2.5e-3": "1e-2", "'rectangle'\n    frame": "'rectangle'\n    events = T\n    frame"}, 21, 1e-3, []),
+    ("disc", {"2.5e-3": "1e-2", "t_end   = 20e-3": "t_end   = 7e-3",
+              "name           = 'disc'": "name = 'disc', fields = 'stress', peak_every = 0"}, 8, 1e-3, ["--fields", "stress"]),
+    ("every_key", {"poissons_ratio = 0.3333333333333333": "poissons_ratio = 0.45", "precision = 'single'": "precision = 'double'", "deflate = 1": "deflate = 0",
+                   "events = .false.": "events = .true.", "'force'\n": "'force', 'principal'\n",
+                   "&probe\n": PROBES + "&probe\n"}, 6, 1e-3,
+     ["--probes", "3", "--fields", "displacement,velocity,stress,von_mises,principal_stress,strain,force"]),
 ]
 
 # A point of 2 kg is thrown onto a floor, against a wall and onto the floor again.
@@ -40,13 +48,13 @@ def check(name, text, folder, *options):
     return subprocess.run(command, check=False).returncode
 
 
-def check_input(name, changes, frames, interval):
+def check_input(name, changes, frames, interval, options):
     text = pathlib.Path(INPUTS, f"{name}.nml").read_text(encoding="utf-8")
     for old, new in changes.items():
         assert old in text, f"{old} is not in {name}.nml"
         text = text.replace(old, new, 1)
     with tempfile.TemporaryDirectory() as folder:
-        return check(name, text, folder, "--expect-frames", frames, "--interval", interval)
+        return check(name, text, folder, "--expect-frames", frames, "--interval", interval, *options)
 
 
 def check_bounce():

@@ -56,6 +56,19 @@ def without(text, *parts):
 
 
 DISC = edit(BASE, "'rectangle' -> 'disc'", "size = 0.04, 0.05 -> radius = 0.03")
+RING = edit(BASE, "'rectangle' -> 'ring'", "size = 0.04, 0.05 -> radius = 0.03, inner_radius = 0.01")
+POLYGON = edit(BASE, "'rectangle' -> 'polygon'", "size = 0.04, 0.05 -> points = 0,0, 0.04,0, 0.04,0.05, 0,0.05")
+MASK = edit(BASE, "'rectangle' -> 'mask'", "size = 0.04, 0.05 -> file = 'good.pgm', scale = 0.01")
+MESH = without(edit(BASE, "'rectangle' -> 'mesh'", "size = 0.04, 0.05 -> file = 'good.msh', scale = 0.01"),
+               "    spacing = 0.01\n")
+FILES = {  # beside the decks
+    "good.pgm": "P2 4 5 1\n" + 5 * "1 1 1 1\n", "black.pgm": "P2 4 5 1\n" + 5 * "0 0 0 0\n",
+    "bad.pgm": "P2\n# 2 x 2\n2 2\n255\n0 1\n2 256\n", "large.pgm": "P5 30000 30000 255\nxyz",
+    "good.msh": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
+                "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n"}
+FILES["bad.msh"] = FILES["good.msh"].replace("1 1 2 3\n", "1 1 2 4\n")
+FILES["large.msh"] = FILES["good.msh"].replace("1 3 1 3", "1 4000000000 1 3")
+FILES["quads.msh"] = FILES["good.msh"].replace("2 1 2 1\n", "2 1 3 1\n")
 FILE = without(edit(BASE, "'rectangle' -> 'file'", "size = 0.04, 0.05 -> file = 'part.h5'"),
                "    spacing = 0.01\n", "    material = 'rubber'\n")
 OBSTACLE = "&obstacle\n    points = -0.1, 0, 0.1, 0\n    restitution = 0.5\n/\n"
@@ -240,9 +253,10 @@ DECKS = [
     ("deflate too large", edit(BASE, "frame_interval = 1e-4 -> deflate = 10"),
      ["25:15 'deflate' in &output must be in [0, 9], got 10"]),
     ("choice misspelt", edit(BASE, "'rectangle' -> 'rectangel'"),
-     ["12:13 'shape' in &body must be 'rectangle', 'disc' or 'file', got 'rectangel' (did you mean 'rectangle'?)"]),
+     ["12:13 'shape' in &body must be 'rectangle', 'disc', 'ring', 'polygon', 'mask', 'mesh' or 'file', got "
+      "'rectangel' (did you mean 'rectangle'?)"]),
     ("choice like no other", edit(BASE, "'rectangle' -> 'banana'"),
-     ["12:13 'shape' in &body must be 'rectangle', 'disc' or 'file', got 'banana'"]),
+     ["12:13 'shape' in &body must be 'rectangle', 'disc', 'ring', 'polygon', 'mask', 'mesh' or 'file', got 'banana'"]),
     ("method with its orders swapped", BASE + "&solver method = 'dopri54' /\n",
      ["27:18 'method' in &solver must be 'fehlberg45', 'dopri45', 'cashkarp45', 'zonneveld34' or 'bs23', got "
       "'dopri54' (did you mean 'dopri45'?)"]),
@@ -442,15 +456,124 @@ DECKS = [
      ["16:5 'clearance' in &body needs an &obstacle"]),
     ("clearance without gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 0"),
      ["16:5 'clearance' in &body needs gravity, which is 0"]),
+    # shapes
+    ("ring whose hole is larger", edit(RING, "inner_radius = 0.01 -> inner_radius = 0.03"),
+     ["13:20 'inner_radius' in &body must be less than 'radius', 0.03 m, got 0.03 m"]),
+    ("spacing larger than a ring is wide", edit(RING, "    spacing = 0.01 ->     spacing = 0.021"),
+     ["14:5 'spacing' in &body must not exceed the ring's width, 0.02 m, got 0.021 m"]),
+    ("keys missing for a ring", edit(BASE, "'rectangle' -> 'ring'"),
+     ["11:1 'radius' in &body must be given for shape 'ring'",
+      "11:1 'inner_radius' in &body must be given for shape 'ring'",
+      "13:5 'size' in &body is not used by shape 'ring'"]),
+    ("polygon of an odd number of coordinates", edit(POLYGON, "0,0.05 -> 0,0.05, 1"),
+     ["13:5 'points' in &body must be pairs of x and y, got 9 values"]),
+    ("polygon of two points", edit(POLYGON, "0.04,0.05, 0,0.05 -> 0,0"),
+     ["13:5 'points' in &body must be at least 3 points, got 2"]),
+    ("polygon of too many points", edit(POLYGON, "0,0.05 -> 20000*1"),
+     ["13:5 'points' in &body must be at most 10000 points, got 10003"]),
+    ("polygon with a side of no length", edit(POLYGON, "0.04,0.05 -> 0.04,0"),
+     ["13:5 'points' in &body: from point 2, (0.04, 0) m, to the next, (0.04, 0) m, is no length to compute with"]),
+    ("polygon that meets itself", edit(POLYGON, "0.04,0.05, 0,0.05 -> 0,0.05, 0.04,0.05"),
+     ["13:5 'points' in &body: the polygon meets itself: edge 2, from (0.04, 0) m, and edge 4, from (0.04, 0.05) m"]),
+    ("spacing larger than the polygon", edit(POLYGON, "    spacing = 0.01 ->     spacing = 0.041"),
+     ["14:5 'spacing' in &body must not exceed the polygon's extent, 0.04 m x 0.05 m, got 0.041 m"]),
+    ("polygon between nodes",
+     edit(POLYGON, "points = 0,0, 0.04,0, 0.04,0.05, 0,0.05 -> points = 0,0.001, 0.04,0.05, 0.0401,0.05"),
+     ["11:1 body 1: its outline, voids and pores leave none of 52 nodes"]),
+    ("void of a polygon that meets itself",
+     BASE + "&void shape = 'polygon', centre = 0, 0.02, points = 0,0, 1,1, 1,0, 0,1 /\n",
+     ["27:44 'points' in &void: the polygon meets itself: edge 1, from (0, 0) m, and edge 3, from (1, 0) m"]),
+    ("angle of a round void", BASE + "&void centre = 0, 0.02, radius = 0.005, angle = 0 /\n",
+     ["27:41 'angle' in &void is not used by shape 'disc'"]),
+    ("void of a polygon outside its body",
+     BASE + "&void shape = 'polygon', centre = 0, 0.02, points = 1,0, 2,0, 1,1 /\n",
+     ["27:26 void takes no node of body 1: its centre is in the body's own coordinates"]),
+    ("void of a mesh", MESH + "&void centre = 0, 0.02, radius = 0.005 /\n",
+     ["26:1 &void is for body 1, which is of shape 'mesh'"]),
+    ("pores of a mesh", MESH + "&pores number = 1, radius = 5e-3, 6e-3 /\n",
+     ["26:1 &pores is for body 1, which is of shape 'mesh'"]),
+    ("part on a node only", BASE + "&void shape = 'rectangle', centre = -0.0125, 0.017320508, size = 0.0235, 1e-3 /\n"
+     "&void shape = 'rectangle', centre = 0.0125, 0.017320508, size = 0.0235, 1e-3 /\n",
+     ["11:1 body 1 has 1 part that shares no edge with its largest, of 8 triangles at (-0.02, 0) m in its own "
+      "coordinates; 'disconnected' can remove or keep such parts"]),
+    # pores
+    ("pores without a number", BASE + "&pores radius = 5e-3, 6e-3 /\n",
+     ["27:1 'number' or 'porosity' in &pores must be given"]),
+    ("pores with a number and a porosity", BASE + "&pores number = 1, porosity = 0.1, radius = 5e-3, 6e-3 /\n",
+     ["27:20 'porosity' in &pores does not go with 'number'"]),
+    ("porosity of 1", BASE + "&pores porosity = 1, radius = 5e-3, 6e-3 /\n",
+     ["27:19 'porosity' in &pores must be in (0, 1), got 1"]),
+    ("porosity that needs too many pores", BASE + "&pores porosity = 0.1, radius = 2*1e-5 /\n",
+     ["27:8 'porosity' in &pores, 0.1, needs more than 10000 pores of such radii in body 1"]),
+    ("porosity that finds no place", BASE + "&pores porosity = 0.5, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
+     ["27:1 pore 9 of 11, of radius 0.00512812 m, finds no place in body 1 with walls of 0.001 m; take fewer or "
+      "smaller ones, or a thinner 'wall'"]),
+    ("normal pores without a mean", BASE + "&pores number = 1, radius = 5e-3, 6e-3, distribution = 'normal' /\n",
+     ["27:1 'mean' in &pores must be given for distribution 'normal'",
+      "27:1 'deviation' in &pores must be given for distribution 'normal'"]),
+    ("radii that hardly ever come", BASE + "&pores number = 1, radius = 5e-3, 6e-3, distribution = 'normal',\n"
+     "mean = 1, deviation = 1e-3 /\n",
+     ["28:1 'mean' and 'deviation' in &pores, 1 m and 0.001 m, give next to no radius from 0.005 m to 0.006 m"]),
+    # cracks
+    ("crack of an odd number of coordinates", BASE + "&crack points = 0, 0, 1, 1, 2 /\n",
+     ["27:8 'points' in &crack must be pairs of x and y, got 5 values"]),
+    ("crack of no length", BASE + "&crack points = 0, 0, 1, 1, 1, 1 /\n",
+     ["27:8 'points' in &crack: from point 2, (1, 1) m, to the next, (1, 1) m, is no length to compute with"]),
+    ("crack that misses its body", BASE + "&crack points = 0.03, 0, 0.03, 0.1 /\n",
+     ["27:8 crack crosses no triangle of body 1: its points are in the body's own coordinates"]),
+    ("crack of a body that does not exist", BASE + "&crack body = 2, points = 0.03, 0, 0.03, 0.1 /\n",
+     ["27:8 &crack is for body 2, but the number of bodies is 1"]),
+    ("crack of a lattice file", FILE + "&crack points = 0, 0, 1, 1 /\n",
+     ["25:1 &crack is for body 1, which is of shape 'file'"]),
+    ("crack that takes everything", MESH + "&crack points = 0, 0, 1, 1 /\n",
+     ["11:1 body 1: its cracks leave none of 1 triangles"]),
+    ("crack through the body", BASE + "&crack points = -0.1, 0.02, 0.1, 0.02 /\n",
+     ["11:1 body 1 has 1 part that shares no edge with its largest, of 14 triangles at (-0.02, 0) m in its own "
+      "coordinates; 'disconnected' can remove or keep such parts"]),
+    # masks and meshes
+    ("mask without a name", edit(MASK, "good.pgm -> "),
+     ["13:5 'file' in &body must name an image, got ''"]),
+    ("mask without a scale", without(MASK, ", scale = 0.01"),
+     ["11:1 'scale' in &body must be given for shape 'mask'"]),
+    ("mask missing", edit(MASK, "good -> none"),
+     ["13:5 body 1: none.pgm: No such file or directory"]),
+    ("mask that is no image", edit(MASK, "good.pgm -> deck.nml"),
+     ["13:5 body 1: deck.nml: neither a PGM image (P2, P5) nor a PNG image"]),
+    ("mask with a pixel too bright", edit(MASK, "good -> bad"),
+     ["13:5 body 1: bad.pgm:6: a pixel must be in [0, 255], got 256"]),
+    ("mask of absurd size", edit(MASK, "good -> large"),
+     ["13:5 body 1: large.pgm:1: 30000 x 30000 pixels take 900000000 bytes, but 3 follow the header"]),
+    ("mask that is black", edit(MASK, "good -> black"),
+     ["11:1 body 1: its outline, voids and pores leave none of 52 nodes"]),
+    ("spacing larger than the image", edit(MASK, "    spacing = 0.01 ->     spacing = 0.041"),
+     ["14:5 'spacing' in &body must not exceed the image, 0.04 m x 0.05 m, got 0.041 m"]),
+    ("threshold above 1", edit(MASK, "scale = 0.01 -> scale = 0.01, threshold = 1.1"),
+     ["13:50 'threshold' in &body must be in [0, 1], got 1.1"]),
+    ("mesh without a name", edit(MESH, "good.msh -> "),
+     ["13:5 'file' in &body must name a mesh, got ''"]),
+    ("mesh with a spacing", edit(MESH, "scale = 0.01 -> scale = 0.01, spacing = 0.01"),
+     ["13:38 'spacing' in &body is not used by shape 'mesh'"]),
+    ("mesh missing", edit(MESH, "good -> none"),
+     ["13:5 body 1: none.msh: No such file or directory"]),
+    ("mesh that is an image", edit(MESH, "good.msh -> good.pgm"),
+     ["13:5 body 1: good.pgm:1: '$MeshFormat' is expected, got 'P2'"]),
+    ("mesh with a node that is not there", edit(MESH, "good -> bad"),
+     ["13:5 body 1: bad.msh:17: there is no node 4"]),
+    ("mesh of absurd size", edit(MESH, "good -> large"),
+     ["13:5 body 1: large.msh:5: 4000000000 nodes do not fit in the 94 bytes that follow"]),
+    ("mesh of quadrangles", edit(MESH, "good -> quads"),
+     ["13:5 body 1: quads.msh:16: elements of type 3; only triangles of 3 nodes, type 2, can be read"]),
+    ("mesh scaled to nothing", edit(MESH, "scale = 0.01 -> scale = 1e-200"),
+     ["13:24 body 1: the area of a triangle, 0 m^2, is too small; its sides are 0 m"]),
     # geometry
     ("void that takes everything", BASE + "&void centre = 0, 0.02, radius = 1 /\n",
-     ["11:1 body 1: its voids and pores take all of its 32 nodes"]),
+     ["11:1 body 1: its outline, voids and pores leave none of 32 nodes"]),
     ("a loose part", BASE + "&void shape = 'rectangle', centre = 0, 0.025, size = 0.06, 0.02 /\n",
-     ["11:1 body 1 has 1 part that no spring connects to its largest, of 9 nodes, one at (-0.015, 0.0433013) m in "
+     ["11:1 body 1 has 1 part that shares no edge with its largest, of 7 triangles at (-0.015, 0.0433013) m in "
       "its own coordinates; 'disconnected' can remove or keep such parts"]),
     ("three loose parts", TALL,
-     ["11:1 body 1 has 3 parts that no spring connects to its largest, of 27, 14, 13 nodes, one at (-0.015, "
-      "0.112583) m in its own coordinates; 'disconnected' can remove or keep such parts"]),
+     ["11:1 body 1 has 3 parts that share no edge with its largest, of 35 triangles at (-0.015, 0.112583), 14 at "
+      "(-0.02, 0), 14 at (-0.015, 0.181865) m in its own coordinates; 'disconnected' can remove or keep such parts"]),
     ("pores that find no place", BASE + "&pores number = 20, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
      ["27:1 pore 8 of 20, of radius 0.00553882 m, finds no place in body 1 with walls of 0.001 m; take fewer or "
       "smaller ones, or a thinner 'wall'"]),
@@ -542,6 +665,8 @@ class Refused(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         (self.folder / "out").mkdir()
+        for name, text in FILES.items():
+            (self.folder / name).write_text(text, encoding="ascii")
 
     def snapshot(self):
         """Every file with its size and times; folders, whose times tell of what came and went."""

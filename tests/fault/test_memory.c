@@ -59,6 +59,9 @@ static dem_status build(dem_lattice *lattice)
     dem_index parts;
     dem_status status = dem_lattice_rectangle(lattice, 0.05, 0.03, 0.01);
     if (status == DEM_OK) status = dem_lattice_cut(lattice, left_half, NULL);
+    dem_index pieces, rims[32];
+    if (status == DEM_OK) status = dem_lattice_pieces(lattice, &pieces, NULL);
+    if (status == DEM_OK && lattice->n_nodes <= 32) status = dem_lattice_rims(lattice, rims);
     if (status == DEM_OK) status = dem_lattice_assemble(lattice, &rubber);
     if (status == DEM_OK) status = dem_lattice_launch(lattice, down);
     if (status == DEM_OK) status = dem_lattice_parts(lattice, &parts, NULL);
@@ -85,16 +88,26 @@ static dem_status write_and_run(dem_simulation *simulation)
 {
     dem_trajectory *trajectory = NULL;
     dem_trajectory_options options = dem_trajectory_options_default();
+    const dem_probe gauge = {"gauge", DEM_PROBE_GAUGE, {0, 1}, 2};
+    dem_peaks *peaks = NULL;
     options.frame_interval = 2e-4;
     options.events = 1;
-    dem_status status = dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options);
-    if (status != DEM_OK) return status;
+    options.n_probes = 1;
+    options.probes = &gauge;
+    dem_status status = dem_peaks_create(&peaks, dem_simulation_model(simulation), 3);
+    options.peaks = peaks;
+    if (status == DEM_OK) status = dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options);
+    if (status != DEM_OK) {
+        dem_peaks_destroy(peaks);
+        return status;
+    }
     const dem_observer observer = dem_trajectory_observer(trajectory);
     status = dem_trajectory_note(trajectory, "title", "memory runs out");
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, 6e-4);
     if (status == DEM_OK) status = dem_trajectory_finish(trajectory);
     dem_trajectory_destroy(trajectory);
+    dem_peaks_destroy(peaks);
     return status;
 }
 

@@ -11,25 +11,28 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "random", "commit"},
-    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "pores", "profile"},
-    {"lattice_mesh", "solid", "surface", "obstacle", "impact", "stress", "schema", "shape", "parts", "clearance", "grid", "table"},
-    {"model", "peaks", "events", "history", "lattice_file", "obstacle_file", "schema_table", "schema_print", "body", "loading", "uses"},
-    {"touch", "diagnostics", "integrator", "tangent"},
-    {"reaction", "books", "spectrum", "constants"},
-    {"site"},
-    {"sites", "search"},
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "hdf5_file", "scan", "namelist", "placement", "pores",
+     "profile", "file", "words", "image", "outline"},
+    {"lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts", "clearance", "grid", "table", "pgm", "png",
+     "msh", "crack"},
+    {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table", "schema_print",
+     "uses", "mask"},
+    {"touch", "diagnostics", "integrator", "tangent", "peaks_file", "shape", "loading", "probes"},
+    {"reaction", "books", "spectrum", "constants", "area"},
+    {"site", "form"},
+    {"sites", "search", "body"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
     {"simulation", "output", "relaxation", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
-BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice"), ("shape", "pores"),
-          ("pores", "shape"), ("body", "uses"), ("loading", "uses")}
+BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/integrator.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
-    (r'#include [<"]gsl/', {"drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
+    (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
+    (r"#include [<\"]cairo", {"drivers/png.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
     (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),

@@ -24,6 +24,7 @@ typedef struct built {
     resolved from;
     namelist_errors errors;
     body_scene scene;
+    body_facts facts;
     body_start start;
     dem_lattice lattice;
 } built;
@@ -36,7 +37,7 @@ static void build(built *b, const char *text, size_t k, const dem_obstacle *obst
     b->scene = (body_scene){&b->from.deck, "", obstacles, n_obstacles, {gravity[0], gravity[1]}};
     body_check_all(&b->from.deck, &b->errors);
     if (b->errors.n > 0) fail_msg("'%s' gives '%s'", text, b->errors.list[0].text);
-    assert_true(body_build(&b->lattice, &b->start, &b->scene, k, &b->errors));
+    assert_true(body_build(&b->lattice, &b->facts, &b->start, &b->scene, k, &b->errors));
 }
 
 static void build_good(built *b, const char *text, const dem_obstacle *obstacles, dem_index n_obstacles)
@@ -329,33 +330,6 @@ static void a_long_list_of_materials_is_cut(void **state)
     assert_checked(text, 72, "...");
 }
 
-static void voids_and_pores_name_a_body_that_is_there(void **state)
-{
-    (void)state;
-    assert_checked(RUN RUBBER BLOCK " /\n" DISC " /\n&void body = 2, centre = 0, 0, radius = 1 /", 0, NULL);
-    assert_checked(RUN RUBBER BLOCK " /\n" DISC " /\n&void body = 3, centre = 0, 0, radius = 1 /", 5, "3");
-    assert_checked(RUN RUBBER BLOCK " /\n&pores number = 3, radius = 1, 1 /", 0, NULL);
-    assert_checked(RUN RUBBER BLOCK " /\n&pores number = 3, radius = 1.1, 1 /", 4, "radius");
-    assert_checked(RUN RUBBER BLOCK " /\n&pores number = 3, radius = 1, 1, body = 2 /", 4, "2");
-}
-
-static void relative_files_start_at_the_decks_folder(void **state)
-{
-    (void)state;
-    resolved r = resolve_clean(RUN "&body shape = 'file', file = 'a/b.h5' /\n&body shape = 'file', file = '/c.h5' /");
-    const body_scene scene = {.groups = &r.deck, .folder = "decks/"}, here = {.groups = &r.deck, .folder = ""};
-    char *relative = body_file(&scene, schema_get(&r.deck, "body", 0));
-    char *absolute = body_file(&scene, schema_get(&r.deck, "body", 1));
-    char *plain = body_file(&here, schema_get(&r.deck, "body", 0));
-    assert_string_equal(relative, "decks/a/b.h5");
-    assert_string_equal(absolute, "/c.h5");
-    assert_string_equal(plain, "a/b.h5");
-    free(relative);
-    free(absolute);
-    free(plain);
-    drop_resolved(&r);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -374,8 +348,6 @@ int main(void)
         cmocka_unit_test(sizes_of_the_spacing_and_more_pass),
         cmocka_unit_test(files_need_no_material_and_others_do),
         cmocka_unit_test(a_long_list_of_materials_is_cut),
-        cmocka_unit_test(voids_and_pores_name_a_body_that_is_there),
-        cmocka_unit_test(relative_files_start_at_the_decks_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

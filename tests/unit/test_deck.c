@@ -175,6 +175,57 @@ static void poissons_ratio_and_plane_make_the_area_term(void **state)
     }
 }
 
+static void what_the_output_shows_finds_its_place(void **state)
+{
+    (void)state;
+    deck d =
+        good_deck(RUN RUBBER
+                  "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber' /\n"
+                  "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', position = 20, 5, angle = 90 /\n"
+                  "&output fields = 'strain', 'principal', 'strain', peak_every = 9, most_stressed = 3 /\n"
+                  "&probe name = 'one', number = 2 /\n"
+                  "&probe name = 'two', kind = 'gauge', place = -2, 0, 2, 0, body = 2, every = 5 /\n");
+    assert_int_equal(d.fields, DEM_FIELD_STRAIN | DEM_FIELD_PRINCIPAL);
+    assert_int_equal(d.peak_every, 9);
+    assert_int_equal(d.most_stressed, 3);
+    assert_int_equal(d.n_probes, 2);
+    assert_string_equal(d.probes[0].name, "one");
+    assert_int_equal(d.probes[0].number[0], 2);
+    assert_string_equal(d.probes[1].name, "two");
+    assert_int_equal(d.probes[1].kind, DEM_PROBE_GAUGE);
+    assert_int_equal(d.probes[1].every, 5);
+    for (int k = 0; k < 2; k++) { /* the ends of the disc's diameter along its own x are one above the other */
+        assert_close(d.lattice.x[2 * d.probes[1].number[k]], 20.0, 1e-14);
+        assert_close(d.lattice.x[2 * d.probes[1].number[k] + 1], k == 0 ? 3.0 : 7.0, 1e-14);
+    }
+    deck_free(&d);
+}
+
+/* The clearance moves the body by some metres; the place goes with it. */
+static void a_probe_s_place_moves_with_the_clearance(void **state)
+{
+    (void)state;
+    deck d = good_deck(RUN RUBBER FLOOR "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', "
+                                        "position = 3, 50, clearance = 1 /\n&probe name = 'top', place = 0, 2 /\n");
+    const dem_index top = d.probes[0].number[0];
+    for (dem_index i = 0; i < d.lattice.n_nodes; i++)
+        assert_true(d.lattice.x[2 * i + 1] <= d.lattice.x[2 * top + 1] + 1e-14);
+    assert_true(d.lattice.x[2 * top + 1] < 10.0);
+    deck_free(&d);
+}
+
+static void faults_of_probes_come_with_the_others(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
+                             "&probe name = 'a' /\n&probe name = 'b', number = 1, place = 0, 0 /\n",
+                  "4:1: &probe needs 'place' or 'number'\n"
+                  "5:32: &probe needs 'place' or 'number', not both\n");
+    expect_errors(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
+                             "&probe name = 'a', number = 19 /\n",
+                  "4:20: probe 'a': there is no such node; they are numbered from 0, and there are 19\n");
+}
+
 static void a_window_of_zero_is_not_the_default(void **state)
 {
     (void)state;
@@ -225,6 +276,10 @@ static void keys_not_given_are_left_to_the_library(void **state)
     assert_int_equal(d.double_precision, 0);
     assert_int_equal(d.deflate, 1);
     assert_int_equal(d.events, 0);
+    assert_int_equal(d.fields, dem_trajectory_options_default().fields);
+    assert_int_equal(d.most_stressed, dem_trajectory_options_default().most_stressed);
+    assert_int_equal(d.peak_every, 4);
+    assert_int_equal(d.n_probes, 0);
     assert_string_equal(d.title, "");
     assert_int_equal(d.lattice.n_nodes, 19);
     deck_free(&d);
@@ -348,8 +403,8 @@ static void disconnected_parts_are_refused_removed_or_kept(void **state)
 {
     (void)state;
     expect_errors(BAR(""),
-                  "3:1: body 1 has 1 part that no spring connects to its largest, of 6 nodes, one at (2, 0) m in its "
-                  "own coordinates; 'disconnected' can remove or keep such parts\n");
+                  "3:1: body 1 has 1 part that shares no edge with its largest, of 4 triangles at (2, 0) m in its own "
+                  "coordinates; 'disconnected' can remove or keep such parts\n");
     deck kept = good_deck(BAR(", disconnected = 'keep'")), removed = good_deck(BAR(", disconnected = 'remove'"));
     assert_int_equal(kept.lattice.n_nodes, removed.lattice.n_nodes + 6);
     for (dem_index i = 0; i < removed.lattice.n_nodes; i++) assert_true(removed.lattice.x[2 * i] < 1.0);
@@ -600,7 +655,7 @@ static void faults_of_geometry_are_reported_for_all_bodies(void **state)
         "4:35: body 2 would have more nodes than 2^40 with the spacing 1e-09 m\n"
         "5:89: 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 3; move "
         "it" REVERSED "\n"
-        "7:1: body 5: its voids and pores take all of its 367 nodes\n"
+        "7:1: body 5: its outline, voids and pores leave none of 367 nodes\n"
         "8:1: pore 2 of 2, of radius 0.3 m, finds no place in body 4 with walls of 0.1 m; take fewer or smaller ones, "
         "or a "
         "thinner 'wall'\n");
@@ -801,7 +856,7 @@ static void what_is_wrong_with_a_lattice_file_is_told_at_its_key(void **state)
     assert_int_equal(errors.list[0].place.column, 23);
     assert_non_null(strstr(errors.list[0].text, path_of("none.h5")));
     assert_string_equal(errors.list[1].text,
-                        "body 2 has 1 part that no spring connects to its largest, of 2 nodes, one at "
+                        "body 2 has 1 part that no spring connects to its largest, of 2 nodes at "
                         "(5, 0) m in its own coordinates; 'disconnected' can remove or keep such parts");
     assert_non_null(strstr(errors.list[2].text, "body 3: "));
     assert_non_null(strstr(errors.list[2].text, "mass"));
@@ -849,6 +904,9 @@ int main(void)
         cmocka_unit_test(every_key_finds_its_place),
         cmocka_unit_test(friction_window_vertices_and_damping_find_their_places),
         cmocka_unit_test(poissons_ratio_and_plane_make_the_area_term),
+        cmocka_unit_test(what_the_output_shows_finds_its_place),
+        cmocka_unit_test(a_probe_s_place_moves_with_the_clearance),
+        cmocka_unit_test(faults_of_probes_come_with_the_others),
         cmocka_unit_test(a_window_of_zero_is_not_the_default),
         cmocka_unit_test(friction_goes_with_its_law),
         cmocka_unit_test(keys_not_given_are_left_to_the_library),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* lattice.c: parts, selecting, moving, joining. */
+/* lattice.c: parts and pieces, selecting, trimming, moving, joining. */
 #include "solids.h"
 
 #include <stdlib.h>
@@ -94,7 +94,103 @@ static void select_keeps_every_array_in_step(void **state)
     dem_lattice_free(&lattice);
 }
 
+/* Two columns and two strips of spacing 1: two triangles that meet in node 2 alone, an hourglass. */
+static void pieces_share_edges_and_a_hinge_has_more_than_two_rims(void **state)
+{
+    (void)state;
+    const dem_index expected[2] = {0, 1}, rims[5] = {2, 2, 4, 2, 2};
+    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    dem_index n, piece[2], n_edges[5];
+    assert_int_equal(dem_lattice_pieces(&lattice, &n, piece), DEM_OK);
+    assert_int_equal(n, 2);
+    assert_memory_equal(piece, expected, sizeof piece);
+    assert_int_equal(dem_lattice_rims(&lattice, n_edges), DEM_OK);
+    assert_memory_equal(n_edges, rims, sizeof rims);
+    assert_refused(dem_lattice_pieces(&lattice, NULL, piece), DEM_ERROR_ARGUMENT, "n_pieces is NULL");
+    assert_refused(dem_lattice_rims(&lattice, NULL), DEM_ERROR_ARGUMENT, "n_edges is NULL");
+    lattice.triangles[0] = 5;
+    assert_refused(dem_lattice_pieces(&lattice, &n, NULL), DEM_ERROR_MODEL,
+                   "triangle 0 has node 5, but there are 5 nodes");
+    dem_lattice_free(&lattice);
+}
+
+static void a_hexagon_is_one_piece_without_a_rim_at_its_centre(void **state)
+{
+    (void)state;
+    dem_lattice lattice;
+    dem_index n, n_edges[7];
+    assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_pieces(&lattice, &n, NULL), DEM_OK);
+    assert_int_equal(n, 1);
+    assert_int_equal(dem_lattice_rims(&lattice, n_edges), DEM_OK);
+    for (dem_index i = 0; i < 7; i++)
+        assert_int_equal(n_edges[i], hypot(lattice.x[2 * i], lattice.x[2 * i + 1]) < 0.5 ? 0 : 2);
+    dem_lattice_free(&lattice);
+}
+
+static void trimming_keeps_triangles_with_their_nodes(void **state)
+{
+    (void)state;
+    const unsigned char upper[2] = {0, 3}, none[2] = {0, 0};
+    const dem_index expected[3] = {0, 2, 1};
+    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    lattice.guard = calloc(2, sizeof *lattice.guard);
+    assert_non_null(lattice.guard);
+    lattice.guard[1] = 5.0;
+    const double corner = lattice.x[8];
+    assert_refused(dem_lattice_trim(&lattice, NULL), DEM_ERROR_ARGUMENT, "keep is NULL");
+    assert_refused(dem_lattice_trim(&lattice, none), DEM_ERROR_MODEL, "none of 5 nodes is left");
+    assert_int_equal(lattice.n_triangles, 2);
+    assert_int_equal(dem_lattice_trim(&lattice, upper), DEM_OK);
+    assert_int_equal(lattice.n_nodes, 3);
+    assert_int_equal(lattice.n_triangles, 1);
+    assert_memory_equal(lattice.triangles, expected, sizeof expected);
+    assert_close(lattice.x[4], corner, 0.0);
+    assert_close(lattice.guard[0], 5.0, 0.0);
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
+    assert_refused(dem_lattice_trim(&lattice, upper), DEM_ERROR_MODEL,
+                   "a lattice that has springs cannot be trimmed: 3 springs");
+    dem_lattice_free(&lattice);
+}
+
+/* Nodes can lose triangles and all stay: here two of six, opposite to each other. */
+static void a_node_stays_with_what_is_left_of_its_triangles(void **state)
+{
+    (void)state;
+    const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
+    dem_lattice lattice;
+    assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_trim(&lattice, keep), DEM_OK);
+    assert_int_equal(lattice.n_triangles, 4);
+    assert_int_equal(lattice.n_nodes, 7);
+    for (dem_index t = 0; t < 4; t++) assert_close(area_of(&lattice, t), sqrt(3.0) / 4.0, 1e-15);
+    dem_lattice_free(&lattice);
+}
+
 /* ---- move, launch, append ---- */
+
+/* Masses 1 and 3 kg at 0 and 4 m turn about 3 m: at 2 rad/s the first goes down with 6 m/s, the second up with 2. */
+static void spin_turns_about_the_centre_of_mass(void **state)
+{
+    (void)state;
+    double x[4] = {7.0, 0.0, 7.0, 0.0}, position[4] = {0.0, 5.0, 4.0, 5.0}, mass[2] = {1.0, 3.0};
+    const double v[2] = {0.5, 0.25};
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 2, lattice.x = x, lattice.position = position;
+    assert_refused(dem_lattice_spin(&lattice, 2.0), DEM_ERROR_MODEL,
+                   "a lattice without masses has no centre of mass to turn about");
+    lattice.mass = mass;
+    assert_refused(dem_lattice_spin(&lattice, (double)INFINITY), DEM_ERROR_ARGUMENT,
+                   "the angular velocity inf rad/s is not finite");
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    assert_int_equal(dem_lattice_spin(&lattice, 2.0), DEM_OK);
+    assert_close(lattice.velocity[0], 0.5, 1e-15);
+    assert_close(lattice.velocity[1], 0.25 - 6.0, 1e-15);
+    assert_close(lattice.velocity[2], 0.5, 1e-15);
+    assert_close(lattice.velocity[3], 0.25 + 2.0, 1e-15);
+    free(lattice.velocity);
+}
 
 static void move_turns_about_the_origin_then_shifts(void **state)
 {
@@ -283,6 +379,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_are_numbered_by_their_lowest_nodes),
         cmocka_unit_test(select_keeps_every_array_in_step),
+        cmocka_unit_test(pieces_share_edges_and_a_hinge_has_more_than_two_rims),
+        cmocka_unit_test(a_hexagon_is_one_piece_without_a_rim_at_its_centre),
+        cmocka_unit_test(trimming_keeps_triangles_with_their_nodes),
+        cmocka_unit_test(a_node_stays_with_what_is_left_of_its_triangles),
+        cmocka_unit_test(spin_turns_about_the_centre_of_mass),
         cmocka_unit_test(move_turns_about_the_origin_then_shifts),
         cmocka_unit_test(launch_refuses_what_is_no_velocity),
         cmocka_unit_test(stiffen_multiplies_all_that_resists),

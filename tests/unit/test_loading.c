@@ -14,7 +14,7 @@ enum { columns = 5, rows = 4, n_nodes = columns * rows };
 static const double spacing = 0.5;
 
 /* Squares of two triangles each; own coordinates 0 to 2 and 0 to 1.5, behind three nodes of another body. */
-static void make_block(dem_lattice *l, const loading_body *place)
+static void make_block(dem_lattice *l, const placement *place)
 {
     const dem_index first = place->first, n = first + n_nodes;
     dem_lattice_init(l);
@@ -51,7 +51,7 @@ typedef struct loaded {
     dem_index n;
 } loaded;
 
-static const loading_body place = {.first = 3, .n_nodes = n_nodes, .angle = 1.5707963267948966, .offset = {7.0, -2.0}};
+static const placement place = {.first = 3, .n_nodes = n_nodes, .angle = 1.5707963267948966, .offset = {7.0, -2.0}};
 
 static void load(loaded *l, const char *text)
 {

@@ -312,10 +312,8 @@ static void without_springs_there_is_no_strain(void **state)
     drop_logged(l);
 }
 
-/* Pressed together to nine tenths, it only expands at first. */
-static void the_smallest_triangle_is_told(void **state)
+static logged *press(double t_end)
 {
-    (void)state;
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
     dem_options options = dem_options_default();
@@ -329,9 +327,53 @@ static void the_smallest_triangle_is_told(void **state)
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.position[2 * i + 1] *= 0.9;
     support_open(&l->run, &lattice, NULL, 0, &options);
     dem_lattice_free(&lattice);
-    follow(l, false, 1e-5);
+    follow(l, false, t_end);
+    return l;
+}
+
+/* Pressed together to nine tenths, it only expands at first. */
+static void the_smallest_triangle_is_told(void **state)
+{
+    (void)state;
+    logged *l = press(1e-5);
     finish(l, 1e-5);
     assert_close(number_in(l->text, "triangles", "area"), 0.9, 6e-5);
+    assert_false(has_line(l->text, "stressed")); /* nobody has kept peaks */
+    drop_logged(l);
+}
+
+static int count_lines(const char *text, const char *topic)
+{
+    int n = 0;
+    for (const char *at = strstr(text, topic); at != NULL; at = strstr(at + 1, topic)) n += at[-1] == '\n';
+    return n;
+}
+
+/* Pressed as above: a stretch of 0.9 along y, by the law of the patch test sqrt(3) of its springs too, one of 3: the
+ * stress is largest at the start, of all nodes alike, so that the first ones are told. With l^2 = 0.25 + 0.75 0.81 of
+ * the slanting springs and c = E (l - 1)/l: xx = 2 c 0.25, yy = 2 c 0.75 0.81. */
+static void the_most_stressed_are_told_with_place_and_time(void **state)
+{
+    const double stretch = sqrt(0.25 + 0.75 * 0.81), c = 1e7 * (stretch - 1.0) / stretch;
+    const double xx = 0.5 * c, yy = 1.5 * 0.81 * c, size = sqrt(xx * xx - xx * yy + yy * yy);
+    dem_peaks *peaks;
+    (void)state;
+    logged *l = press(1e-4);
+    assert_ok(dem_peaks_create(&peaks, l->run.model, 1));
+    const dem_observer observer = dem_peaks_observer(peaks);
+    assert_ok(dem_simulation_observe(l->run.simulation, &observer));
+    l->report.peaks = peaks;
+    l->report.most_stressed = 3;
+    finish(l, 1e-4);
+    assert_int_equal(count_lines(l->text, "stressed "), 3);
+    assert_int_equal(count_lines(l->text, "strained "), 3);
+    assert_close(number_in(l->text, "stressed", "Mises"), size, 5e-4 * size);
+    assert_close(number_in(l->text, "stressed", "Pa at"), 0.0, 0.0);
+    assert_close(number_in(l->text, "stressed", "principal"), xx, 5e-4 * fabs(xx));
+    assert_close(number_in(l->text, "stressed", "degrees, "), yy, 5e-4 * fabs(yy));
+    assert_close(number_in(l->text, "strained", "strain "), stretch - 1.0, 6e-5);
+    assert_close(number_in(l->text, "strained", "N at"), 0.0, 0.0);
+    dem_peaks_destroy(peaks);
     drop_logged(l);
 }
 
@@ -398,6 +440,27 @@ static void the_header_tells_what_is_about_to_run(void **state)
     drop_logged(l);
 }
 
+static void the_header_tells_what_is_probed_and_where(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    dem_probe probes[3] = {{"foot", DEM_PROBE_NODE, {2, 0}, 1},
+                           {"strut", DEM_PROBE_SPRING, {1, 0}, 1},
+                           {"span", DEM_PROBE_GAUGE, {0, 2}, 1}};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .probes = probes, .n_probes = 3};
+    logged *l = press(d.t_end);
+    const dem_lattice *lattice = dem_model_lattice(l->run.model);
+    const double *a = lattice->x + 2 * lattice->ends[2], *b = lattice->x + 2 * lattice->ends[3];
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nprobe      foot: node 2 at (1, 0) m\n"));
+    assert_non_null(strstr(l->text, "\nprobe      span: gauge from node 0 to 2 at (0, 0) m\n"));
+    assert_close(number_in(l->text, "probe", "strut: spring"), 1.0, 0.0);
+    assert_close(number_in(l->text, "probe", "strut: spring 1 at ("), 0.5 * (a[0] + b[0]), six_digits);
+    drop_logged(l);
+}
+
 /* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
 static void the_header_tells_what_was_measured_of_each_body(void **state)
 {
@@ -429,6 +492,55 @@ static void the_header_tells_what_was_measured_of_each_body(void **state)
     assert_non_null(strstr(l->text, "\nconstants  body 2: not measured: the body has no triangles, "));
     assert_close(number_in(l->text, "frequency", "highest") * number_in(l->text, "frequency", "is"),
                  dem_model_omega_max(l->run.model), 1e-3 * dem_model_omega_max(l->run.model));
+    drop_logged(l);
+}
+
+/* A body with everything that there may be to tell, and one from a file. */
+static void the_header_tells_how_bodies_came_out(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[2] = {
+        {.mass = 2.5,
+         .true_mass = 4.0,
+         .form = {.area = 3.0, .pore_area = 1.0, .n_pores = 7, .n_cracked = 12},
+         .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
+         .removed = true,
+         .hinges = {.n = 1, .x = {6.0, 7.0}}},
+        {.mass = 1.0, .loose = {.n = 1, .size = {3}}},
+    };
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
+    logged *l = drop_node(false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nmass       body 1: 2.5 kg, of the true shape 4 kg (ratio 0.6250)\n"));
+    assert_non_null(strstr(l->text, "\npores      body 1: 7, of porosity 0.2500\n"));
+    assert_non_null(strstr(l->text, "\ncracks     body 1: through 12 triangles, which are taken away\n"));
+    assert_non_null(strstr(l->text, "\nparts      body 1: 2 removed, of 5 triangles at (0.5, 2), 1 at (3, 4) m in its "
+                                    "own coordinates\n"));
+    assert_non_null(
+        strstr(l->text, "\nhinges     body 1: 1 node between triangles that share no edge, one at (6, 7) m\n"));
+    assert_non_null(strstr(l->text, "\nparts      body 2: 1 apart from the largest, of 3 nodes at (0, 0) m in its own "
+                                    "coordinates\n"));
+    assert_null(strstr(l->text, "mass       body 2"));
+    drop_logged(l);
+}
+
+static void a_long_list_of_bodies_is_cut(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[17];
+    for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 17};
+    logged *l = drop_node(false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "mass       body 16: "));
+    assert_null(strstr(l->text, "mass       body 17: "));
+    assert_non_null(strstr(l->text, "\nbodies     of 17 the first 16 are listed\n"));
     drop_logged(l);
 }
 
@@ -596,10 +708,14 @@ int main(void)
         cmocka_unit_test(strains_have_the_extremes_of_a_vibration),
         cmocka_unit_test(without_springs_there_is_no_strain),
         cmocka_unit_test(the_smallest_triangle_is_told),
+        cmocka_unit_test(the_most_stressed_are_told_with_place_and_time),
         cmocka_unit_test(in_a_file_progress_is_a_line_every_twentieth),
         cmocka_unit_test(on_a_terminal_progress_is_rewritten_in_place),
         cmocka_unit_test(the_header_tells_what_is_about_to_run),
+        cmocka_unit_test(the_header_tells_what_is_probed_and_where),
         cmocka_unit_test(the_header_tells_what_was_measured_of_each_body),
+        cmocka_unit_test(the_header_tells_how_bodies_came_out),
+        cmocka_unit_test(a_long_list_of_bodies_is_cut),
         cmocka_unit_test(without_an_output_none_is_told),
         cmocka_unit_test(versions_are_those_in_use),
         cmocka_unit_test(the_header_tells_the_rules_of_impact),

@@ -314,6 +314,9 @@ static void numbers_of_values_are_checked(void **state)
                        "1:44 'radius' in &body expects 1 value, got 3");
     assert_errors(RUN MATERIAL BODY "&obstacle points = 1, 2 /",
                   "4:11 'points' in &obstacle expects at least 4 values, got 2");
+    assert_errors(RUN MATERIAL BODY "&probe name = 'a', place = 1, number = 1, 2, 3 /",
+                  "4:20 'place' in &probe expects 2 to 4 values, got 1\n"
+                  "4:31 'number' in &probe expects 1 to 2 values, got 3");
 }
 
 static void the_number_of_values_comes_before_their_ranges(void **state)
@@ -356,10 +359,10 @@ static void ends_of_ranges_belong_to_them(void **state)
 static void choices_are_listed_with_the_nearest(void **state)
 {
     (void)state;
-    assert_body_errors(
-        "shape = 'rectangel' lattice = 'square'",
-        "1:15 'shape' in &body must be 'rectangle', 'disc' or 'file', got 'rectangel' (did you mean 'rectangle'?)\n"
-        "1:37 'lattice' in &body must be 'triangular', got 'square'");
+    assert_body_errors("shape = 'rectangel' lattice = 'square'",
+                       "1:15 'shape' in &body must be 'rectangle', 'disc', 'ring', 'polygon', 'mask', 'mesh' or "
+                       "'file', got 'rectangel' (did you mean 'rectangle'?)\n"
+                       "1:37 'lattice' in &body must be 'triangular', got 'square'");
     assert_errors(RUN MATERIAL BODY "&output precision = 'Double' /",
                   "4:21 'precision' in &output must be 'single' or 'double', got 'Double' (did you mean 'double'?)");
 }

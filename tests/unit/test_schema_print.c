@@ -259,7 +259,9 @@ static void the_reference_has_a_row_for_every_key(void **state)
         }
     }
     assert_contains(text, "| `gravity` | 2 reals | m/s^2 | `0, -9.81` |  | Acceleration of free fall, x and y. |");
-    assert_contains(text, "| `shape` | string | - | must be given | rectangle\\|disc\\|file | Shape");
+    assert_contains(
+        text,
+        "| `shape` | string | - | must be given | rectangle\\|disc\\|ring\\|polygon\\|mask\\|mesh\\|file | Shape");
     assert_contains(text, "| `points` | 4 or more reals | m | must be given |  | x and y");
     free(text);
 }
@@ -311,6 +313,8 @@ static void the_template_tells_type_unit_range_choices_and_default(void **state)
     char *text = printed(schema_template);
     assert_contains(text, "\n    ! [real, s, > 0; must be given]\n    t_end = ");
     assert_contains(text, "\n    ! [reals, 2 of them, m/s^2; default: 0, -9.81]\n    gravity = 0, -9.81\n");
+    assert_contains(text, "\n    ! [reals, 2 to 4 of them, m]\n    place = ");
+    assert_contains(text, "|strain|force;\n    !  default: 'displacement', "); /* too long for one line */
     assert_contains(text, "\n    ! [reals, at least 4, m; must be given]\n    points = ");
     assert_contains(text, "\n    ! [string, single|double; default: 'single']\n    precision = 'single'\n");
     assert_contains(text, "\n    ! [integer, in [0, 9]; default: 1]\n    deflate = 1\n");

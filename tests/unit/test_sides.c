@@ -46,6 +46,8 @@ static void an_edge_between_two_triangles_begins_once(void **state)
     for (int p = 0; p < 4; p++) assert_int_equal(sides_edge_begins(&s, 0, p), begins[p]);
     assert_true(sides_edge_begins(&s, 1, 4)); /* also where the row before ends with the same upper node */
     assert_true(sides_edge_begins(&s, 2, 5));
+    for (int p = 0; p < 4; p++) assert_int_equal(sides_edge_is_boundary(&s, 0, p), p == 0 || p == 3);
+    assert_true(sides_edge_is_boundary(&s, 1, 4) && sides_edge_is_boundary(&s, 2, 5));
     sides_free(&s);
 }
 

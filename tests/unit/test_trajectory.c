@@ -308,6 +308,38 @@ static dem_status look_at_part(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
+/* A long run, so that their rows go to the file in several parts. */
+static void probes_and_peaks_are_in_the_file_in_the_end(void **state)
+{
+    (void)state;
+    const dem_probe probes[2] = {{"node", DEM_PROBE_NODE, {3, 0}, 1}, {"gauge", DEM_PROBE_GAUGE, {0, 3}, 4}};
+    dem_peaks *peaks;
+    for (int with_frames = 0; with_frames < 2; with_frames++) {
+        run r;
+        dem_trajectory_options options = every_frame();
+        make_folder(&r);
+        make_model(&r, 2);
+        make_simulation(&r);
+        assert_int_equal(dem_peaks_create(&peaks, r.model, 2), DEM_OK);
+        const dem_observer observer = dem_peaks_observer(peaks);
+        assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
+        options.frame_interval = with_frames ? interval : 0.0;
+        options.n_probes = 2, options.probes = probes, options.peaks = peaks, options.most_stressed = 4;
+        open_trajectory(&r, &options);
+        assert_int_equal(dem_simulation_advance(r.simulation, 300 * interval), DEM_OK);
+        assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+        const hsize_t rows = count_rows(r.path, "/history/t");
+        assert_true(rows > 1024);
+        assert_int_equal(count_rows(r.path, "/probes/node/t"), rows);
+        assert_int_equal(count_rows(r.path, "/probes/gauge/strain"), (rows + 3) / 4);
+        assert_close(read_cell(r.path, "/probes/node/t", rows - 1), read_cell(r.path, "/history/t", rows - 1), 0.0);
+        assert_int_equal(count_rows(r.path, "/most_stressed/nodes/node"), 4);
+        if (with_frames) assert_int_equal(count_rows(r.path, "/VTKHDF/Steps/CellDataOffsets/peak_strain"), 301);
+        dem_peaks_destroy(peaks);
+        end(&r);
+    }
+}
+
 static void the_part_can_be_looked_at_while_the_run_goes_on(void **state)
 {
     (void)state;
@@ -701,6 +733,15 @@ static void bad_arguments_are_refused(void **state)
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "deflate is 10, not in 0 to 9");
     options = every_frame(), options.frame_interval = NAN;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "frame_interval");
+    options = every_frame(), options.fields = 256 | DEM_FIELD_STRESS;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "fields is 0x104, with unknown bits");
+    options = every_frame(), options.most_stressed = -1;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "most_stressed is -1; it must be >= 0");
+    options = every_frame(), options.n_probes = 2;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "2 probes, probes is NULL");
+    const dem_probe same[2] = {{"p", DEM_PROBE_NODE, {0, 0}, 1}, {"p", DEM_PROBE_SPRING, {0, 0}, 1}};
+    options.probes = same;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "two probes have the name p");
     options = every_frame(), options.struct_size = 0;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "dem_trajectory_options_default");
     options = every_frame();
@@ -797,6 +838,7 @@ int main(void)
         cmocka_unit_test(a_frame_holds_the_state),
         cmocka_unit_test(offsets_tell_where_a_frame_begins),
         cmocka_unit_test(a_frame_is_not_written_twice),
+        cmocka_unit_test(probes_and_peaks_are_in_the_file_in_the_end),
         cmocka_unit_test(the_part_can_be_looked_at_while_the_run_goes_on),
         cmocka_unit_test(a_reader_does_not_stop_the_run),
         cmocka_unit_test(a_body_of_one_node_has_points_and_no_cells),

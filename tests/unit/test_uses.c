@@ -48,7 +48,8 @@ static void a_choice_at_fault_says_nothing_of_other_keys(void **state)
 {
     (void)state;
     expect(HEAD "&void centre = 0, 0, size = 1, 1, shape = 'rectangel' /\n",
-           "3:43 'shape' in &void must be 'disc' or 'rectangle', got 'rectangel' (did you mean 'rectangle'?)");
+           "3:43 'shape' in &void must be 'disc', 'rectangle', 'ring' or 'polygon', got 'rectangel' (did you mean "
+           "'rectangle'?)");
 }
 
 static void defaults_that_are_not_used_are_dropped(void **state)

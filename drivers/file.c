@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static file_status refuse(char *why, const char *text)
+{
+    (void)snprintf(why, FILE_WHY, "%s", text);
+    return FILE_REFUSED;
+}
+
+static file_status refuse_large(char *why, size_t most)
+{
+    (void)snprintf(why, FILE_WHY, "the file is larger than %zu MiB", most >> 20);
+    return FILE_REFUSED;
+}
+
+/* One byte more than the file had at first tells that it has grown. */
+static file_status read_bytes(char *bytes, size_t *size, size_t expected, int file, char *why)
+{
+    for (*size = 0; *size <= expected;) {
+        const ssize_t n = read(file, bytes + *size, expected + 1 - *size);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return refuse(why, strerror(errno));
+        if (n == 0) break;
+        *size += (size_t)n;
+    }
+    if (*size > expected) return refuse(why, "the file grows while it is read");
+    return *size == 0 ? refuse(why, "the file is empty") : FILE_READ;
+}
+
+static file_status read_open(char **bytes, size_t *size, size_t most, int file, char *why)
+{
+    struct stat info;
+    if (fstat(file, &info) != 0) return refuse(why, strerror(errno));
+    if (!S_ISREG(info.st_mode)) return refuse(why, "not a regular file");
+    if ((uintmax_t)info.st_size > most) return refuse_large(why, most);
+    char *text = malloc((size_t)info.st_size + 2);
+    if (text == NULL) return FILE_MEMORY;
+    const file_status status = read_bytes(text, size, (size_t)info.st_size, file, why);
+    if (status == FILE_READ) {
+        text[*size] = '\0';
+        *bytes = text;
+    } else {
+        free(text);
+    }
+    return status;
+}
+
+file_status file_read(char **bytes, size_t *size, const char *path, size_t most, char *why)
+{
+    *bytes = NULL;
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a pipe without writer must not hang */
+    if (file < 0) return refuse(why, strerror(errno));
+    const file_status status = read_open(bytes, size, most, file, why);
+    (void)close(file);
+    return status;
+}

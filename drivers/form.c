@@ -1,0 +1,514 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "form.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "area.h"
+#include "crack.h"
+#include "msh.h"
+#include "shape.h"
+#include "uses.h"
+
+static const double pi = 3.14159265358979323846, degree = 0.017453292519943295769; /* pi/180 */
+static const double aside = 1e-6; /* of the spacing: how far cracks run beside their points */
+
+/* ---- checks: keys of a choice ---- */
+
+#define OURS "rectangle, disc, ring, polygon, mask" /* shapes whose lattice is made here */
+
+static const uses_key body_keys[] = {
+    {"size", "rectangle", true},
+    {"radius", "disc, ring", true},
+    {"inner_radius", "ring", true},
+    {"points", "polygon", true},
+    {"spacing", OURS, true},
+    {"lattice", OURS, false},
+    {"material", OURS ", mesh", false},
+    {"file", "file, mask, mesh", true},
+    {"scale", "mask, mesh", true},
+    {"threshold", "mask", false},
+};
+static const uses_key void_keys[] = {
+    {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},
+    {"points", "polygon", true}, {"angle", "rectangle, polygon", false},
+};
+static const uses_key pores_keys[] = {{"mean", "lognormal, normal", true}, {"deviation", "lognormal, normal", true}};
+
+#define COUNT(list) (sizeof(list) / sizeof *(list))
+
+static const uses body_uses = {"body", "shape", COUNT(body_keys), body_keys};
+static const uses void_uses = {"void", "shape", COUNT(void_keys), void_keys};
+static const uses pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
+
+void form_drop_unused(schema_deck *groups)
+{
+    uses_drop(groups, &body_uses);
+    uses_drop(groups, &void_uses);
+    uses_drop(groups, &pores_uses);
+}
+
+static bool has_shape(const schema_instance *group, const char *name)
+{
+    return schema_is(group, "shape", name);
+}
+
+/* ---- checks: points ---- */
+
+/* Squares of lengths must be numbers that can be computed with. */
+static bool is_apart(const double *a, const double *b)
+{
+    const double x = b[0] - a[0], y = b[1] - a[1];
+    return isnormal(x * x + y * y);
+}
+
+/* Pairs, not too many of them, consecutive ones apart. */
+static bool check_points(const schema_instance *group, namelist_errors *errors)
+{
+    const schema_value *points = schema_value_of(group, "points");
+    const char *name = group->group->name;
+    const int n = points->count / 2;
+    if (points->faulty) return false;
+    if (points->count % 2 != 0)
+        namelist_errors_add(errors, points->place, "'points' in &%s must be pairs of x and y, got %d values", name,
+                            points->count);
+    else if (n > OUTLINE_MAX_POINTS)
+        namelist_errors_add(errors, points->place, "'points' in &%s must be at most %d points, got %d", name,
+                            OUTLINE_MAX_POINTS, n);
+    if (points->count % 2 != 0 || n > OUTLINE_MAX_POINTS) return false;
+    for (int k = 1; k < n; k++) {
+        const double *a = points->reals + 2 * k - 2;
+        if (is_apart(a, a + 2)) continue;
+        namelist_errors_add(errors, points->place,
+                            "'points' in &%s: from point %d, (%g, %g) m, to the next, (%g, %g) m, is no length to "
+                            "compute with",
+                            name, k, a[0], a[1], a[2], a[3]);
+        return false;
+    }
+    return true;
+}
+
+/* The points of a polygon as the deck has them; the last one may be the first once more. Borrowed. */
+static outline borrow_polygon(const schema_instance *group)
+{
+    const schema_value *points = schema_value_of(group, "points");
+    const size_t n = (size_t)points->count / 2;
+    const bool closed = n > 1 && memcmp(points->reals, points->reals + 2 * n - 2, 2 * sizeof(double)) == 0;
+    return (outline){.kind = OUTLINE_POLYGON, .n_points = closed ? n - 1 : n, .points = points->reals};
+}
+
+static bool check_polygon(const schema_instance *group, namelist_errors *errors)
+{
+    size_t edge[2];
+    if (!has_shape(group, "polygon") || !schema_given(group, "points") || !check_points(group, errors)) return false;
+    const outline o = borrow_polygon(group);
+    const namelist_place place = schema_place(group, "points");
+    const char *name = group->group->name;
+    if (o.n_points < 3) {
+        namelist_errors_add(errors, place, "'points' in &%s must be at least 3 points, got %zu", name, o.n_points);
+    } else if (outline_crossing(&o, edge)) {
+        const double *p = o.points + 2 * edge[0], *q = o.points + 2 * edge[1];
+        namelist_errors_add(errors, place,
+                            "'points' in &%s: the polygon meets itself: edge %zu, from (%g, %g) m, and edge %zu, from "
+                            "(%g, %g) m",
+                            name, edge[0] + 1, p[0], p[1], edge[1] + 1, q[0], q[1]);
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* ---- checks: sizes, references ---- */
+
+static void check_ring(const schema_instance *group, namelist_errors *errors)
+{
+    const double *radius = schema_reals(group, "radius"), *inner = schema_reals(group, "inner_radius");
+    if (has_shape(group, "ring") && radius != NULL && inner != NULL && inner[0] >= radius[0])
+        namelist_errors_add(errors, schema_place(group, "inner_radius"),
+                            "'inner_radius' in &%s must be less than 'radius', %g m, got %g m", group->group->name,
+                            radius[0], inner[0]);
+}
+
+static void refuse_spacing(const schema_instance *body, const char *what, const double size[2], namelist_errors *errors)
+{
+    namelist_errors_add(errors, schema_place(body, "spacing"),
+                        "'spacing' in &body must not exceed the %s, %g m x %g m, got %g m", what, size[0], size[1],
+                        schema_real(body, "spacing"));
+}
+
+static void check_spacing(const schema_instance *body, bool sound_polygon, namelist_errors *errors)
+{
+    const double *size = schema_reals(body, "size"), *radius = schema_reals(body, "radius");
+    const double *inner = schema_reals(body, "inner_radius"), spacing = schema_real(body, "spacing");
+    const double width = radius != NULL && inner != NULL ? radius[0] - inner[0] : 0.0;
+    if (has_shape(body, "rectangle") && size != NULL && (spacing > size[0] || spacing > size[1]))
+        refuse_spacing(body, "size", size, errors);
+    if (has_shape(body, "disc") && radius != NULL && spacing > radius[0])
+        namelist_errors_add(errors, schema_place(body, "spacing"),
+                            "'spacing' in &body must not exceed the radius, %g m, got %g m", radius[0], spacing);
+    if (has_shape(body, "ring") && width > 0.0 && spacing > width)
+        namelist_errors_add(errors, schema_place(body, "spacing"),
+                            "'spacing' in &body must not exceed the ring's width, %g m, got %g m", width, spacing);
+    if (sound_polygon) {
+        double box[4];
+        const outline o = borrow_polygon(body);
+        outline_box(&o, box);
+        const double extent[2] = {box[2] - box[0], box[3] - box[1]};
+        if (spacing > extent[0] || spacing > extent[1]) refuse_spacing(body, "polygon's extent", extent, errors);
+    }
+}
+
+static void check_file(const schema_instance *body, namelist_errors *errors)
+{
+    const char *what = has_shape(body, "mask") ? "an image" : (has_shape(body, "mesh") ? "a mesh" : "a lattice file");
+    if (schema_given(body, "file") && schema_text(body, "file")[0] == '\0')
+        namelist_errors_add(errors, schema_place(body, "file"), "'file' in &body must name %s, got ''", what);
+}
+
+/* The body that a group is for, from 1 in the deck; only cracks are for meshes, and nothing for lattice files. */
+static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
+{
+    const size_t n = schema_count(groups, "body");
+    const double number = schema_real(group, "body");
+    const namelist_place place = schema_place(group, "body");
+    if (n == 0 || groups->misspelt) return;
+    if (number > (double)n) {
+        namelist_errors_add(errors, place, "&%s is for body %.0f, but the number of bodies is %zu", group->group->name,
+                            number, n);
+        return;
+    }
+    const schema_instance *body = schema_get(groups, "body", (size_t)number - 1);
+    const bool crack = strcmp(group->group->name, "crack") == 0;
+    if (has_shape(body, "file") || (has_shape(body, "mesh") && !crack))
+        namelist_errors_add(errors, place, "&%s is for body %.0f, which is of shape '%s'", group->group->name, number,
+                            schema_text(body, "shape"));
+}
+
+static void check_pores(const schema_instance *group, namelist_errors *errors)
+{
+    const double *radius = schema_reals(group, "radius");
+    const bool number = schema_given(group, "number"), porosity = schema_given(group, "porosity");
+    const bool faulty = schema_value_of(group, "number")->faulty || schema_value_of(group, "porosity")->faulty;
+    if (radius != NULL && radius[0] > radius[1])
+        namelist_errors_add(errors, schema_place(group, "radius"),
+                            "'radius' in &pores must be the smallest, then the largest one, got %g, %g", radius[0],
+                            radius[1]);
+    if (schema_real(group, "number") > PORES_MAX)
+        namelist_errors_add(errors, schema_place(group, "number"), "'number' in &pores must be at most %d, got %.0f",
+                            PORES_MAX, schema_real(group, "number"));
+    if (number && porosity)
+        namelist_errors_add(errors, schema_place(group, "porosity"), "'porosity' in &pores does not go with 'number'");
+    else if (!number && !porosity && !faulty)
+        namelist_errors_add(errors, group->place, "'number' or 'porosity' in &pores must be given");
+}
+
+static void check_body(const schema_instance *body, namelist_errors *errors)
+{
+    uses_check(body, &body_uses, errors);
+    check_ring(body, errors);
+    check_spacing(body, check_polygon(body, errors), errors);
+    check_file(body, errors);
+}
+
+void form_check_all(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
+    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
+        const schema_instance *group = schema_get(groups, "void", k);
+        uses_check(group, &void_uses, errors);
+        check_owner(groups, group, errors);
+        check_ring(group, errors);
+        (void)check_polygon(group, errors);
+    }
+    for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
+        const schema_instance *group = schema_get(groups, "pores", k);
+        uses_check(group, &pores_uses, errors);
+        check_owner(groups, group, errors);
+        check_pores(group, errors);
+    }
+    for (size_t k = 0; k < schema_count(groups, "crack"); k++) {
+        check_owner(groups, schema_get(groups, "crack", k), errors);
+        (void)check_points(schema_get(groups, "crack", k), errors);
+    }
+}
+
+/* ---- building ---- */
+
+/* A form on its way. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status after reporting a fault. */
+typedef struct former {
+    const schema_deck *groups;
+    const schema_instance *body;
+    size_t number; /* from 1 */
+    const char *folder;
+    namelist_errors *errors;
+    dem_lattice lattice;
+    form form;
+} former;
+
+/* The k-th group of a name if it is for this body, else NULL. */
+static const schema_instance *own(const former *f, const char *name, size_t k)
+{
+    const schema_instance *group = schema_get(f->groups, name, k);
+    return (size_t)schema_real(group, "body") == f->number ? group : NULL;
+}
+
+/* Of a body or a void, about its own origin. False when memory runs out. */
+static bool read_outline(outline *out, const schema_instance *group)
+{
+    const double *size = schema_reals(group, "size");
+    *out = (outline){.radius = schema_real(group, "radius"), .inner = schema_real(group, "inner_radius")};
+    for (int c = 0; c < 2 && size != NULL; c++) out->size[c] = size[c];
+    out->kind = has_shape(group, "disc") ? OUTLINE_DISC : (has_shape(group, "ring") ? OUTLINE_RING : OUTLINE_RECTANGLE);
+    if (!has_shape(group, "polygon")) return true;
+    *out = borrow_polygon(group);
+    double *points = malloc(out->n_points * 2 * sizeof *points);
+    if (points != NULL) memcpy(points, out->points, out->n_points * 2 * sizeof *points);
+    out->points = points;
+    return points != NULL;
+}
+
+static dem_status add_void(shape *s, const schema_instance *group)
+{
+    const double *centre = schema_reals(group, "centre"), angle = degree * schema_real(group, "angle");
+    const double turn[2] = {cos(angle), sin(angle)};
+    outline hole;
+    bool good = read_outline(&hole, group);
+    if (hole.kind == OUTLINE_POLYGON || angle != 0.0) {
+        good = good && outline_place(&hole, turn, centre);
+    } else {
+        hole.centre[0] = centre[0];
+        hole.centre[1] = centre[1];
+    }
+    if (good) return shape_add_void(s, &hole) ? DEM_OK : DEM_ERROR_MEMORY;
+    outline_free(&hole);
+    return DEM_ERROR_MEMORY;
+}
+
+static dem_status report_pores(const former *f, const schema_instance *group, const pores_recipe *recipe,
+                               pores_status status, const pores *p)
+{
+    const bool wall_given = schema_given(group, "wall");
+    switch (status) {
+    case PORES_PLACED:
+        return DEM_OK;
+    case PORES_MEMORY:
+        return DEM_ERROR_MEMORY;
+    case PORES_CROWDED:
+        namelist_errors_add(f->errors, group->place,
+                            "pore %zu of %zu, of radius %g m, finds no place in body %zu with walls of %g m%s; "
+                            "take fewer or smaller ones, or a thinner 'wall'",
+                            p->n_placed + 1, p->n, p->list[p->n_placed].radius, f->number, recipe->wall,
+                            wall_given ? "" : ", the default");
+        return DEM_ERROR_MODEL;
+    case PORES_TOO_MANY:
+        namelist_errors_add(f->errors, schema_place(group, "porosity"),
+                            "'porosity' in &pores, %g, needs more than %d pores of such radii in body %zu",
+                            schema_real(group, "porosity"), PORES_MAX, f->number);
+        return DEM_ERROR_MODEL;
+    case PORES_RARE:
+    case PORES_UNSOUND:
+        namelist_errors_add(f->errors, schema_place(group, "mean"),
+                            "'mean' and 'deviation' in &pores, %g m and %g m, give next to no radius from %g m to %g m",
+                            recipe->mean, recipe->deviation, recipe->radius_min, recipe->radius_max);
+        return DEM_ERROR_MODEL;
+    }
+    return DEM_ERROR_MODEL;
+}
+
+static dem_status add_pores(former *f, shape *s, const schema_instance *group)
+{
+    const double *radius = schema_reals(group, "radius"), *wall = schema_reals(group, "wall");
+    pores_recipe recipe = {.number = (size_t)schema_real(group, "number"),
+                           .area = schema_real(group, "porosity") * f->form.area,
+                           .radius_min = radius[0],
+                           .radius_max = radius[1],
+                           .distribution = schema_is(group, "distribution", "normal")      ? PORES_NORMAL
+                                           : schema_is(group, "distribution", "lognormal") ? PORES_LOGNORMAL
+                                                                                           : PORES_UNIFORM,
+                           .mean = schema_real(group, "mean"),
+                           .deviation = schema_real(group, "deviation"),
+                           .wall = wall != NULL ? wall[0] : 2.0 * s->spacing,
+                           .seed = (unsigned long)schema_real(group, "seed")};
+    pores placed;
+    const pores_status drawn = shape_add_pores(s, &placed, &recipe);
+    const dem_status status = report_pores(f, group, &recipe, drawn, &placed);
+    f->form.n_pores += placed.n_placed;
+    for (size_t k = 0; k < placed.n_placed; k++)
+        f->form.pore_area += pi * placed.list[k].radius * placed.list[k].radius;
+    free(placed.list);
+    return status;
+}
+
+static dem_status read_mask(const former *f, shape *s)
+{
+    char *path = form_file(f->folder, f->body), fault[IMAGE_FAULT];
+    if (path == NULL) return DEM_ERROR_MEMORY;
+    const image_status status =
+        mask_read(&s->mask, fault, path, schema_real(f->body, "scale"), schema_real(f->body, "threshold"));
+    if (status == IMAGE_REFUSED)
+        namelist_errors_add(f->errors, schema_place(f->body, "file"), "body %zu: %s:%s", f->number, path, fault);
+    free(path);
+    if (status != IMAGE_READ) return status == IMAGE_MEMORY ? DEM_ERROR_MEMORY : DEM_ERROR_MODEL;
+    s->outline.size[0] = (double)s->mask.width * s->mask.scale;
+    s->outline.size[1] = (double)s->mask.height * s->mask.scale;
+    if (s->spacing <= s->outline.size[0] && s->spacing <= s->outline.size[1]) return DEM_OK;
+    refuse_spacing(f->body, "image", s->outline.size, f->errors);
+    return DEM_ERROR_MODEL;
+}
+
+/* Outline or mask, voids, pores; the true area. */
+static dem_status make_shape(former *f, shape *s)
+{
+    dem_status status = read_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
+    s->spacing = f->form.spacing = schema_real(f->body, "spacing");
+    if (status == DEM_OK && has_shape(f->body, "mask")) status = read_mask(f, s);
+    if (s->outline.kind == OUTLINE_RECTANGLE) s->outline.centre[1] = 0.5 * s->outline.size[1];
+    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "void"); k++)
+        if (own(f, "void", k) != NULL) status = add_void(s, own(f, "void", k));
+    if (status != DEM_OK) return status;
+    f->form.area = area_of(s);
+    if (f->form.area < 0.0) return DEM_ERROR_MEMORY;
+    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "pores"); k++)
+        if (own(f, "pores", k) != NULL) status = add_pores(f, s, own(f, "pores", k));
+    f->form.area -= f->form.pore_area;
+    return status;
+}
+
+/* A void that takes nothing is a fault where it is not in the body at all; one between nodes is only small. */
+static dem_status check_voids(const former *f, const shape *s)
+{
+    dem_status status = DEM_OK;
+    size_t v = 0; /* the voids of a shape begin with those of its groups */
+    for (size_t k = 0; k < schema_count(f->groups, "void"); k++) {
+        if (own(f, "void", k) == NULL) continue;
+        const outline *hole = &s->voids[v++];
+        const double *inside = hole->kind == OUTLINE_POLYGON ? hole->points : hole->centre;
+        if (shape_outline_has(s, inside) || shape_takes(s, hole, &f->lattice)) continue;
+        namelist_errors_add(f->errors, schema_place(own(f, "void", k), "centre"),
+                            "void takes no node of body %zu: its centre is in the body's own coordinates", f->number);
+        status = DEM_ERROR_MODEL;
+    }
+    return status;
+}
+
+static dem_status cut_lattice(former *f, const shape *s)
+{
+    dem_status status = shape_mesh(&f->lattice, s);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(f->errors, schema_place(f->body, "spacing"),
+                            "body %zu would have more nodes than 2^40 with the spacing %g m", f->number, s->spacing);
+    if (status == DEM_OK) status = check_voids(f, s);
+    if (status != DEM_OK) return status;
+    const dem_index n = f->lattice.n_nodes;
+    status = shape_cut(&f->lattice, s);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(f->errors, f->body->place,
+                            "body %zu: its outline, voids and pores leave none of %lld nodes", f->number, (long long)n);
+    return status;
+}
+
+/* ---- meshes ---- */
+
+static double area_of_triangle(const dem_lattice *lattice, dem_index t)
+{
+    const dem_index *node = lattice->triangles + 3 * t;
+    const double *a = lattice->x + 2 * node[0], *b = lattice->x + 2 * node[1], *c = lattice->x + 2 * node[2];
+    return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+static dem_status read_mesh(former *f)
+{
+    char *path = form_file(f->folder, f->body), fault[MSH_FAULT];
+    if (path == NULL) return DEM_ERROR_MEMORY;
+    const dem_status status = msh_read(&f->lattice, fault, path);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(f->errors, schema_place(f->body, "file"), "body %zu: %s:%s", f->number, path, fault);
+    free(path);
+    if (status != DEM_OK) return status;
+    for (dem_index k = 0; k < 2 * f->lattice.n_nodes; k++) f->lattice.x[k] *= schema_real(f->body, "scale");
+    double least = (double)INFINITY;
+    for (dem_index t = 0; t < f->lattice.n_triangles; t++) {
+        const double area = area_of_triangle(&f->lattice, t);
+        least = fmin(least, area);
+        f->form.area += area;
+    }
+    f->form.spacing = sqrt(least / 0.43301270189221932); /* sqrt(3)/4 */
+    return DEM_OK;
+}
+
+/* ---- cracks ---- */
+
+static dem_status mark_crack(const former *f, unsigned char *keep, const schema_instance *group, double shift)
+{
+    const schema_value *points = schema_value_of(group, "points");
+    const dem_index n = crack_mark(keep, &f->lattice, points->reals, (size_t)points->count / 2, shift);
+    if (n < 0) return DEM_ERROR_MEMORY;
+    if (n > 0) return DEM_OK;
+    namelist_errors_add(f->errors, points->place,
+                        "crack crosses no triangle of body %zu: its points are in the body's own coordinates",
+                        f->number);
+    return DEM_ERROR_MODEL;
+}
+
+static bool has_cracks(const former *f)
+{
+    for (size_t k = 0; k < schema_count(f->groups, "crack"); k++)
+        if (own(f, "crack", k) != NULL) return true;
+    return false;
+}
+
+static dem_status crack(former *f)
+{
+    const double shift = aside * f->form.spacing;
+    const dem_index n = f->lattice.n_triangles;
+    unsigned char *keep = malloc((size_t)n + 1);
+    dem_status status = DEM_OK;
+    if (keep == NULL) return DEM_ERROR_MEMORY;
+    memset(keep, 1, (size_t)n + 1);
+    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "crack"); k++)
+        if (own(f, "crack", k) != NULL) status = mark_crack(f, keep, own(f, "crack", k), shift);
+    if (status == DEM_OK) {
+        status = dem_lattice_trim(&f->lattice, keep);
+        if (status == DEM_ERROR_MODEL)
+            namelist_errors_add(f->errors, f->body->place, "body %zu: its cracks leave none of %lld triangles",
+                                f->number, (long long)n);
+    }
+    f->form.n_cracked = n - f->lattice.n_triangles;
+    free(keep);
+    return status;
+}
+
+/* ---- all of it ---- */
+
+char *form_file(const char *folder, const schema_instance *body)
+{
+    const char *file = schema_text(body, "file"), *where = file[0] == '/' ? "" : folder;
+    const size_t size = strlen(where) + strlen(file) + 1;
+    char *path = malloc(size);
+    if (path != NULL) (void)snprintf(path, size, "%s%s", where, file);
+    return path;
+}
+
+dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *groups, size_t k, const char *folder,
+                            namelist_errors *errors)
+{
+    former f = {
+        .groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .folder = folder, .errors = errors};
+    shape s = {0};
+    dem_lattice_init(&f.lattice);
+    dem_status status = DEM_OK;
+    if (has_shape(f.body, "mesh")) {
+        status = read_mesh(&f);
+    } else {
+        status = make_shape(&f, &s);
+        if (status == DEM_OK) status = cut_lattice(&f, &s);
+    }
+    if (status == DEM_OK && has_cracks(&f)) status = crack(&f);
+    if (status != DEM_OK) dem_lattice_free(&f.lattice);
+    shape_free(&s);
+    *lattice = f.lattice;
+    *out = f.form;
+    return status;
+}

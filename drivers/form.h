@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the keys of &body, &void, &pores and &crack say of a body's form: from the groups to a triangulation. */
+#ifndef DEM_FORM_H
+#define DEM_FORM_H
+
+#include <dem/dem.h>
+
+#include "schema.h"
+
+/* What came out beside the triangulation. */
+typedef struct form {
+    double spacing;      /* m, of its lattice; of a mesh the side of an equilateral triangle as large as its smallest */
+    double area;         /* m^2, true one of the shape, which the lattice's comes near to; cracks have none */
+    double pore_area;    /* m^2, of its random pores */
+    size_t n_pores;      /* random ones */
+    dem_index n_cracked; /* triangles that cracks took */
+} form;
+
+/* Keys that a shape lacks or does not use, numbers that do not go together, groups for bodies that there are not. */
+void form_check_all(const schema_deck *groups, namelist_errors *errors);
+
+/* Takes the defaults of keys away that a choice does not use: they mean nothing, and stated they are faults. */
+void form_drop_unused(schema_deck *groups);
+
+/* Triangulates body k, from 0, of any shape but 'file'. Caller owns *lattice, which is empty unless DEM_OK is returned;
+ * a fault is appended to `errors` with any other status but DEM_ERROR_MEMORY. `folder`: see form_file(). */
+dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *groups, size_t k, const char *folder,
+                            namelist_errors *errors);
+
+/* Path of the file that a body is made from, malloc'ed; NULL when memory runs out. `folder` is that of the deck, with
+ * its last '/', or "". */
+char *form_file(const char *folder, const schema_instance *body);
+
+#endif

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Square roots only, so that pores lie at the same places on every machine. */
+#include "outline.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct edge {
+    const double *a, *b;
+} edge;
+
+/* Edge k of a polygon goes from point k to the next. */
+static edge edge_of(const outline *o, size_t k)
+{
+    return (edge){o->points + 2 * k, o->points + 2 * (k + 1 < o->n_points ? k + 1 : 0)};
+}
+
+/* ---- distance ---- */
+
+static double rectangle_distance(const outline *o, double x, double y)
+{
+    const double dx = fabs(x) - 0.5 * o->size[0], dy = fabs(y) - 0.5 * o->size[1];
+    const double ox = fmax(dx, 0.0), oy = fmax(dy, 0.0);
+    return sqrt(ox * ox + oy * oy) + fmin(fmax(dx, dy), 0.0);
+}
+
+static double edge_distance(edge e, double x, double y)
+{
+    const double tx = e.b[0] - e.a[0], ty = e.b[1] - e.a[1], dx = x - e.a[0], dy = y - e.a[1];
+    const double s = fmin(fmax((dx * tx + dy * ty) / (tx * tx + ty * ty), 0.0), 1.0);
+    const double rx = dx - s * tx, ry = dy - s * ty;
+    return sqrt(rx * rx + ry * ry);
+}
+
+/* Whether the line of height y crosses an edge, and where. Of the ends the upper one counts as beyond: so a corner is
+ * crossed once or twice, never in between. */
+static bool crosses(edge e, double y, double *x)
+{
+    if ((e.a[1] > y) == (e.b[1] > y)) return false;
+    *x = e.a[0] + (e.b[0] - e.a[0]) * ((y - e.a[1]) / (e.b[1] - e.a[1]));
+    return true;
+}
+
+static double polygon_distance(const outline *o, double x, double y)
+{
+    double least = (double)INFINITY, at = 0.0;
+    bool inside = false;
+    for (size_t k = 0; k < o->n_points; k++) {
+        const edge e = edge_of(o, k);
+        least = fmin(least, edge_distance(e, x, y));
+        if (crosses(e, y, &at) && at > x) inside = !inside;
+    }
+    return inside ? -least : least;
+}
+
+double outline_distance(const outline *o, double x, double y)
+{
+    const double dx = x - o->centre[0], dy = y - o->centre[1];
+    switch (o->kind) {
+    case OUTLINE_RECTANGLE:
+        return rectangle_distance(o, dx, dy);
+    case OUTLINE_DISC:
+        return sqrt(dx * dx + dy * dy) - o->radius;
+    case OUTLINE_RING:
+        return fmax(sqrt(dx * dx + dy * dy) - o->radius, o->inner - sqrt(dx * dx + dy * dy));
+    case OUTLINE_POLYGON:
+        return polygon_distance(o, x, y);
+    }
+    return (double)INFINITY;
+}
+
+void outline_box(const outline *o, double box[4])
+{
+    const double half[2] = {o->kind == OUTLINE_RECTANGLE ? 0.5 * o->size[0] : o->radius,
+                            o->kind == OUTLINE_RECTANGLE ? 0.5 * o->size[1] : o->radius};
+    for (int c = 0; c < 2; c++) {
+        box[c] = o->centre[c] - half[c];
+        box[c + 2] = o->centre[c] + half[c];
+    }
+    if (o->kind != OUTLINE_POLYGON) return;
+    for (int c = 0; c < 2; c++) box[c] = box[c + 2] = o->points[c];
+    for (size_t k = 0; k < 2 * o->n_points; k++) {
+        box[k % 2] = fmin(box[k % 2], o->points[k]);
+        box[k % 2 + 2] = fmax(box[k % 2 + 2], o->points[k]);
+    }
+}
+
+/* ---- slices ---- */
+
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static size_t slice_polygon(const outline *o, double y, double *x)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < o->n_points; k++) n += crosses(edge_of(o, k), y, x + n);
+    qsort(x, n, sizeof *x, by_size);
+    return n;
+}
+
+/* Half the chord of a circle at height dy from its centre; 0: it is not cut. */
+static double chord(double radius, double dy)
+{
+    return fabs(dy) < radius ? sqrt((radius - dy) * (radius + dy)) : 0.0;
+}
+
+size_t outline_slice(const outline *o, double y, double *x)
+{
+    const double dy = y - o->centre[1], middle = o->centre[0];
+    if (o->kind == OUTLINE_POLYGON) return slice_polygon(o, y, x);
+    const double half = o->kind != OUTLINE_RECTANGLE  ? chord(o->radius, dy)
+                        : fabs(dy) < 0.5 * o->size[1] ? 0.5 * o->size[0]
+                                                      : 0.0;
+    const double hole = o->kind == OUTLINE_RING ? chord(o->inner, dy) : 0.0;
+    size_t n = 0;
+    if (half == 0.0) return 0;
+    x[n++] = middle - half;
+    if (hole > 0.0) x[n++] = middle - hole;
+    if (hole > 0.0) x[n++] = middle + hole;
+    x[n++] = middle + half;
+    return n;
+}
+
+size_t outline_cuts(const outline *o)
+{
+    return o->kind == OUTLINE_POLYGON ? o->n_points : (o->kind == OUTLINE_RING ? 4 : 2);
+}
+
+size_t outline_levels(const outline *o, double *y)
+{
+    double box[4];
+    if (o->kind == OUTLINE_POLYGON) {
+        for (size_t k = 0; k < o->n_points; k++) y[k] = o->points[2 * k + 1];
+        return o->n_points;
+    }
+    outline_box(o, box);
+    y[0] = box[1];
+    y[1] = box[3];
+    if (o->kind != OUTLINE_RING) return 2;
+    y[2] = o->centre[1] - o->inner;
+    y[3] = o->centre[1] + o->inner;
+    return 4;
+}
+
+/* ---- polygons ---- */
+
+/* Twice the area of the triangle to a point: > 0 on the left of the edge. */
+static double side_of(edge e, const double *p)
+{
+    return (e.b[0] - e.a[0]) * (p[1] - e.a[1]) - (e.b[1] - e.a[1]) * (p[0] - e.a[0]);
+}
+
+static bool is_between(double a, double x, double b)
+{
+    return (a <= x && x <= b) || (b <= x && x <= a);
+}
+
+/* A point on the edge's line. */
+static bool is_on(edge e, const double *p)
+{
+    return is_between(e.a[0], p[0], e.b[0]) && is_between(e.a[1], p[1], e.b[1]);
+}
+
+/* Whether two edges share a point. */
+static bool meet(edge e, edge f)
+{
+    const double fa = side_of(e, f.a), fb = side_of(e, f.b), ea = side_of(f, e.a), eb = side_of(f, e.b);
+    const bool apart =
+        (fa > 0.0 && fb > 0.0) || (fa < 0.0 && fb < 0.0) || (ea > 0.0 && eb > 0.0) || (ea < 0.0 && eb < 0.0);
+    if (fa != 0.0 || fb != 0.0) return !apart;
+    return is_on(e, f.a) || is_on(e, f.b) || is_on(f, e.a); /* all on one line */
+}
+
+/* Whether an edge runs back on the one before. */
+static bool folds(edge before, edge e)
+{
+    const double along =
+        (before.b[0] - before.a[0]) * (e.b[0] - e.a[0]) + (before.b[1] - before.a[1]) * (e.b[1] - e.a[1]);
+    return side_of(before, e.b) == 0.0 && along < 0.0;
+}
+
+bool outline_crossing(const outline *o, size_t edges[2])
+{
+    const size_t n = o->n_points;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = i + 1; j < n; j++) {
+            const edge e = edge_of(o, i), f = edge_of(o, j);
+            const bool follows = j == i + 1, closes = i == 0 && j == n - 1;
+            if (follows ? !folds(e, f) : (closes ? !folds(f, e) : !meet(e, f))) continue;
+            edges[0] = i;
+            edges[1] = j;
+            return true;
+        }
+    return false;
+}
+
+bool outline_place(outline *o, const double turn[2], const double shift[2])
+{
+    const double w = 0.5 * o->size[0], h = 0.5 * o->size[1], corners[8] = {-w, -h, w, -h, w, h, -w, h};
+    if (o->kind == OUTLINE_RECTANGLE) {
+        o->points = malloc(sizeof corners);
+        if (o->points == NULL) return false;
+        memcpy(o->points, corners, sizeof corners);
+        o->n_points = 4;
+        o->kind = OUTLINE_POLYGON;
+    }
+    for (size_t k = 0; k < o->n_points; k++) {
+        double *p = o->points + 2 * k;
+        const double x = p[0], y = p[1];
+        p[0] = turn[0] * x - turn[1] * y + shift[0];
+        p[1] = turn[1] * x + turn[0] * y + shift[1];
+    }
+    return true;
+}
+
+void outline_free(outline *o)
+{
+    free(o->points);
+    *o = (outline){0};
+}

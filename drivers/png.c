@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "png.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char magic[8] = "\x89PNG\r\n\x1a\n";
+
+bool png_begins(const char *bytes, size_t size)
+{
+    return size >= sizeof magic && memcmp(bytes, magic, sizeof magic) == 0;
+}
+
+static image_status refuse(char *fault, const char *why)
+{
+    (void)snprintf(fault, IMAGE_FAULT, "%s", why);
+    return IMAGE_REFUSED;
+}
+
+#ifdef DEM_CAIRO
+#include <cairo.h>
+
+typedef struct source {
+    const char *at;
+    size_t left;
+} source;
+
+static cairo_status_t give(void *closure, unsigned char *data, unsigned length)
+{
+    source *from = closure;
+    if (length > from->left) return CAIRO_STATUS_READ_ERROR;
+    memcpy(data, from->at, length);
+    from->at += length;
+    from->left -= length;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+/* The first chunk begins behind the magic with its length and name, then width and height, the highest byte first. */
+static size_t stated(const char *bytes, size_t at)
+{
+    const unsigned char *b = (const unsigned char *)bytes + at;
+    return ((size_t)b[0] << 24) + ((size_t)b[1] << 16) + ((size_t)b[2] << 8) + b[3];
+}
+
+/* Rec. 601 in 256ths; colours are multiplied by their opacity. */
+static uint16_t luminance(uint32_t pixel)
+{
+    const uint32_t red = pixel >> 16 & 255, green = pixel >> 8 & 255, blue = pixel & 255;
+    return (uint16_t)((77 * red + 150 * green + 29 * blue + 128) >> 8);
+}
+
+static image_status copy(image *out, char *fault, cairo_surface_t *surface)
+{
+    const cairo_format_t format = cairo_image_surface_get_format(surface);
+    if (format != CAIRO_FORMAT_ARGB32 && format != CAIRO_FORMAT_RGB24)
+        return refuse(fault, "a PNG image of such a format is not understood");
+    const unsigned char *data = cairo_image_surface_get_data(surface);
+    const int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
+    const int stride = cairo_image_surface_get_stride(surface);
+    *out = (image){.width = (size_t)width, .height = (size_t)height, .white = 255};
+    if (!image_create(out)) return IMAGE_MEMORY;
+    for (int row = 0; row < height; row++)
+        for (int column = 0; column < width; column++) {
+            uint32_t pixel;
+            memcpy(&pixel, data + (ptrdiff_t)row * stride + (ptrdiff_t)column * 4, sizeof pixel);
+            out->grey[(size_t)row * out->width + (size_t)column] = luminance(pixel);
+        }
+    return IMAGE_READ;
+}
+
+image_status png_parse(image *out, char *fault, const char *bytes, size_t size)
+{
+    source from = {bytes, size};
+    *out = (image){0};
+    if (size < 24) return refuse(fault, "the PNG image ends too early");
+    const size_t width = stated(bytes, 16), height = stated(bytes, 20);
+    const bool sides = width >= 1 && width < IMAGE_MAX_SIDE && height >= 1 && height < IMAGE_MAX_SIDE;
+    if (!sides || width * height > PNG_MAX_PIXELS) {
+        (void)snprintf(fault, IMAGE_FAULT, "a PNG image of %zu x %zu pixels; the limit is %d", width, height,
+                       PNG_MAX_PIXELS);
+        return IMAGE_REFUSED;
+    }
+    cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(give, &from);
+    const image_status result =
+        cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS
+            ? copy(out, fault, surface)
+            : refuse(fault, "the PNG image is damaged"); /* cairo calls that out of memory, too */
+    cairo_surface_destroy(surface);
+    return result;
+}
+#else
+image_status png_parse(image *out, char *fault, const char *bytes, size_t size)
+{
+    (void)bytes;
+    (void)size;
+    *out = (image){0};
+    return refuse(fault, "PNG images need cairo, which is not built in; PGM is always understood");
+}
+#endif

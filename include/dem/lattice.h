@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** What bodies are made of: statuses, materials, lattices. Included by dem/dem.h. */
+#ifndef DEM_LATTICE_TYPES_H
+#define DEM_LATTICE_TYPES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define DEM_API __attribute__((visibility("default")))
+#else
+#define DEM_API
+#endif
+
+/* ---- status ------------------------------------------------------------------------------------------------- */
+
+typedef int64_t dem_index;
+
+typedef enum dem_status {
+    DEM_OK = 0,
+    DEM_STOPPED = 1,           /**< an observer asked to stop; the state is valid */
+    DEM_ERROR_MEMORY = -1,     /**< an allocation failed */
+    DEM_ERROR_ARGUMENT = -2,   /**< a NULL, an unknown enum value, a number outside its range */
+    DEM_ERROR_MODEL = -3,      /**< unphysical or inconsistent: mass <= 0, spring without length */
+    DEM_ERROR_INTEGRATOR = -4, /**< the tolerance cannot be met; the state is the last good one */
+    DEM_ERROR_CONTACT = -5,    /**< impacts accumulate faster than time advances */
+    DEM_ERROR_IO = -6          /**< a file cannot be read or written */
+} dem_status;
+
+/** Text of the last failure in this thread; valid until the next failing call. Never NULL. */
+DEM_API const char *dem_status_message(void);
+
+/** Library version, "MAJOR.MINOR.PATCH". */
+DEM_API const char *dem_version(void);
+
+/** Version of the SUNDIALS library in use, "MAJOR.MINOR.PATCH". */
+DEM_API const char *dem_version_sundials(void);
+
+/* ---- lattice: what the body is made of ------------------------------------------------------------------------ */
+
+typedef enum dem_plane {
+    DEM_PLANE_STRESS = 0, /**< a thin plate, free to change its thickness */
+    DEM_PLANE_STRAIN      /**< a slice of a long body, which keeps its thickness */
+} dem_plane;
+
+/** An isotropic solid; `plane` says how it is a body in the plane. */
+typedef struct dem_material {
+    double youngs_modulus; /**< E, Pa, > 0; 0 where the springs are given by bond_stiffness */
+    double bond_stiffness; /**< 0, or E_ij, N, > 0: every spring has this, as the paper draws them, whatever its length;
+                                nothing else is known then, neither E nor nu                                    (1) */
+    double poissons_ratio; /**< nu, in (-1, 1) in plane stress, in (-1, 0.5) in plane strain. Springs alone have 1/3 in
+                                plane stress, 1/4 in plane strain; any other needs the area term */
+    dem_plane plane;
+    double density;      /**< rho, kg/m^3, > 0 */
+    double thickness;    /**< h, m, > 0 */
+    double guard;        /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
+    double damping_time; /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
+                                damping_time e'; 0: none */
+} dem_material;
+
+enum {
+    DEM_NODE_FIXED = 1,  /**< never moves */
+    DEM_NODE_CONTACT = 2 /**< may touch obstacles */
+};
+
+/** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
+ *  comes from malloc; dem_lattice_free() frees them all. */
+typedef struct dem_lattice {
+    size_t struct_size;     /**< set by dem_lattice_init() */
+    int dim;                /**< 2; 3 is reserved */
+    dem_index n_nodes;      /**< > 0 */
+    dem_index n_springs;    /**< >= 0 */
+    dem_index n_triangles;  /**< >= 0 */
+    double *x;              /**< [n_nodes][2]     rest position, m */
+    double *mass;           /**< [n_nodes]        m_i > 0, kg */
+    dem_index *ends;        /**< [n_springs][2]   the two nodes, distinct */
+    double *rest_length;    /**< [n_springs]      d0_ij > 0, m                                   (1) */
+    double *stiffness;      /**< [n_springs]      E_ij > 0, N: force at unit strain              (1) */
+    dem_index *triangles;   /**< [n_triangles][3] counter-clockwise; NULL: none */
+    double *viscosity;      /**< [n_springs]      force at unit strain rate >= 0, N s; NULL: undamped */
+    double *guard;          /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
+    double *area_stiffness; /**< [n_triangles]   kappa of the area term, of any sign, N/m: the energy
+                                kappa/2 (A - A0)^2/A0 of a triangle of area A; NULL: none */
+    double *thickness;      /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
+    double *modulus;        /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
+                                between them as modulus * thickness * area; NULL: equal */
+    unsigned char *flags;   /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
+                                the triangulation, on every node where there are no triangles */
+    int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
+    double *position;       /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
+    double *velocity;       /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
+} dem_lattice;
+
+/** An empty lattice: no nodes, all arrays NULL. */
+DEM_API void dem_lattice_init(dem_lattice *lattice);
+
+/** Frees the arrays and leaves an empty lattice. Accepts NULL. */
+DEM_API void dem_lattice_free(dem_lattice *lattice);
+
+/** Equilateral triangulation of a rectangle standing on the origin: -width/2 <= x <= width/2, 0 <= y <= height.
+ *  Rows alternate between round(width/spacing) + 1 nodes and one less, so that it is mirror symmetric; the spacing is
+ *  kept and the height rounded to whole rows. Nodes and triangles only: dem_lattice_assemble() makes it a solid.
+ *  \param[out] out  overwritten, not freed; caller owns it
+ *  \return DEM_ERROR_ARGUMENT unless 0 < spacing <= width, height; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing);
+
+/** The same of square cells: round(width/spacing) x round(height/spacing) of them, each of two triangles, 2 k and
+ *  2 k + 1, whose common sides turn from cell to cell. dem_lattice_assemble_squares() makes it a solid. What cuts it
+ *  should take both triangles of a cell or none. Otherwise as dem_lattice_rectangle(). */
+DEM_API dem_status dem_lattice_squares(dem_lattice *out, double width, double height, double spacing);
+
+/** Equilateral triangulation of a disc about the origin, with a node at its centre. Otherwise as
+ *  dem_lattice_rectangle(), with 0 < spacing <= radius. */
+DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing);
+
+/** Removes the nodes for which `keep` returns 0, the triangles that lose a corner, and nodes left without a triangle.
+ *  For triangulations not yet assembled; a lattice that has springs is refused.
+ *  \return DEM_ERROR_MODEL if nothing is left */
+DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
+
+/** Keeps the triangles for which keep[t] != 0, and the nodes that have one of them. For triangulations not yet
+ *  assembled; a lattice that has springs is refused.
+ *  \param keep  [n_triangles]
+ *  \return DEM_ERROR_MODEL if nothing is left */
+DEM_API dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep);
+
+/** Number of pieces of a triangulation. Triangles that share an edge are of one piece; those that share but a node, a
+ *  hinge, are not.
+ *  \param[out] piece  [n_triangles] the piece of each triangle, numbered by their lowest ones; may be NULL */
+DEM_API dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, dem_index *piece);
+
+/** Number of boundary edges at each node: 0 inside and without triangles, 2 on the boundary, more at a hinge.
+ *  \param[out] n_edges  [n_nodes] */
+DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges);
+
+/** Springs, masses and what triangles have, by the finite-element rule: a triangle of area A gives each edge e the
+ *  stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
+ *  stiffness is (lambda - G) h. G = E/(2 (1 + nu)) and lambda = E nu/(1 - nu^2) are those of plane stress; a solid in
+ *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
+ *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
+DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
+
+/** The same for cells of two triangles each, 2 k and 2 k + 1, that make a convex quadrilateral; both its diagonals are
+ *  springs. A cell gives half of E h/(1 + nu) to each side, `diagonal` times E h/(1 + nu) to both diagonals, and each
+ *  corner of a square a quarter of its mass. A block of squares then has exactly E and nu along its sides, and the
+ *  shear stiffness diagonal E/(1 + nu): 0.5 is isotropic, and nu = diagonal/(1 + diagonal) needs no area term.
+ *  \param diagonal  stiffness of a diagonal over that of a side, both in N/m, in (0, 1/(1 - nu)): beyond, cells warp;
+ *                   usual: 0.5 */
+DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal);
+
+/** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
+ *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For
+ *  triangulations not yet assembled; a lattice that has springs is refused. */
+DEM_API dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed);
+
+/** Multiplies all that resists deformation by `factor` > 0: springs, their damping, area term, guard. */
+DEM_API dem_status dem_lattice_stiffen(dem_lattice *lattice, double factor);
+
+/** Number of parts that springs do not connect.
+ *  \param[out] part  [n_nodes] the part of each node, numbered by their lowest nodes; may be NULL */
+DEM_API dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem_index *part);
+
+/** Keeps the nodes for which keep[i] != 0, with the springs and triangles among them.  \param keep [n_nodes] */
+DEM_API dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep);
+
+/** Turns the lattice by `angle` (radians, about the origin) and shifts it; initial positions and velocities turn
+ *  too. */
+DEM_API void dem_lattice_move(dem_lattice *lattice, double angle, const double offset[2]);
+
+/** Adds `velocity` (m/s) to the initial velocity of every node. */
+DEM_API dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2]);
+
+/** Adds a rigid rotation about the centre of mass, where the nodes start, to the initial velocities.
+ *  \param angular_velocity  rad/s, counter-clockwise
+ *  \return DEM_ERROR_MODEL without masses: dem_lattice_assemble() comes first */
+DEM_API dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity);
+
+/** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
+DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
+
+/** What each of some nodes has of the boundary edges between them, half of each edge: by its length in the rest shape,
+ *  or, along a unit `direction` [2], by the length of its projection on that. For tractions: dem_boundary's share.
+ *  \param nodes        [n] distinct
+ *  \param direction    may be NULL
+ *  \param[out] length  [n] m, sum over the nodes: length of the edges */
+DEM_API dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
+                                           const double *direction, double *length);
+
+/** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
+DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Every allocation of the readers fails in turn, once and from then on, while a deck with every shape is read: it says
+ * that memory ran out, nothing crashes, nothing leaks (the sanitizers' run sees that). The linker wraps the readers'
+ * malloc, calloc and realloc; the libraries keep theirs. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "../unit/close.h"
+
+#include "deck.h"
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t n, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+
+static long allocations, failing; /* the failing-th fails; 0: none */
+static int from_then_on;
+
+static int fails(void)
+{
+    allocations++;
+    return failing > 0 && (allocations == failing || (from_then_on && allocations > failing));
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return fails() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t n, size_t size)
+{
+    return fails() ? NULL : __real_calloc(n, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return fails() ? NULL : __real_realloc(old, size);
+}
+
+static const char *const files[][2] = {
+    {"fault.nml", "&run t_end = 1 /\n"
+                  "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
+                  "&body shape = 'ring', radius = 4, inner_radius = 2, spacing = 1, material = 'rubber' /\n"
+                  "&body shape = 'polygon', points = 0,0, 6,0, 6,6, 0,6, spacing = 1, material = 'rubber' /\n"
+                  "&body shape = 'mask', file = 'fault.pgm', scale = 1, spacing = 1, material = 'rubber', disconnected "
+                  "= 'remove' /\n"
+                  "&body shape = 'mesh', file = 'fault.msh', scale = 1, material = 'rubber' /\n"
+                  "&void body = 2, shape = 'polygon', centre = 3, 3, points = -0.5,-0.5, 0.5,-0.5, 0,0.5 /\n"
+                  "&void body = 2, shape = 'rectangle', centre = 4, 3, size = 1, 1, angle = 30 /\n"
+                  "&pores body = 2, porosity = 0.02, radius = 0.3, 0.5, wall = 0.1 /\n"
+                  "&crack body = 1, points = 1,0, 5,0 /\n"
+                  "&obstacle points = -9,-9, 9,-9 /\n"},
+    {"fault.pgm", "P2 6 4 1  1 1 1 1 0 1  1 1 1 1 1 1  1 1 1 1 1 1  1 1 1 1 1 1\n"},
+    {"fault.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n2 0 0\n2 2 0\n0 "
+                  "2 0\n$EndNodes\n"
+                  "$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 3 4\n$EndElements\n"}};
+
+static int write_files(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        FILE *file = fopen(files[k][0], "w");
+        if (file == NULL || fputs(files[k][1], file) < 0 || fclose(file) != 0) return 1;
+    }
+    return 0;
+}
+
+static int remove_files(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) (void)unlink(files[k][0]);
+    return 0;
+}
+
+static deck_status read_once(char *told, size_t size)
+{
+    namelist_errors errors = {0};
+    deck d;
+    const deck_status status = deck_read(&d, files[0][0], &errors);
+    (void)snprintf(told, size, "%s", errors.n > 0 ? errors.list[0].text : "no message");
+    namelist_errors_free(&errors);
+    deck_free(&d);
+    return status;
+}
+
+static void each_allocation_may_fail(int stays_so)
+{
+    char told[256];
+    failing = allocations = 0;
+    if (read_once(told, sizeof told) != DECK_OK) fail_msg("%s", told);
+    const long all = allocations;
+    assert_true(all > 200);
+    from_then_on = stays_so;
+    for (failing = 1; failing <= all; failing++) {
+        allocations = 0;
+        const deck_status status = read_once(told, sizeof told);
+        if (status != DECK_MEMORY) fail_msg("allocation %ld of %ld: status %d, %s", failing, all, (int)status, told);
+    }
+    failing = 0;
+    assert_int_equal(read_once(told, sizeof told), DECK_OK);
+}
+
+static void one_failed_allocation_ends_reading_with_its_status(void **state)
+{
+    (void)state;
+    each_allocation_may_fail(0);
+}
+
+static void memory_that_stays_away_ends_reading_with_its_status(void **state)
+{
+    (void)state;
+    each_allocation_may_fail(1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_failed_allocation_ends_reading_with_its_status),
+        cmocka_unit_test(memory_that_stays_away_ends_reading_with_its_status),
+    };
+    return cmocka_run_group_tests(tests, write_files, remove_files);
+}
