@@ -155,11 +155,6 @@ static void turn(double *array, dem_index n, double angle, vec2 shift)
     }
 }
 
-static void scale(double *array, dem_index n, double factor)
-{
-    for (dem_index k = 0; array != NULL && k < n; k++) array[k] *= factor;
-}
-
 /* ---- joining ---- */
 
 /* n items of `a` and m of `b` one behind the other; zeros in place of NULL. */
@@ -505,18 +500,6 @@ dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem
         lattice->flags = flags;
     }
     for (dem_index k = 0; k < n; k++) lattice->flags[nodes[k]] &= (unsigned char)~DEM_NODE_CONTACT;
-    return DEM_OK;
-}
-
-dem_status dem_lattice_stiffen(dem_lattice *lattice, double factor)
-{
-    TRY(lattice_check(lattice));
-    CHECK(isfinite(factor) && factor > 0.0, DEM_ERROR_ARGUMENT, "the factor must be > 0: %g", factor);
-    scale(lattice->stiffness, lattice->n_springs, factor);
-    scale(lattice->viscosity, lattice->n_springs, factor);
-    scale(lattice->guard, lattice->n_triangles, factor);
-    scale(lattice->area_stiffness, lattice->n_triangles, factor);
-    scale(lattice->modulus, lattice->n_triangles, factor);
     return DEM_OK;
 }
 

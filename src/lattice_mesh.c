@@ -168,6 +168,15 @@ static double area_of(const double *x, const dem_index *corner)
     return 0.5 * vec2_cross(vec2_sub(vec2_at(x, corner[1]), a), vec2_sub(vec2_at(x, corner[2]), a));
 }
 
+static dem_status check_areas(const dem_lattice *l)
+{
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        CHECK(is_positive(area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
+              "triangle %lld has the area %g m^2; it must be > 0 to be jittered", (long long)t,
+              area_of(l->x, l->triangles + 3 * t));
+    return DEM_OK;
+}
+
 /* Brings the corners of triangles that lost most of their area half way back, until there are none. */
 static void relent(const dem_lattice *l, double *x)
 {
@@ -261,6 +270,7 @@ dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed
     CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be jittered: %lld springs",
           (long long)lattice->n_springs);
     CHECK(lattice->n_triangles > 0, DEM_ERROR_MODEL, "a lattice without triangles cannot be jittered");
+    TRY(check_areas(lattice));
     unsigned char *rim = lattice_zeros(lattice->n_nodes, sizeof *rim);
     double *x = lattice_zeros(lattice->n_nodes, 2 * sizeof *x);
     dem_status status =

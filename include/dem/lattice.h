@@ -148,17 +148,14 @@ DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material
  *  springs. A cell gives half of E h/(1 + nu) to each side, `diagonal` times E h/(1 + nu) to both diagonals, and each
  *  corner of a square a quarter of its mass. A block of squares then has exactly E and nu along its sides, and the
  *  shear stiffness diagonal E/(1 + nu): 0.5 is isotropic, and nu = diagonal/(1 + diagonal) needs no area term.
- *  \param diagonal  stiffness of a diagonal over that of a side, both in N/m, in (0, 1/(1 - nu)): beyond, cells warp;
- *                   usual: 0.5 */
+ *  \param diagonal  stiffness of a diagonal over that of a side, both in N/m, > 0 and less than (1 + nu)/(2 (1 - nu)),
+ *                   or cells warp; usual: 0.5, for nu > 0. Not used with a bond stiffness */
 DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal);
 
 /** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
  *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For
  *  triangulations not yet assembled; a lattice that has springs is refused. */
 DEM_API dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed);
-
-/** Multiplies all that resists deformation by `factor` > 0: springs, their damping, area term, guard. */
-DEM_API dem_status dem_lattice_stiffen(dem_lattice *lattice, double factor);
 
 /** Number of parts that springs do not connect.
  *  \param[out] part  [n_nodes] the part of each node, numbered by their lowest nodes; may be NULL */

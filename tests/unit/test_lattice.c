@@ -224,28 +224,6 @@ static void launch_refuses_what_is_no_velocity(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void stiffen_multiplies_all_that_resists(void **state)
-{
-    (void)state;
-    dem_lattice lattice = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.6, 1.0);
-    give_viscosity(&lattice);
-    give_area_stiffness(&lattice);
-    assert_int_equal(dem_lattice_stiffen(&lattice, 1.5), DEM_OK);
-    for (dem_index k = 0; k < lattice.n_springs; k++) {
-        assert_close(lattice.stiffness[k], 1.5 * plain.stiffness[k], 0.0);
-        assert_close(lattice.viscosity[k], 1.5 * (0.5 + (double)k), 0.0);
-    }
-    for (dem_index t = 0; t < lattice.n_triangles; t++) {
-        assert_close(lattice.guard[t], 1.5 * plain.guard[t], 0.0);
-        assert_close(lattice.area_stiffness[t], -1.5 * (double)t, 0.0);
-        assert_close(lattice.modulus[t], 1.5 * plain.modulus[t], 0.0);
-    }
-    assert_memory_equal(lattice.mass, plain.mass, (size_t)plain.n_nodes * sizeof *plain.mass);
-    assert_refused(dem_lattice_stiffen(&lattice, 0.0), DEM_ERROR_ARGUMENT, "the factor must be > 0: 0");
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&plain);
-}
-
 static void append_numbers_nodes_and_bodies_behind_the_others(void **state)
 {
     (void)state;
@@ -386,7 +364,6 @@ int main(void)
         cmocka_unit_test(spin_turns_about_the_centre_of_mass),
         cmocka_unit_test(move_turns_about_the_origin_then_shifts),
         cmocka_unit_test(launch_refuses_what_is_no_velocity),
-        cmocka_unit_test(stiffen_multiplies_all_that_resists),
         cmocka_unit_test(append_numbers_nodes_and_bodies_behind_the_others),
         cmocka_unit_test(append_keeps_who_may_touch_and_where_the_motion_starts),
         cmocka_unit_test(append_gives_undamped_springs_no_viscosity_beside_damped_ones),

@@ -331,6 +331,10 @@ static void jitter_refuses_what_it_cannot_move(void **state)
     assert_refused(dem_lattice_jitter(&lattice, -0.1, 1), DEM_ERROR_ARGUMENT,
                    "the radius of the jitter must be >= 0: -0.1 m");
     assert_refused(dem_lattice_jitter(NULL, 0.1, 1), DEM_ERROR_ARGUMENT, "lattice is NULL");
+    lattice.x[0] += 2.0; /* beyond node 1 */
+    assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
+                   "triangle 0 has the area -0.433013 m^2; it must be > 0 to be jittered");
+    lattice.x[0] -= 2.0;
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
                    "a lattice that has springs cannot be jittered: 6 springs");

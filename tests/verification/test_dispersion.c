@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Standing plane waves in lattices of triangles and of squares, against the dispersion relation of the infinite lattice:
- * the eigenvalues of a sum over the neighbours of one node. A wave of wave vector q stands about a node in the middle of
- * a block; after a quarter of its period the node is where it rests, before anything arrives from the boundary. */
+/* Standing plane waves in lattices of triangles and of squares, against the dispersion relation of the infinite
+ * lattice: the eigenvalues of a sum over the neighbours of one node. A wave of wave vector q stands about a node in the
+ * middle of a block; after a quarter of its period the node is where it rests, before anything arrives from the
+ * boundary. */
 #include <stdbool.h>
 #include <stdlib.h>
 

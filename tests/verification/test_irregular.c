@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lattices that are not regular: nodes moved at random, rings of triangles, triangles with a right angle, springs of one
- * stiffness. Their constants are measured; they stay within bands, and E can be brought back to what was asked for. */
+/* Lattices that are not regular: nodes moved at random, rings of triangles, triangles with a right angle, springs of
+ * one stiffness. Their constants are measured and stay within bands. */
 #include <stdbool.h>
 #include <stdlib.h>
 
@@ -42,7 +42,7 @@ static dem_lattice make_jittered(bool squares, double nu, double share, uint64_t
 }
 
 /* A triangle's error is of first order in how far it is from equilateral, and so are the forces inside that it leaves;
- * what their equilibrium takes off the energy is of second order: E falls by some share^2 times a number, which is larger
+ * what their equilibrium takes off the energy is of second order: E falls by share^2 times a number, which is larger
  * the smaller nu is. Bands from 0.7 to 1.5 times what five seeds gave on the mean; their scatter is a tenth. */
 static void jitter_softens_by_its_square(void **state)
 {
@@ -68,18 +68,6 @@ static void jitter_softens_by_its_square(void **state)
     }
 }
 
-static void stiffened_by_what_it_lost_a_lattice_has_the_modulus_asked_for(void **state)
-{
-    (void)state;
-    dem_lattice lattice = make_jittered(false, 0.2, 0.2, 7);
-    const dem_constants before = measure(&lattice);
-    assert_ok(dem_lattice_stiffen(&lattice, E / before.youngs_modulus));
-    const dem_constants after = measure(&lattice);
-    assert_close(after.youngs_modulus / E, 1.0, 1e-12); /* linear: the same iterations, but for rounding */
-    assert_close(after.poissons_ratio, before.poissons_ratio, 1e-12);
-    dem_lattice_free(&lattice);
-}
-
 /* ---- an unstructured triangulation ---- */
 
 enum { n_rings = 12 };
@@ -90,14 +78,14 @@ static dem_index first_of(dem_index ring)
     return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1);
 }
 
-/* Between rings the next triangle stands on the one whose next node is nearer along the ring. */
+/* Between rings the next triangle stands on the side, of either ring, whose middle comes first. */
 static void fill_ring(dem_lattice *l, dem_index ring, dem_index *t)
 {
     const dem_index inner = 6 * ring, outer = inner + 6;
     dem_index i = 0, o = 0;
     while (i < inner || o < outer) {
         const dem_index a = first_of(ring) + (inner > 0 ? i % inner : 0), b = first_of(ring + 1) + o % outer;
-        const bool on_outer = o < outer && (inner == 0 || (o + 1) * inner <= (i + 1) * outer || i == inner);
+        const bool on_outer = o < outer && (inner == 0 || (2 * o + 1) * inner <= (2 * i + 1) * outer || i == inner);
         dem_index *corner = l->triangles + 3 * (*t)++;
         corner[0] = a;
         corner[1] = b;
@@ -128,8 +116,8 @@ static void make_rings(dem_lattice *l)
     assert_int_equal(t, l->n_triangles);
 }
 
-/* Angles from 45 to 90 degrees: within 8 % of E, 0.05 of nu and 3 % of isotropy. */
-static void a_disc_of_rings_has_nearly_the_constants_asked_for(void **state)
+/* Angles from 45 to 88 degrees: 5 to 10 % softer, nu to 0.02, and isotropic by its sixfold symmetry. */
+static void a_disc_of_rings_is_softer_within_a_band(void **state)
 {
     static const double ratios[] = {0.1, 1.0 / 3.0, 0.45};
     (void)state;
@@ -141,18 +129,18 @@ static void a_disc_of_rings_has_nearly_the_constants_asked_for(void **state)
         const dem_constants c = measure(&lattice);
         print_message("# rings, nu %.3f: E %.4f, nu %+.4f, anisotropy %.4f\n", ratios[k], c.youngs_modulus / E,
                       c.poissons_ratio - ratios[k], c.anisotropy);
-        assert_in_band(c.youngs_modulus / E, 0.92, 1.0);
-        assert_close(c.poissons_ratio, ratios[k], 0.05);
-        assert_true(c.anisotropy < 1.03);
+        assert_in_band(c.youngs_modulus / E, 0.9, 0.95);
+        assert_close(c.poissons_ratio, ratios[k], 0.02);
+        assert_close(c.anisotropy, 1.0, 1e-6);
         dem_lattice_free(&lattice);
     }
 }
 
 /* ---- exactly wrong ---- */
 
-/* Squares cut into two triangles each, by the rule of triangles: springs E h along the sides, and E h/4 on the mean along
- * either diagonal (legs (4/3) G h, hypotenuse (2/3) G h of each triangle, the mean of both diagonals). Cubic, with the
- * average E and nu of the isotropic solid and E110/E100 = 4 k2 (k1 + k2)/(k1 (k1 + 4 k2)) = 5/8. */
+/* Squares cut into two triangles each, by the rule of triangles: springs E h along the sides, and E h/4 on the mean
+ * along either diagonal (legs (4/3) G h, hypotenuse (2/3) G h of each triangle, the mean of both diagonals). Cubic,
+ * with the average E and nu of the isotropic solid and E110/E100 = 4 k2 (k1 + k2)/(k1 (k1 + 4 k2)) = 5/8. */
 static void right_angled_triangles_are_anisotropic(void **state)
 {
     const dem_material solid = solid_of(1.0 / 3.0);
@@ -167,8 +155,8 @@ static void right_angled_triangles_are_anisotropic(void **state)
     dem_lattice_free(&lattice);
 }
 
-/* Springs of one stiffness, as the paper draws them, E_ij = sqrt(3)/2 E h a: the boundary has twice what it should, and E
- * is too high by (boundary length) a/(area) times a number; nu of the inside, 1/3. */
+/* Springs of one stiffness, as the paper draws them, E_ij = sqrt(3)/2 E h a: the boundary has twice what it should, and
+ * E is too high by (boundary length) a/(area) times a number; nu of the inside, 1/3. */
 static void equal_springs_are_too_stiff_by_the_order_of_spacing_over_width(void **state)
 {
     const dem_material raw = {.bond_stiffness = sqrt(3.0) / 2.0 * E * 0.5, .density = 1050.0, .thickness = 0.5};
@@ -182,6 +170,8 @@ static void equal_springs_are_too_stiff_by_the_order_of_spacing_over_width(void 
         const dem_constants c = measure(&lattice);
         excess[k] = c.youngs_modulus / E - 1.0;
         assert_close(c.poissons_ratio, 1.0 / 3.0, 0.01);
+        print_message("# equal springs, %.0f spacings: E %.4f, nu %.4f\n", width, c.youngs_modulus / E,
+                      c.poissons_ratio);
         dem_lattice_free(&lattice);
     }
     assert_in_band(excess[0], 0.02, 0.1);
@@ -192,8 +182,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(jitter_softens_by_its_square),
-        cmocka_unit_test(stiffened_by_what_it_lost_a_lattice_has_the_modulus_asked_for),
-        cmocka_unit_test(a_disc_of_rings_has_nearly_the_constants_asked_for),
+        cmocka_unit_test(a_disc_of_rings_is_softer_within_a_band),
         cmocka_unit_test(right_angled_triangles_are_anisotropic),
         cmocka_unit_test(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width),
     };

@@ -9,7 +9,7 @@
 
 static const double k = 50.0, m = 2.0, amplitude = 1e-6; /* N/m, kg; m, of springs of 1 m */
 
-/* omega^2 m/k, ascending, without the three rigid motions; half of the breathing mode's 3 for shears of the triangle. */
+/* omega^2 m/k, ascending, without the three rigid motions. */
 static const double of_triangle[] = {1.5, 1.5, 3.0};
 static const double of_hexagon[] = {0.848612181, 0.848612181, 1.0, 1.22930937, 1.22930937, 2.0,
                                     2.65138782,  2.65138782,  3.0, 4.27069063, 4.27069063};
