@@ -192,6 +192,19 @@ static void check_frames(const schema_deck *groups, namelist_errors *errors)
                             interval->reals[0], frames, most_frames);
 }
 
+/* SUNDIALS may lack the method. */
+static void check_solver(const schema_instance *solver, namelist_errors *errors)
+{
+    const schema_value *name = schema_value_of(solver, "method"), *longest = schema_value_of(solver, "max_step");
+    dem_method method;
+    dem_method_traits traits;
+    if (!name->faulty && dem_method_find(&method, schema_text(solver, "method")) == DEM_OK &&
+        dem_method_describe(&traits, method) != DEM_OK)
+        namelist_errors_add(errors, name->place, "%s", dem_status_message());
+    if (longest->given && schema_value_of(solver, "fixed_step")->given)
+        namelist_errors_add(errors, longest->place, "'max_step' in &solver: give it or 'fixed_step', not both");
+}
+
 static bool ends_with(const char *text, const char *end)
 {
     const size_t n = strlen(text), m = strlen(end);
@@ -217,6 +230,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
         check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
     loading_check_all(groups, errors);
+    check_solver(schema_get(groups, "solver", 0), errors);
     probes_check(groups, errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
@@ -224,31 +238,18 @@ static void check(const schema_deck *groups, namelist_errors *errors)
 
 /* ---- scalars ---- */
 
-static const char *const method_names[] = {[DEM_METHOD_FEHLBERG45] = "fehlberg45",
-                                           [DEM_METHOD_DOPRI45] = "dopri45",
-                                           [DEM_METHOD_CASHKARP45] = "cashkarp45",
-                                           [DEM_METHOD_ZONNEVELD34] = "zonneveld34",
-                                           [DEM_METHOD_BS23] = "bs23"};
-
-/* The table of keys admits no other name. */
-static dem_method method_of(const char *name)
-{
-    size_t k = 0;
-    while (strcmp(name, method_names[k]) != 0) k++;
-    return (dem_method)k;
-}
-
 static void set_options(dem_options *options, const schema_deck *groups)
 {
     const schema_instance *run = schema_get(groups, "run", 0), *contact = schema_get(groups, "contact", 0);
     const schema_instance *solver = schema_get(groups, "solver", 0);
     *options = dem_options_default();
     for (int c = 0; c < 2; c++) options->gravity[c] = schema_value_of(run, "gravity")->reals[c];
-    options->method = method_of(schema_text(solver, "method"));
+    (void)dem_method_find(&options->method, schema_text(solver, "method")); /* the table of keys has no other name */
     options->rtol = schema_real(solver, "rtol");
     options->spacing = schema_real(solver, "spacing");
     options->v_scale = schema_real(solver, "v_scale");
     options->max_step = schema_real(solver, "max_step");
+    options->fixed_step = schema_real(solver, "fixed_step");
     options->skin = schema_real(contact, "skin");
     options->rest_speed = schema_real(contact, "rest_speed");
     options->max_impacts = (dem_index)schema_real(contact, "max_impacts");
@@ -504,11 +505,6 @@ static deck_status resolve(deck *d, size_t size, namelist_errors *errors)
     namelist_free(&list);
     namelist_errors_sort(errors);
     return errors->out_of_memory ? DECK_MEMORY : status;
-}
-
-const char *deck_method_name(dem_method method)
-{
-    return method_names[method];
 }
 
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors)

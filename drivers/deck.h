@@ -50,7 +50,4 @@ typedef struct deck {
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors);
 void deck_free(deck *d);
 
-/* As 'method' in &solver has it. */
-const char *deck_method_name(dem_method method);
-
 #endif

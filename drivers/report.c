@@ -142,10 +142,12 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 /* ---- before and after ---- */
 
-static int evaluations_per_step(dem_method method)
+/* Of a simulation that exists, so that the method is known. */
+static dem_method_traits method_of(const dem_simulation *simulation)
 {
-    return method == DEM_METHOD_DOPRI45 ? 7
-                                        : (method == DEM_METHOD_ZONNEVELD34 ? 5 : (method == DEM_METHOD_BS23 ? 4 : 6));
+    dem_method_traits traits = {0};
+    (void)dem_method_describe(&traits, dem_simulation_options(simulation).method);
+    return traits;
 }
 
 static bool has_friction(const dem_obstacle *o)
@@ -311,18 +313,61 @@ static void print_bodies(FILE *out, const deck *d)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
 }
 
+/* Tables grow by whole chunks. */
+static double table_bytes(double rows, double width)
+{
+    return 8.0 * width * 1024.0 * ceil(rows / 1024.0);
+}
+
+/* Of the history and the probes, in numbers a row. */
+static double tables_bytes(const deck *d, const dem_model_size *size, double steps)
+{
+    static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
+    const double bytes = table_bytes(steps, 35.0 + 5.0 * (double)size->n_bodies + 9.0 * (double)size->n_obstacles +
+                                                4.0 * (double)d->n_boundaries);
+    double of_probes = 0.0;
+    for (dem_index k = 0; k < d->n_probes; k++)
+        of_probes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
+    return bytes + of_probes;
+}
+
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_options o = dem_simulation_options(simulation);
     const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
-    const double history_bytes = 8.0 * (30.0 + 5.0 * (double)size.n_bodies + 9.0 * (double)size.n_obstacles);
     const double state_bytes = (double)size.n_nodes * (4.0 * 8.0 * 24.0 + 300.0) + (double)size.n_springs * 2.0 * 44.0;
     (void)fprintf(
         out,
-        "estimate   at least %.0f steps of %d evaluations, %.0f frames, up to %.3g MB of output, %.3g MB of memory\n",
-        steps, evaluations_per_step(o.method), frames, 1e-6 * (frames * frame_bytes(d, &size) + steps * history_bytes),
-        1e-6 * state_bytes);
+        "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output, %.3g MB of memory\n",
+        steps, (int)method_of(simulation).evaluations, frames,
+        1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)), 1e-6 * state_bytes);
+}
+
+/* What the step is in units of the fastest oscillation, and what the method makes of that. */
+static void print_stability(FILE *out, const dem_method_traits *method, const dem_options *o, double omega)
+{
+    const double z = omega * o->max_step, growth = dem_method_growth(o->method, z) - 1.0;
+    const bool fixed = o->fixed_step > 0.0;
+    if (!(omega > 0.0)) return;
+    (void)fprintf(out, "stability  omega_max h = %.3g; ", z);
+    if (method->stable > 0.0)
+        (void)fprintf(out, "%s is stable up to %.3g, h = %.4g s", method->name, method->stable, method->stable / omega);
+    else
+        (void)fprintf(out, "with %s undamped oscillations grow at any step, here by %.1e a step", method->name,
+                      fmax(growth, 0.0));
+    (void)fprintf(out, "%s\n", fixed && z > method->usable ? "; WARNING: longer than that, the run may blow up" : "");
+}
+
+static void print_time(FILE *out, double t_end, const dem_simulation *simulation)
+{
+    const dem_options o = dem_simulation_options(simulation);
+    const dem_method_traits method = method_of(simulation);
+    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
+                  (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
+    print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
+    (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing = %.3g at v_scale along x; it does not bound the step\n",
+                  o.v_scale * o.max_step / o.spacing);
 }
 
 static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
@@ -362,8 +407,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     print_rules(out, &o, model);
     (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
-    (void)fprintf(out, "time       t_end %.6g s, %s, rtol %.3g, largest step %.4g s\n", d->t_end,
-                  deck_method_name(o.method), o.rtol, o.max_step);
+    print_time(out, d->t_end, simulation);
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
     print_measured(out, model);
     print_estimates(out, d, simulation);

@@ -10,7 +10,7 @@
 enum {
     MAX_NAMES = 32, /* groups, keys of a group, choices of a key */
     MAX_NAME = 63,  /* characters of a word that may be a misspelt name */
-    MAX_CHOICES = 127
+    MAX_CHOICES = 255
 };
 
 static const int64_t max_integer = INT64_C(1) << 53; /* beyond, a double skips integers */

@@ -125,14 +125,22 @@ static bool stays_not_given(const schema_key *key)
     return key->initial != NULL && key->initial[0] == '\0';
 }
 
-/* Whether choices and default do not go into one line. */
-static bool is_long(const schema_key *key)
+/* Many choices take several lines.  \return the width of the last */
+static size_t print_choices(FILE *file, const char *choices)
 {
-    return key->choices != NULL && strlen(key->choices) + strlen(key->initial) > LINE;
+    size_t width = 0;
+    for (const char *c = choices; *c != '\0'; c++) {
+        (void)fputc(*c, file);
+        if (++width < 72 || *c != '|') continue;
+        (void)fprintf(file, "\n    !     ");
+        width = 0;
+    }
+    return width;
 }
 
 static void print_facts(FILE *file, const schema_key *key)
 {
+    size_t width = 0;
     (void)fprintf(file, "    ! [%s", type_names[key->type]);
     if (key->max_count == 0) (void)fprintf(file, "s, at least %d", key->min_count);
     if (key->max_count > key->min_count)
@@ -141,11 +149,14 @@ static void print_facts(FILE *file, const schema_key *key)
         (void)fprintf(file, "s, %d of them", key->max_count);
     if (strcmp(key->unit, "-") != 0) (void)fprintf(file, ", %s", key->unit);
     if (key->range[0] != '\0') (void)fprintf(file, ", %s%s", key->range[0] == '[' ? "in " : "", key->range);
-    if (key->choices != NULL) (void)fprintf(file, ", %s", key->choices);
+    if (key->choices != NULL) {
+        (void)fprintf(file, ", ");
+        width = print_choices(file, key->choices);
+    }
     if (is_required(key))
         (void)fprintf(file, "; must be given");
     else if (!stays_not_given(key))
-        (void)fprintf(file, ";%sdefault: %s", is_long(key) ? "\n    !  " : " ", key->initial);
+        (void)fprintf(file, ";%sdefault: %s", width + strlen(key->initial) > LINE ? "\n    !  " : " ", key->initial);
     (void)fprintf(file, "]\n");
 }
 

@@ -195,12 +195,17 @@ static const schema_key contact_keys[] = {
 };
 
 static const schema_key solver_keys[] = {
-    {"method", SCHEMA_CHOICE, 1, 1, "-", "'fehlberg45'", ANY, "fehlberg45|dopri45|cashkarp45|zonneveld34|bs23", PHYSICS,
-     "Embedded Runge-Kutta pair, named by its orders.", NULL},
+    {"method", SCHEMA_CHOICE, 1, 1, "-", "'fehlberg45'", ANY,
+     "fehlberg45|dopri45|cashkarp45|zonneveld34|bs23|heun12|sayfyaburub34|ark23|ark34|ark34b|ark45|ark45b|verner56|"
+     "verner67|verner78|verner89|fehlberg78|knothwolke3|rk4|verlet",
+     PHYSICS, "By name and orders; knothwolke3, rk4 and verlet take fixed steps. The table is in docs/method.md.",
+     NULL},
     {"rtol", SCHEMA_REAL, 1, 1, "-", "1e-6", "[1e-13, 1e-1]", NULL, PHYSICS,
      "Largest error of a step: of a position over `spacing`, of a velocity over `v_scale`.", NULL},
     {"max_step", SCHEMA_REAL, 1, 1, "s", NONE, "> 0", NULL, PHYSICS,
      "Longest step; default: 0.5/omega_max, half the inverse of the lattice's highest angular frequency.", "2e-5"},
+    {"fixed_step", SCHEMA_REAL, 1, 1, "s", NONE, "> 0", NULL, PHYSICS,
+     "Length of every step, without error control; default for methods of fixed steps: by docs/method.md.", NULL},
     {"v_scale", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
      "Speed that velocity errors are measured in; default: by the rule of docs/method.md.", "10"},
     {"spacing", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,

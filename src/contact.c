@@ -418,6 +418,33 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     return true;
 }
 
+/* Whether an edge of a group has opened, or sunk in, by more than a quarter of the skin. */
+static bool has_opened(const contact_sites *c, dem_index group, const contact_moment *now)
+{
+    const reactions *r = &c->reactions;
+    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
+        const contact_site *site = &c->list[r->members[m]];
+        for (int q = 0; q < site->n_closed && site_is_edge(site); q++)
+            if (fabs(touch_frame_at(&c->scene, site, q, now->x, now->v).gap) > 0.25 * c->scene.rule.skin) return true;
+    }
+    return false;
+}
+
+bool contact_straighten(contact *c, double t, double *y)
+{
+    contact_sites *s = &c->sites;
+    contact_moment now = {t, y, y + scene_velocities(&s->scene), NULL, DEM_OK};
+    bool any = false;
+    for (dem_index g = 0; g < s->reactions.n_groups; g++) {
+        if (!has_opened(s, g, &now)) continue;
+        s->straightened = fmax(s->straightened, strike_straighten(s, g, &now));
+        strike_stop(s, g, &now);
+        any = true;
+    }
+    if (any) c->solved = NAN;
+    return any;
+}
+
 void contact_follow(contact *c, const path *p, const double *y)
 {
     contact_sites *s = &c->sites;

@@ -36,6 +36,10 @@ void contact_constrain(contact *c, const double *y, double *a);
  *  returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
+/** Puts closed vertex contacts that the integrator's error has opened back on their surfaces, and takes the velocity
+ *  that they have across.  \return whether any was */
+bool contact_straighten(contact *c, double t, double *y);
+
 /** Follows an accepted step that ends at y: refreshes the forces, and looks where the sites are. */
 void contact_follow(contact *c, const path *p, const double *y);
 

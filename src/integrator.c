@@ -6,10 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <arkode/arkode_erkstep.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_version.h>
-
+#include "arkode.h"
+#include "method.h"
 #include "status.h"
 
 enum { max_retries = 10 };
@@ -17,9 +15,12 @@ enum { max_retries = 10 };
 static const double no_weight = 1e-100;
 
 struct integrator {
-    integrator_problem problem;
+    motion problem;
+    method_table table;
     SUNContext sundials;
     void *arkode;
+    arkode_controller controller;
+    arkode_errors errors;
     N_Vector y;          /* what ARKODE returns */
     N_Vector y1, f0, f1; /* the accepted step for the path */
     double *y0, *arrays; /* [4 n] each: y0, then those behind the vectors */
@@ -36,24 +37,11 @@ struct integrator {
 
 /* ---- callbacks ---- */
 
-static int call_derivative(realtype t, N_Vector y, N_Vector f, void *user)
+static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     integrator *I = user;
     I->counts.evaluations++;
     return I->problem.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f), I->problem.context) == 0 ? 0 : -1;
-}
-
-/* Derivatives at both ends of the step. ARKODE's interpolant has those of a pair of order 4 or 5; for a lower order its
- * degree is lower, and they are evaluated. */
-static int fetch_derivatives(integrator *I, double now)
-{
-    const integrator_problem *problem = &I->problem;
-    if (problem->method != DEM_METHOD_BS23)
-        return ERKStepGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS ||
-               ERKStepGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS;
-    I->counts.evaluations += 2;
-    return problem->derivative(I->t, I->y0, N_VGetArrayPointer(I->f0), problem->context) != 0 ||
-           problem->derivative(now, N_VGetArrayPointer(I->y1), N_VGetArrayPointer(I->f1), problem->context) != 0;
 }
 
 /* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation derivatives there are the
@@ -61,10 +49,11 @@ static int fetch_derivatives(integrator *I, double now)
 static int fetch_step(integrator *I)
 {
     double now;
-    if (ERKStepGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
+    if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
     if (I->holds_step && I->t1 == now) return 0;
-    if (ERKStepGetDky(I->arkode, now, 0, I->y1) != ARK_SUCCESS) return -1;
-    if (fetch_derivatives(I, now) != 0) return -1;
+    if (ARKodeGetDky(I->arkode, now, 0, I->y1) != ARK_SUCCESS) return -1;
+    if (ARKodeGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS) return -1;
+    if (ARKodeGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS) return -1;
     I->t1 = now;
     I->holds_step = true;
     return 0;
@@ -84,12 +73,12 @@ static path held_path(const integrator *I)
 
 /* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in
  * for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
-static int call_guards(realtype t, N_Vector y, realtype *g, void *user)
+static int call_guards(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
     integrator *I = user;
     double now;
     const double *state = N_VGetArrayPointer(y);
-    if (ERKStepGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
+    if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
     if (t > I->t && t < now) {
         if (fetch_step(I) != 0) return -1;
         const path step = held_path(I);
@@ -122,32 +111,13 @@ static int call_weights(N_Vector y, N_Vector weights, void *user)
     return 0;
 }
 
-static void keep_message(int code, const char *module, const char *function, char *text, void *user)
+static void keep_message(const char *message, void *user)
 {
     integrator *I = user;
-    (void)module;
-    (void)function;
-    if (code < 0) (void)snprintf(I->message, sizeof I->message, "%s", text);
+    (void)snprintf(I->message, sizeof I->message, "%s", message);
 }
 
 /* ---- set-up ---- */
-
-static const char *table_name(dem_method method)
-{
-    switch (method) {
-    case DEM_METHOD_FEHLBERG45:
-        return "ARKODE_FEHLBERG_6_4_5";
-    case DEM_METHOD_DOPRI45:
-        return "ARKODE_DORMAND_PRINCE_7_4_5";
-    case DEM_METHOD_CASHKARP45:
-        return "ARKODE_CASH_KARP_6_4_5";
-    case DEM_METHOD_ZONNEVELD34:
-        return "ARKODE_ZONNEVELD_5_3_4";
-    case DEM_METHOD_BS23:
-        return "ARKODE_BOGACKI_SHAMPINE_4_2_3";
-    }
-    return NULL;
-}
 
 static dem_status allocate(integrator *I)
 {
@@ -157,7 +127,7 @@ static dem_status allocate(integrator *I)
           (long long)I->problem.n_nodes);
     I->y0 = I->arrays;
     I->inside = I->arrays + n;
-    CHECK(SUNContext_Create(NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
+    CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     I->y = N_VMake_Serial(n, I->arrays + 2 * n, I->sundials);
     I->y1 = N_VMake_Serial(n, I->arrays + 3 * n, I->sundials);
     I->f0 = N_VMake_Serial(n, I->arrays + 4 * n, I->sundials);
@@ -166,24 +136,37 @@ static dem_status allocate(integrator *I)
     return DEM_OK;
 }
 
+/* The order that ARKODE is told limits the degree of its interpolant, and nothing else: below 4 it would not hold the
+ * derivatives at both ends of a step. */
+static int set_table(integrator *I)
+{
+    method_table *t = &I->table;
+    ARKodeButcherTable table = ARKodeButcherTable_Create(t->stages, t->order < 4 ? 4 : t->order, t->embedded_order,
+                                                         t->c, t->a, t->b, t->embedded_order > 0 ? t->d : NULL);
+    if (table == NULL) return -1;
+    const int failed = ERKStepSetTable(I->arkode, table);
+    ARKodeButcherTable_Free(table);
+    return failed;
+}
+
 static int set_adaptivity(integrator *I)
 {
     void *a = I->arkode;
     const double h = I->problem.fixed_step;
-    if (h > 0.0) return ERKStepSetFixedStep(a, h);
-    int failed = ERKStepSetAdaptivityMethod(a, ARK_ADAPT_PI, 1, 0, NULL);
-    failed |= ERKStepSetSafetyFactor(a, 0.9);
-    failed |= ERKStepSetErrorBias(a, 1.0);
-    failed |= ERKStepSetMaxGrowth(a, 10.0);
-    failed |= ERKStepSetMinReduction(a, 0.1);
-    failed |= ERKStepSetFixedStepBounds(a, 1.0, 1.0); /* else growth below 1.5 is ignored and the step count is luck */
-    failed |= ERKStepSetMaxFirstGrowth(a, 10.0);
-    failed |= ERKStepSetMaxEFailGrowth(a, 0.3);
-    failed |= ERKStepSetSmallNumEFails(a, 2);
-    failed |= ERKStepSetMaxErrTestFails(a, 30);
-    failed |= ERKStepSetInitStep(a, 0.1 * I->problem.max_step);
-    failed |= ERKStepSetMinStep(a, 1e-9 * I->problem.max_step);
-    failed |= ERKStepSetMaxStep(a, I->problem.max_step);
+    if (h > 0.0) return ARKodeSetFixedStep(a, h);
+    int failed = arkode_use_pi(I->sundials, a, &I->controller);
+    failed |= ARKodeSetSafetyFactor(a, 0.9);
+    failed |= ARKodeSetErrorBias(a, 1.0);
+    failed |= ARKodeSetMaxGrowth(a, 10.0);
+    failed |= ARKodeSetMinReduction(a, 0.1);
+    failed |= ARKodeSetFixedStepBounds(a, 1.0, 1.0); /* else growth below 1.5 is ignored and the step count is luck */
+    failed |= ARKodeSetMaxFirstGrowth(a, 10.0);
+    failed |= ARKodeSetMaxEFailGrowth(a, 0.3);
+    failed |= ARKodeSetSmallNumEFails(a, 2);
+    failed |= ARKodeSetMaxErrTestFails(a, 30);
+    failed |= ARKodeSetInitStep(a, 0.1 * I->problem.max_step);
+    failed |= ARKodeSetMinStep(a, 1e-9 * I->problem.max_step);
+    failed |= ARKodeSetMaxStep(a, I->problem.max_step);
     return failed;
 }
 
@@ -197,9 +180,9 @@ static dem_status set_guards(integrator *I)
     int *falling = malloc((size_t)n * sizeof *falling);
     CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
     for (dem_index k = 0; k < n; k++) falling[k] = -1;
-    int failed = ERKStepRootInit(I->arkode, (int)n, call_guards);
-    failed |= ERKStepSetRootDirection(I->arkode, falling);
-    failed |= ERKStepSetNoInactiveRootWarn(I->arkode);
+    int failed = ARKodeRootInit(I->arkode, (int)n, call_guards);
+    failed |= ARKodeSetRootDirection(I->arkode, falling);
+    failed |= ARKodeSetNoInactiveRootWarn(I->arkode);
     free(falling);
     CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its root functions: %s", I->message);
     return DEM_OK;
@@ -207,7 +190,9 @@ static dem_status set_guards(integrator *I)
 
 static dem_status set_up(integrator *I, double t, const double *y)
 {
-    CHECK(table_name(I->problem.method) != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)I->problem.method);
+    TRY(method_load(&I->table, I->problem.method));
+    CHECK(I->table.embedded_order > 0 || I->problem.fixed_step > 0.0, DEM_ERROR_ARGUMENT,
+          "a method without error estimate needs a fixed step");
     CHECK(I->problem.n_guards <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld guards are too many for ARKODE",
           (long long)I->problem.n_guards);
     TRY(allocate(I));
@@ -216,14 +201,14 @@ static dem_status set_up(integrator *I, double t, const double *y)
     I->t = t;
     I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
     CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
-    int failed = ERKStepSetErrHandlerFn(I->arkode, keep_message, I);
-    failed |= ERKStepSetUserData(I->arkode, I);
-    failed |= ERKStepSetTableName(I->arkode, table_name(I->problem.method));
+    int failed = arkode_listen(I->sundials, I->arkode, &I->errors);
+    failed |= ARKodeSetUserData(I->arkode, I);
+    failed |= set_table(I);
     failed |=
-        ERKStepSetInterpolantDegree(I->arkode, 3); /* 4 and more would call the derivative at every root iteration */
-    failed |= ERKStepWFtolerances(I->arkode, call_weights);
-    failed |= ERKStepSetMaxNumSteps(I->arkode, -1);
-    failed |= ERKStepSetMaxHnilWarns(I->arkode, -1);
+        ARKodeSetInterpolantDegree(I->arkode, 3); /* 4 and more would call the derivative at every root iteration */
+    failed |= ARKodeWFtolerances(I->arkode, call_weights);
+    failed |= ARKodeSetMaxNumSteps(I->arkode, -1);
+    failed |= ARKodeSetMaxHnilWarns(I->arkode, -1);
     failed |= set_adaptivity(I);
     CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its settings: %s", I->message);
     return set_guards(I);
@@ -231,11 +216,12 @@ static dem_status set_up(integrator *I, double t, const double *y)
 
 /* ---- public ---- */
 
-dem_status integrator_create(integrator **out, const integrator_problem *problem, double t, const double *y)
+dem_status integrator_create(integrator **out, const motion *problem, double t, const double *y)
 {
     integrator *I = calloc(1, sizeof *I);
     CHECK_MEMORY(I);
     I->problem = *problem;
+    I->errors = (arkode_errors){keep_message, I};
     const dem_status status = set_up(I, t, y);
     if (status == DEM_OK)
         *out = I;
@@ -247,7 +233,8 @@ dem_status integrator_create(integrator **out, const integrator_problem *problem
 void integrator_destroy(integrator *I)
 {
     if (I == NULL) return;
-    if (I->arkode != NULL) ERKStepFree(&I->arkode);
+    if (I->arkode != NULL) ARKodeFree(&I->arkode);
+    arkode_free_controller(I->controller);
     if (I->y != NULL) N_VDestroy(I->y);
     if (I->y1 != NULL) N_VDestroy(I->y1);
     if (I->f0 != NULL) N_VDestroy(I->f0);
@@ -261,16 +248,16 @@ void integrator_destroy(integrator *I)
 /* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. */
 static dem_status retry(integrator *I, double *h)
 {
-    if (*h == 0.0 && ERKStepGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
+    if (*h == 0.0 && ARKodeGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
     *h *= 0.1;
     I->counts.retries++;
-    CHECK(ERKStepSetInitStep(I->arkode, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    CHECK(ARKodeSetInitStep(I->arkode, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return integrator_restart(I, I->t, I->y0);
 }
 
 static dem_status fail_step(integrator *I, int flag)
 {
-    char *name = ERKStepGetReturnFlagName(flag);
+    char *name = ARKodeGetReturnFlagName(flag);
     (void)status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails, rtol may be out of reach: %s %s", I->t,
                       name != NULL ? name : "", I->message);
     free(name);
@@ -288,7 +275,8 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
     int flag = ARK_RHSFUNC_FAIL;
     for (int attempt = 0; attempt <= max_retries; attempt++) {
         I->holds_step = false;
-        flag = ERKStepEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
+        if (I->problem.fixed_step > 0.0) (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, I->y0));
+        flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries)
             return DEM_ERROR_INTEGRATOR; /* message: derivative's */
@@ -312,7 +300,7 @@ dem_status integrator_restart(integrator *I, double t, const double *y)
     I->t = t;
     I->at_end = I->holds_step = false;
     I->guards_t = NAN;
-    CHECK(ERKStepReset(I->arkode, t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
+    CHECK(ARKodeReset(I->arkode, t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
           "ARKODE does not restart at t = %.9g s: %s", t, I->message);
     return DEM_OK;
 }
@@ -321,7 +309,7 @@ dem_counts integrator_counts(const integrator *I)
 {
     dem_counts counts = I->counts;
     long rejected = 0;
-    if (ERKStepGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected = rejected;
+    if (ARKodeGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected = rejected;
     return counts;
 }
 

@@ -1,31 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ARKODE behind a few functions: explicit pairs with adaptive steps and root functions. The only place that knows
- * SUNDIALS; it knows no physics but that y = (x, v) with x' = v. */
+/* ARKODE behind a few functions: explicit Runge-Kutta methods with root functions, in adaptive steps or fixed ones. */
 #ifndef DEM_INTEGRATOR_H
 #define DEM_INTEGRATOR_H
 
 #include <stdbool.h>
 
-#include "path.h"
+#include "motion.h"
 
 typedef struct integrator integrator;
 
-typedef struct integrator_problem {
-    dem_index n_nodes;  /* y has 4 n_nodes entries */
-    dem_index n_books;  /* the last of these nodes are integrated along, and have no part in the error */
-    dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
-    /** Derivative f of y at t; returns 0, or 1 if it is not finite. */
-    int (*derivative)(double t, const double *y, double *f, void *context);
-    void (*guards)(double t, const double *y, double *g, void *context);
-    void *context;
-    dem_method method;
-    double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
-    double max_step;                       /* s */
-    double fixed_step;                     /* s; > 0: steps of this length without error control */
-} integrator_problem;
-
 /** Starts at (t, y). Free with integrator_destroy. */
-dem_status integrator_create(integrator **out, const integrator_problem *problem, double t, const double *y);
+dem_status integrator_create(integrator **out, const motion *problem, double t, const double *y);
 void integrator_destroy(integrator *i);
 
 /** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the

@@ -9,7 +9,7 @@
 /* Coefficients at s = (t - t0)/h.  With v(s) the cubic through v0, h a0, v1, h a1 and C its integral over the step,
  *   x(s) = x0 + h int_0^s v + D B(s),  v += D B'(s)/h,  D = x1 - x0 - h C,  B = 10 s^3 - 15 s^4 + 6 s^5. */
 typedef struct basis {
-    double h;
+    double h, s;
     double v0, a0, v1, a1;     /* of the velocity */
     double iv0, ia0, iv1, ia1; /* of its integral */
     double bump, slope;        /* B, B' */
@@ -19,6 +19,7 @@ static basis basis_at(const path *p, double t)
 {
     const double h = p->t1 - p->t0, s = (t - p->t0) / h, s2 = s * s, s3 = s2 * s;
     return (basis){.h = h,
+                   .s = s,
                    .v0 = 1.0 - s2 * (3.0 - 2.0 * s),
                    .a0 = s * (1.0 - s) * (1.0 - s),
                    .v1 = s2 * (3.0 - 2.0 * s),
@@ -41,10 +42,17 @@ static double defect(const path *p, dem_index k, double h)
     return fabs(d) > 4.0 * DBL_EPSILON * fmax(fabs(x0), fabs(x1)) ? d : 0.0;
 }
 
+/* From y0 with slope f0 to y1. */
+static double parabola(const basis *b, double y0, double f0, double y1)
+{
+    return y0 + b->s * (b->h * f0 + b->s * (y1 - y0 - b->h * f0));
+}
+
 static double position(const path *p, const basis *b, dem_index k)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
+    if (p->parabolic) return parabola(b, p->y0[k], p->y0[n + k], p->y1[k]);
     return p->y0[k] + h * (b->iv0 * p->y0[n + k] + b->iv1 * p->y1[n + k]) +
            h * h * (b->ia0 * p->f0[n + k] + b->ia1 * p->f1[n + k]) + b->bump * defect(p, k, h);
 }
@@ -53,6 +61,7 @@ static double velocity(const path *p, const basis *b, dem_index k)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
+    if (p->parabolic) return parabola(b, p->y0[n + k], p->f0[n + k], p->y1[n + k]);
     return b->v0 * p->y0[n + k] + b->v1 * p->y1[n + k] + h * (b->a0 * p->f0[n + k] + b->a1 * p->f1[n + k]) +
            b->slope * defect(p, k, h) / h;
 }

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The motion within one accepted step: the quintic that matches position, velocity and acceleration at both ends. */
+/* The motion within one accepted step: the quintic that matches position, velocity and acceleration at both ends; or
+ * parabolas, of a method of order 2. */
 #ifndef DEM_PATH_H
 #define DEM_PATH_H
+
+#include <stdbool.h>
 
 #include "vec2.h"
 
@@ -12,6 +15,7 @@ typedef struct path {
     const double *y0; /* [4 n] state (x, v) at t0 */
     const double *f0; /* [4 n] its derivative (v, a) */
     const double *y1, *f1;
+    bool parabolic; /* positions through x0, v0, x1 and velocities through v0, a0, v1: the way of Verlet's method */
 } path;
 
 vec2 path_position(const path *p, double t, dem_index i);

@@ -8,7 +8,7 @@
 
 #include "contact.h"
 #include "diagnostics.h"
-#include "integrator.h"
+#include "engine.h"
 #include "overlap.h"
 #include "status.h"
 
@@ -17,7 +17,9 @@ enum {
     between_looks = 16 /* accepted steps, for overlaps */
 };
 
-static const double window_share = 0.1; /* of 1/omega_max: default window, by the table in docs/method.md */
+static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
+static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
+static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/method.md */
 
 typedef struct watcher {
     dem_observer observer;
@@ -37,7 +39,7 @@ struct dem_simulation {
     boundaries boundaries;
     overlap overlap;
     contact contact;
-    integrator *integrator;
+    engine engine;
     double t;      /* s, of y */
     double step;   /* s, length of the last committed step */
     double *y;     /* [4 n] state (x, v) after the last committed step */
@@ -139,6 +141,12 @@ static void guards(double t, const double *y, double *g, void *context)
     contact_guards(&s->contact, t, y, g);
 }
 
+static double stiffening(const double *y, void *context)
+{
+    const dem_simulation *s = context;
+    return model_stiffening(s->model, y);
+}
+
 /* ---- what observers see ---- */
 
 static void look_at(dem_simulation *s, double t, const double *y)
@@ -216,7 +224,7 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 static dem_status take_step(dem_simulation *s)
 {
     bool rooted;
-    TRY(integrator_step(s->integrator, &s->path, &rooted));
+    TRY(engine_step(&s->engine, &s->path, &rooted));
     s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
     s->in_hand = true;
     return DEM_OK;
@@ -225,7 +233,7 @@ static dem_status take_step(dem_simulation *s)
 /* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
-    status = first_of(status, integrator_restart(s->integrator, s->t, s->y));
+    status = first_of(status, engine_restart(&s->engine, s->t, s->y));
     return status == DEM_ERROR_CONTACT ? status : first_of(status, tell_step(s));
 }
 
@@ -240,11 +248,13 @@ static dem_status commit_step(dem_simulation *s)
     const contact_listener listener = {tell_event, s};
     const path *p = &s->path;
     path_state(p, p->end, s->y);
+    const bool moved = contact_straighten(&s->contact, p->end, s->y);
     contact_follow(&s->contact, p, s->y);
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
     if (++s->unlooked >= between_looks) look_for_overlaps(s);
+    if (!s->at_event && moved) TRY(engine_restart(&s->engine, s->t, s->y));
     if (!s->at_event) return tell_step(s);
     s->events++;
     return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
@@ -321,9 +331,14 @@ static dem_status fill_options(dem_simulation *s)
     dem_options *o = &s->options;
     if (o->spacing == 0.0) o->spacing = s->model->spacing;
     CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
     if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
-    if (o->max_step == 0.0 && s->model->omega_max > 0.0) o->max_step = 0.5 / fmax(s->model->omega_max, damping_rate(s));
+    if (o->max_step == 0.0 && s->model->omega_max > 0.0)
+        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) /
+                      fmax(s->model->omega_max, damping_rate(s));
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
+    if (!method.adaptive) o->fixed_step = o->max_step;
     if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
     if (o->window < 0.0)
         o->window = s->model->omega_max > 0.0 ? window_share * fmin(1.0 / s->model->omega_max, 2.0 * o->max_step) : 0.0;
@@ -386,18 +401,19 @@ static dem_status set_up(dem_simulation *s)
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
-    const integrator_problem problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
-                                        .n_books = n_books(model),
-                                        .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * s->contact.sites.n : 0,
-                                        .derivative = derivative,
-                                        .guards = guards,
-                                        .context = s,
-                                        .method = o->method,
-                                        .position_error = o->rtol * o->spacing,
-                                        .velocity_error = o->rtol * o->v_scale,
-                                        .max_step = o->max_step,
-                                        .fixed_step = o->fixed_step};
-    TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
+    const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
+                            .n_books = n_books(model),
+                            .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * s->contact.sites.n : 0,
+                            .derivative = derivative,
+                            .guards = guards,
+                            .stiffening = stiffening,
+                            .context = s,
+                            .method = o->method,
+                            .position_error = o->rtol * o->spacing,
+                            .velocity_error = o->rtol * o->v_scale,
+                            .max_step = o->max_step,
+                            .fixed_step = o->fixed_step};
+    TRY(engine_create(&s->engine, &problem, 0.0, s->y));
     TRY(overlap_create(&s->overlap, &model->lattice));
     look_for_overlaps(s);
     look_at(s, 0.0, s->y);
@@ -424,7 +440,7 @@ dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, c
 void dem_simulation_destroy(dem_simulation *s)
 {
     if (s == NULL) return;
-    integrator_destroy(s->integrator);
+    engine_destroy(&s->engine);
     contact_destroy(&s->contact);
     boundaries_free(&s->boundaries);
     overlap_destroy(&s->overlap);
@@ -510,12 +526,12 @@ dem_overlap dem_simulation_overlap(const dem_simulation *s)
 
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
-    const dem_counts of_integrator = integrator_counts(s->integrator);
+    const dem_counts of_engine = engine_counts(&s->engine);
     dem_counts counts = s->contact.sites.books.counts;
-    counts.steps = of_integrator.steps;
-    counts.rejected = of_integrator.rejected;
-    counts.evaluations = of_integrator.evaluations;
-    counts.retries = of_integrator.retries;
+    counts.steps = of_engine.steps;
+    counts.rejected = of_engine.rejected;
+    counts.evaluations = of_engine.evaluations;
+    counts.retries = of_engine.retries;
     counts.events = s->events;
     return counts;
 }

@@ -12,7 +12,8 @@ typedef struct contact_sites {
     contact_site *list; /* [n] the model's nodes that may touch, then its edges */
     reactions reactions;
     contact_books books;
-    dem_index *of_node; /* [n_nodes] site of a node, or -1 */
+    dem_index *of_node;  /* [n_nodes] site of a node, or -1 */
+    double straightened; /* m, the furthest that nodes were moved after a step to put closed contacts back */
 } contact_sites;
 
 /** `c` must stay where it is. */

@@ -186,20 +186,21 @@ static dem_status strike_alone(contact_sites *c, dem_index k, contact_hit hit, c
 
 /* ---- contacts that share nodes ---- */
 
-/* Puts the contacts of the site's group on their surfaces. */
-static void straighten(contact_sites *c, dem_index k, contact_moment *now)
+double strike_straighten(contact_sites *c, dem_index group, contact_moment *now)
 {
     reactions *r = &c->reactions;
-    const dem_index group = r->group[k];
+    double furthest = 0.0;
     const double *shift = reactions_shift(r, group, now->x, now->v);
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         const contact_site *site = &c->list[r->members[p]];
         const dem_index nodes[2] = {site->node, site->other};
         for (int e = 0; e < (site_is_edge(site) ? 2 : 1); e++) {
+            furthest = fmax(furthest, vec2_norm(vec2_at(shift, nodes[e])));
             sites_move(c, nodes[e], vec2_at(shift, nodes[e]), now->x);
             vec2_put(r->a, nodes[e], (vec2){0.0, 0.0}); /* an edge's node may come again */
         }
     }
+    return furthest;
 }
 
 /* Notes where the contacts of the group start from; returns their largest speed. */
@@ -430,7 +431,7 @@ static dem_status strike_together(contact_sites *c, dem_index k, contact_hit hit
     stop_around(c, k, now);
     TRY(take_up(c, k, hit));
     const dem_index group = c->reactions.group[k];
-    straighten(c, k, now);
+    (void)strike_straighten(c, c->reactions.group[k], now);
     const double tolerance = group_noise * prepare(c, group, now);
     bool done = sweep(c, k, tolerance, now);
     judge(c, group, tolerance, now);
@@ -508,7 +509,7 @@ double strike_depth(const contact_sites *c, dem_index k, const contact_moment *n
     const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
     const double speed = vec2_norm(vec2_at(now->v, site->node));
     const double other = site_is_edge(site) ? vec2_norm(vec2_at(now->v, site->other)) : 0.0;
-    return 2.0 * c->scene.rule.skin + located * fmax(speed, other);
+    return 2.0 * c->scene.rule.skin + c->straightened + located * fmax(speed, other);
 }
 
 /* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the

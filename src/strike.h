@@ -11,8 +11,8 @@ typedef struct contact_hit {
     dem_index feature[2];
 } contact_hit;
 
-/** How deep a site can be at an impact, m: twice the skin, and how far it moves in ten times the time to which events
- *  are located. */
+/** How deep a site can be at an impact, m: twice the skin, how far it moves in ten times the time to which events are
+ *  located, and how far it may have been moved to straighten a contact beside it. */
 double strike_depth(const contact_sites *c, dem_index k, const contact_moment *now);
 
 /** Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:
@@ -25,6 +25,9 @@ contact_hit strike_met(const contact_sites *c, dem_index k, const contact_moment
 /** The edge at a node whose side a vertex meets where the node is, and the vertex: when a flat side comes down with a
  *  node right on an apex, the side's normal counts. Returns -1 where there is none. */
 dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment *now, dem_index *vertex);
+
+/** Puts a group of contacts on their surfaces, and books what that puts in.  \return how far nodes have moved, m */
+double strike_straighten(contact_sites *c, dem_index group, contact_moment *now);
 
 /** Stops a group of contacts, and books what that takes. */
 void strike_stop(contact_sites *c, dem_index group, contact_moment *now);

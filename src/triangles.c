@@ -133,6 +133,22 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x)
     return block;
 }
 
+/* Of A0 g w(A/A0):  g w'' (dA.u)^2/A0 + g w' u.A'' u,  where (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2, and A'' has the
+ * eigenvalues 0 and +-sqrt(3)/2. */
+double triangles_guard_bound(const triangles *t, dem_index i, const double *x)
+{
+    const double turn = 0.8660254037844386;
+    double bound = 0.0;
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
+        if (!(A < TRIANGLES_GUARD_ONSET * A0)) continue;
+        const triangles_law l = triangles_guard_law(A / A0);
+        const vec2 dA = gradient(t, p, x);
+        bound += t->guard[p] * (3.0 * l.curvature * vec2_dot(dA, dA) / A0 + turn * fabs(l.slope));
+    }
+    return bound;
+}
+
 /* ---- compilation ---- */
 
 static bool acts(const dem_lattice *lattice, dem_index k)

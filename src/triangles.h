@@ -44,6 +44,10 @@ void triangles_energy(const triangles *t, const double *x, double *area, double 
  *  at most three times the sum of these blocks. */
 sym2 triangles_block(const triangles *t, dem_index i, const double *x);
 
+/** What the guard adds at most to the stiffness at node i, N/m: no second variation of its energy at x exceeds the sum
+ *  of this times u_i^2. 0 where it does not act. */
+double triangles_guard_bound(const triangles *t, dem_index i, const double *x);
+
 /** Signed area of the triangle abc, m^2. */
 static inline double triangles_area(vec2 a, vec2 b, vec2 c)
 {

@@ -17,6 +17,8 @@
 #define DEM_DEM_H
 
 #include <dem/lattice.h>
+#include <dem/method.h>
+#include <dem/status.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -123,15 +125,6 @@ DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
 
 /* ---- simulation: the moving state ------------------------------------------------------------------------------ */
 
-/** Explicit embedded Runge-Kutta pairs; the higher-order weights advance. */
-typedef enum dem_method {
-    DEM_METHOD_FEHLBERG45 = 0,
-    DEM_METHOD_DOPRI45,
-    DEM_METHOD_CASHKARP45,
-    DEM_METHOD_ZONNEVELD34,
-    DEM_METHOD_BS23
-} dem_method;
-
 /** What is done to nodes from outside. */
 typedef enum dem_boundary_kind {
     DEM_BOUNDARY_VELOCITY = 0, /**< components of the velocity are `value` times the ramp; 0 holds them still */
@@ -154,17 +147,19 @@ typedef struct dem_boundary {
 } dem_boundary;
 
 typedef struct dem_options {
-    size_t struct_size;    /**< set by dem_options_default() */
-    dem_method method;     /**< default DEM_METHOD_FEHLBERG45 */
-    double gravity[2];     /**< m/s^2, default {0, -9.81}                                                 (2) */
-    double rtol;           /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */
-    double spacing;        /**< m, default 0: shortest rest length; required for a model without springs */
-    double v_scale;        /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed */
-    double max_step;       /**< s, default 0: 0.5/omega_max; required for a model without springs */
-    double fixed_step;     /**< s, default 0: adaptive; > 0: steps of this length, no error control */
-    double skin;           /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
+    size_t struct_size; /**< set by dem_options_default() */
+    dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
+    double gravity[2];  /**< m/s^2, default {0, -9.81}                                                 (2) */
+    double rtol;        /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */
+    double spacing;     /**< m, default 0: shortest rest length; required for a model without springs */
+    double v_scale;     /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed */
+    double max_step;    /**< s, default 0: 0.5/omega_max; required for a model without springs. Damping may shorten it:
+                               docs/method.md */
+    double fixed_step;  /**< s, default 0: adaptive; > 0: steps of this length, no error control. A method that is not
+                               adaptive takes max_step, which then is by default stable/(8 omega_max) */
+    double skin;        /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
                                by skin/|v_n|, and the node put back on the surface */
-    double rest_speed;     /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
+    double rest_speed;  /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
                                becomes a lasting contact */
     dem_index max_impacts; /**< default 10000: changes of the contacts of one node or edge within
                                1/omega_max that count as a storm */

@@ -197,14 +197,20 @@ def stress_of(lattice, points):
     return total / np.where(volume > 0.0, volume, 1.0)[:, None]
 
 
+def resolved(file):
+    return file["provenance/resolved"].asstr()[()]
+
+
 def check_peaks(file):
     """The arrays against the lists, and both against the instants of the history."""
     nodes, springs, vtk_group = file["most_stressed/nodes"], file["most_stressed/springs"], file["VTKHDF"]
     lattice, t = file["lattice"], file["history/t"][...]
     size, strain = vtk_group["PointData/peak_von_mises"][...], vtk_group["CellData/peak_strain"][...]
     close("von Mises of peaks", size, von_mises_of(vtk_group["PointData/peak_stress"][...]), 1e-6 * np.max(size, initial=0.0))
+    wanted = int(re.search(r"(?m)^    most_stressed = (\d+)", resolved(file))[1])
     for found, values, name, key in ((nodes, size, "node", "von_mises"), (springs, np.abs(strain), "spring", "strain")):
         ranks = found[key][...]
+        same(f"length of the list of {name}s", len(ranks), min(wanted, np.count_nonzero(values)))
         if np.any(np.diff(np.abs(ranks)) > 0):
             sys.exit(f"most stressed: {key} is in no order")
         close(f"most stressed {name}", np.abs(ranks), np.sort(values)[::-1][:len(ranks)], 1e-6 * np.max(values, initial=0.0))
@@ -286,8 +292,8 @@ def check_fields(vtk_group, history):
 
 
 def gravity_of(file):
-    deck = file["provenance/resolved"].asstr()[()]
-    return np.array([float(word) for word in re.search(r"(?m)^    gravity = (\S+), (\S+)", deck).groups()])
+    words = re.search(r"(?m)^    gravity = (\S+), (\S+)", resolved(file)).groups()
+    return np.array([float(word) for word in words])
 
 
 def momentum_gained(file):

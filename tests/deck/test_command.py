@@ -20,6 +20,24 @@ SECONDS = 120  # more than any of these runs takes, under a sanitizer too
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 OTHER_PROBLEM = "the file exists and belongs to another problem; move it away or change 'name' in &output"
+# Falls on a peak at 25 m/s, and folds.
+FOLD = """
+&run t_end = 4e-3 /
+&material guard = 0, youngs_modulus = 1e7, density = 1050 /
+&body shape = 'rectangle', size = 0.08, 0.13, spacing = 1e-2, velocity = 0, -25, clearance = 1e-4 /
+&obstacle points = -0.3, -0.02, 0, 0.02, 0.3, -0.02, restitution = 0 /
+&output name = 'fold', frame_interval = 1e-3 /
+"""
+
+# Hangs from its upper edge.
+HANG = """
+&run t_end = 1, residual = 1e-3 /
+&material youngs_modulus = 1e6, density = 1000 /
+&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2 /
+&boundary where = 'side', side = 'top' /
+&output name = 'hang', frame_interval = 1 /
+"""
+
 UNPRINTED = "dem_batch: error: standard output cannot be written\n"
 OTHER_RUN = ("the file exists and belongs to another run of the same problem, with other t_end, title or frames; "
              "move it away or change 'name' in &output")
@@ -50,13 +68,18 @@ def unmarked(echo):
     return re.sub(r"(?m) ! default$", "", echo)
 
 
-def numbers(pattern, text):
-    """The numbers in the only line that fits; '#' stands for a number, all other characters for themselves."""
+def rows(pattern, text):
+    """The numbers of each line that fits; '#' stands for a number, all other characters for themselves."""
     line = re.escape(pattern).replace(r"\#", f"({NUMBER})")
-    found = re.findall(rf"(?m)^{line}$", text)
+    return [[float(number) for number in found.groups()] for found in re.finditer(rf"(?m)^{line}$", text)]
+
+
+def numbers(pattern, text):
+    """Those of the only line that fits."""
+    found = rows(pattern, text)
     if len(found) != 1:
         raise AssertionError(f"{len(found)} lines like {pattern!r} in\n{text}")
-    return [float(number) for number in ([found[0]] if isinstance(found[0], str) else found[0])]
+    return found[0]
 
 
 def summary(log):
@@ -146,8 +169,8 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "constants",
-                          "frequency", "estimate"])
+                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "stability",
+                          "formula", "constants", "frequency", "estimate"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -170,9 +193,15 @@ class Check(Case):
             "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, skin # m", out)
         self.assertAlmostEqual(spacing, 0.01)
         self.assertTrue(1e4 < omega_max < 1e5 and v_scale == 10 and 0 < skin <= 1e-8)
-        t_end, rtol, step = numbers("time       t_end # s, fehlberg45, rtol #, largest step # s", out)
-        self.assertEqual((t_end, rtol), (8e-3, 1e-6))
+        t_end, order, rtol, step = numbers("time       t_end # s, fehlberg45 of order #, rtol #, largest step # s", out)
+        self.assertEqual((t_end, order, rtol), (8e-3, 5, 1e-6))
         self.assertAlmostEqual(step * omega_max, 0.5, places=3)
+        share, growth = numbers("stability  omega_max h = #; with fehlberg45 undamped oscillations grow at any step, "
+                                "here by # a step", out)
+        self.assertEqual((share, growth), (0.5, 1.3e-5))
+        speed, = numbers("formula 6  (|v_x| + |v_y|) h/spacing = # at v_scale along x; it does "
+                         "not bound the step", out)
+        self.assertAlmostEqual(speed, v_scale * step / spacing, places=4)
         body, modulus, ratio, anisotropy, longitudinal, transverse = numbers(
             "constants  body #: E # Pa, nu #, anisotropy #, waves # and # m/s", out)
         self.assertEqual((body, modulus, ratio, anisotropy), (1, 1e7, 0.33333, 1))
@@ -181,10 +210,23 @@ class Check(Case):
         highest, slack = numbers("frequency  highest # rad/s, the bound is # times that", out)
         self.assertAlmostEqual(highest * slack, omega_max, delta=1e-3 * omega_max)
         self.assertTrue(1 <= slack < 1.25)
-        steps, _, frames, _, _ = numbers("estimate   at least # steps of # evaluations, # frames, up to # MB of "
+        steps, _, frames, _, _ = numbers("estimate   at least # steps of # evaluations, # frames, about # MB of "
                                          "output, # MB of memory", out)
         self.assertTrue(abs(steps - t_end / step) <= 2)
         self.assertEqual(frames, 9)
+
+    def test_steps_of_one_length(self):
+        self.put(coarse() + "&solver method = 'rk4' /\n")
+        out = self.call(0, "--check", "deck.nml")
+        omega_max = float(re.search(f"omega_max ({NUMBER}) rad/s", out)[1])
+        step = float(re.search(f"rk4 of order 4, rtol 1e-06, fixed step ({NUMBER}) s", out)[1])
+        self.assertAlmostEqual(step * omega_max, 8 ** 0.5 / 8, places=3)
+        _, bound, longest = numbers("stability  omega_max h = #; rk4 is stable up to #, h = # s", out)
+        self.assertAlmostEqual(bound, 8 ** 0.5, places=2)
+        self.assertAlmostEqual(longest * omega_max, bound, places=2)
+        self.assertNotIn("WARNING", out)
+        self.put(coarse() + f"&solver method = 'rk4', fixed_step = {1.1 * longest} /\n")
+        self.assertIn("WARNING", self.call(0, "--check", "deck.nml"))
 
     def test_a_body_that_stands_on_the_floor_stays_there(self):
         for floor in ("-1, 0, 1, 0", "-1, -1, 0, 0, 1, -1"):
@@ -345,6 +387,75 @@ class Run(Case):
             "run        # steps, # rejected, # retried, # evaluations, # s", log)
         self.assertTrue(steps > 0 and rejected >= 0 and retried >= 0 and evaluations >= 5 * steps and seconds >= 0)
 
+    def test_the_most_stressed_are_told(self):
+        nodes = "stressed   node # at (#, #) m: von Mises # Pa at # s, principal # Pa at # degrees, # Pa"
+        springs = "strained   spring # at (#, #) m: strain #, force # N at # s"
+        log = self.call(0, "deck.nml")
+        found = rows(nodes, log)
+        self.assertEqual(len(found), 5)
+        self.assertEqual([row[3] for row in found], sorted((row[3] for row in found), reverse=True))
+        for _, x, y, size, t, first, angle, second in found:
+            self.assertTrue(abs(x) <= 0.04 and 0 <= y <= 0.131 and 0 < t <= 8e-3 and -90 < angle <= 90)
+            self.assertAlmostEqual(size, math.sqrt(first**2 - first * second + second**2), delta=2e-3 * size)
+        found = rows(springs, log)
+        self.assertEqual(len(found), 5)
+        self.assertEqual([abs(row[3]) for row in found], sorted((abs(row[3]) for row in found), reverse=True))
+        self.assertTrue(all(force * strain > 0 and 0 < t <= 8e-3 for *_, strain, force, t in found))
+        for more, n in (("most_stressed = 0", 0), ("peak_every = 0", 0), ("peak_every = 1, most_stressed = 2", 2)):
+            with self.subTest(more):
+                folder = self.folder / str(len(self.files()))
+                folder.mkdir()
+                self.put(coarse(t_end="5e-4").replace("frame_interval", f"{more}, frame_interval"))
+                log = self.call(0, "--outdir", folder.name, "deck.nml")
+                self.assertEqual((len(rows(nodes, log)), len(rows(springs, log))), (n, n))
+
+    def test_a_ledger_that_opens_is_warned_of_once(self):
+        warning = "warning    the energy ledger is open by # at # s: a smaller 'rtol' closes it"
+        text = coarse(t_end="1e-3")
+        self.put(text.replace("frame_interval", "closure = 1e-10, frame_interval"))
+        gap, when = numbers(warning, self.call(0, "deck.nml"))
+        self.assertTrue(abs(gap) > 1e-10 and 0 < when < 1e-3)
+        self.put(text.replace("name           = 'rectangle'", "name = 'closed'"))
+        self.assertEqual(rows(warning, self.call(0, "deck.nml")), [])
+
+    def test_what_folds_is_counted(self):
+        counts = "triangles  smallest area # of its rest area at # s, guard on # at most, # inverted"
+        self.put(FOLD)
+        area, _, guarded, inverted = numbers(counts, self.call(0, "deck.nml"))
+        self.assertTrue(area < 0 and guarded == 0 and inverted > 0)
+        self.put(FOLD.replace("guard = 0,", "").replace("'fold'", "'guarded'"))
+        area, _, guarded, inverted = numbers(counts, self.call(0, "deck.nml"))
+        self.assertTrue(0 < area < 0.4 and guarded > 0 and inverted == 0)
+
+    def test_overlap_is_warned_of_or_stops_the_run(self):
+        self.put(FOLD)
+        log = self.call(0, "deck.nml")
+        node, triangle, x, y, when = numbers("warning    bodies overlap, which nothing prevents: node # is inside "
+                                             "triangle # at (#, #) m, # s", log)
+        first, again, inside, most, now = numbers("overlap    first at # s, node # in triangle #; # at most, # now", log)
+        self.assertEqual((first, again, inside), (when, node, triangle))
+        self.assertTrue(most >= now and most > 0)
+        self.put(FOLD.replace("'fold'", "'stopped'") + "&contact overlap = 'stop' /\n")
+        done = run("deck.nml", cwd=self.folder)
+        self.assertEqual(done.returncode, 4)
+        found = numbers("deck.nml: error: node # is inside triangle # of a body at (#, #) m, t = # s", done.stderr)
+        self.assertEqual(found[:4], [node, triangle, x, y])
+        self.assertAlmostEqual(found[4], when, delta=1e-4 * when)
+        self.assertIn("stopped.part.vtkhdf", self.files())
+        self.assertNotIn("stopped.vtkhdf", self.files())
+
+    def test_a_body_comes_to_rest_or_has_no_result(self):
+        self.put(HANG)
+        reached, when = numbers("rest       residual # at # s", self.call(0, "deck.nml"))
+        self.assertTrue(reached <= 1e-3 and 0 < when < 1)
+        self.put(HANG.replace("t_end = 1,", "t_end = 1e-3,").replace("'hang'", "'swing'"))
+        done = run("deck.nml", cwd=self.folder)
+        self.assertEqual(done.returncode, 4)
+        reached, = numbers("deck.nml: error: not at rest at t_end = 0.001 s: the residual is #, 0.001 is asked for",
+                           done.stderr)
+        self.assertGreater(reached, 1e-3)
+        self.assertIn("swing.part.vtkhdf", self.files())
+
     def test_a_storm_tells_node_place_and_time(self):
         self.put(coarse() + "&contact max_impacts = 1 /\n")
         done = run("deck.nml", cwd=self.folder)
@@ -356,10 +467,10 @@ class Run(Case):
         done = run("deck.nml", cwd=self.folder, text=False)
         self.assertEqual(done.returncode, 0)
         self.assertFalse(set(done.stdout) - set(range(32, 127)) - {10}, "plain text")
-        rows = re.findall(rf"(?m)^ *{NUMBER} %  t ({NUMBER}) s  step \d+  contacts \d+  energy error {NUMBER}"
+        found = re.findall(rf"(?m)^ *{NUMBER} %  t ({NUMBER}) s  step \d+  contacts \d+  energy error {NUMBER}"
                           r"  \d+ steps/s  \d+ s left$", done.stdout.decode())
-        self.assertTrue(10 <= len(rows) <= 20)
-        times = [float(row) for row in rows]
+        self.assertTrue(10 <= len(found) <= 20)
+        times = [float(row) for row in found]
         self.assertEqual(times, sorted(times))
 
     def test_the_same_run_on_a_terminal_rewrites_its_progress(self):
@@ -498,6 +609,9 @@ class Run(Case):
         self.assertEqual(self.state(*names), before)
 
     # ---- folders
+
+    def test_outdir_too_long(self):
+        self.call(3, "--outdir", "x" * 4090, "deck.nml", stderr="deck.nml: error: the path of the output is too long\n")
 
     def test_outdir_missing(self):
         self.call(5, "--outdir", "no", "deck.nml", stderr="no/rectangle.vtkhdf: error: no/rectangle.part.vtkhdf: "

@@ -25,6 +25,7 @@ DECKS = [
     ("disc", {"2.5e-3": "1e-2", "t_end   = 20e-3": "t_end   = 7e-3",
               "name           = 'disc'": "name = 'disc', fields = 'stress', peak_every = 0"}, 8, 1e-3, ["--fields", "stress"]),
     ("every_key", {"poissons_ratio = 0.3333333333333333": "poissons_ratio = 0.45", "precision = 'single'": "precision = 'double'", "deflate = 1": "deflate = 0",
+                   "most_stressed = 5": "most_stressed = 7",
                    "events = .false.": "events = .true.", "'force'\n": "'force', 'principal'\n",
                    "&probe\n": PROBES + "&probe\n"}, 6, 1e-3,
      ["--probes", "3", "--fields", "displacement,velocity,stress,von_mises,principal_stress,strain,force"]),

@@ -258,8 +258,11 @@ DECKS = [
     ("choice like no other", edit(BASE, "'rectangle' -> 'banana'"),
      ["12:13 'shape' in &body must be 'rectangle', 'disc', 'ring', 'polygon', 'mask', 'mesh' or 'file', got 'banana'"]),
     ("method with its orders swapped", BASE + "&solver method = 'dopri54' /\n",
-     ["27:18 'method' in &solver must be 'fehlberg45', 'dopri45', 'cashkarp45', 'zonneveld34' or 'bs23', got "
-      "'dopri54' (did you mean 'dopri45'?)"]),
+     ["27:18 'method' in &solver must be 'fehlberg45', 'dopri45', 'cashkarp45', 'zonneveld34', 'bs23', 'heun12', "
+      "'sayfyaburub34', 'ark23', 'ark34', 'ark34b', 'ark45', 'ark45b', 'verner56', 'verner67', 'verner78', 'verner89', "
+      "'fehlberg78', 'knothwolke3', 'rk4' or 'verlet', got 'dopri54' (did you mean 'dopri45'?)"]),
+    ("two lengths of steps", BASE + "&solver max_step = 1e-5, fixed_step = 1e-6 /\n",
+     ["27:9 'max_step' in &solver: give it or 'fixed_step', not both"]),
     ("name of the output with a folder", edit(BASE, "'block' -> 'results/block'"),
      ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
     ("name of the output empty", edit(BASE, "'block' -> ''"),
@@ -739,6 +742,15 @@ class Refused(unittest.TestCase):
         self.put(BASE + 1500 * "&weather /\n")
         lines = [f"{27 + k}:1 unknown group &weather" for k in range(999)]
         self.refuse(3, stderr_of(lines + ["1026:1 too many errors"]), "deck.nml")
+
+    def test_methods_that_sundials_lacks(self):
+        version = subprocess.run([DEM_BATCH, "--version"], capture_output=True, timeout=60, check=True).stdout.decode()
+        version = version.split("SUNDIALS ")[1].split(",")[0]
+        if tuple(map(int, version.split(".")[:2])) >= (6, 7):
+            return
+        self.put(BASE + "&solver method = 'verner89' /\n")
+        reason = f"27:9 method 'verner89' needs SUNDIALS 6.7 or later, this is {version}"
+        self.refuse(3, stderr_of([reason]), "--check", "deck.nml")
 
     # ---- files
 

@@ -100,12 +100,14 @@ static dem_status write_and_run(dem_simulation *simulation)
 {
     dem_trajectory *trajectory = NULL;
     dem_trajectory_options options = dem_trajectory_options_default();
-    const dem_probe gauge = {"gauge", DEM_PROBE_GAUGE, {0, 1}, 2};
+    const dem_probe probes[3] = {{"gauge", DEM_PROBE_GAUGE, {0, 1}, 2},
+                                 {"node", DEM_PROBE_NODE, {3, 0}, 1},
+                                 {"spring", DEM_PROBE_SPRING, {2, 0}, 3}};
     dem_peaks *peaks = NULL;
     options.frame_interval = 2e-4;
     options.events = 1;
-    options.n_probes = 1;
-    options.probes = &gauge;
+    options.n_probes = 3;
+    options.probes = probes;
     dem_status status = dem_peaks_create(&peaks, dem_simulation_model(simulation), 3);
     options.peaks = peaks;
     if (status == DEM_OK) status = dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options);
@@ -127,7 +129,13 @@ static dem_status run(void)
 {
     const double points[6] = {-0.3, 0.0, 0.0, -0.005, 0.3, 0.0};
     const dem_obstacle obstacle = {.n_points = 3, .points = points, .restitution = 0.5};
-    const dem_options options = dem_options_default();
+    const dem_index nodes[2] = {8, 9};
+    const double share[2] = {0.3, 0.7};
+    const dem_boundary push = {
+        .kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = nodes, .share = share, .value = {1.0, -2.0}, .ramp = 1e-4};
+    dem_options options = dem_options_default();
+    options.n_boundaries = 1;
+    options.boundaries = &push;
     dem_lattice lattice;
     dem_model *model = NULL;
     dem_simulation *simulation = NULL;

@@ -717,6 +717,35 @@ static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
     scene_close(&s);
 }
 
+/* The edge 0-1 on the ridge, 30 skins above it with 1 mm/s upwards at node 1: back it is put, and slides on. Less than
+ * a quarter of the skin is left alone. P has the mass 1/W = 4 kg and goes up with 3/4 mm/s. */
+static void a_closed_edge_that_has_opened_is_put_back(void **state)
+{
+    scene s;
+    (void)state;
+    open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
+    launch(&s, 0.5, 0.0);
+    assert_ok(scene_take_up(&s));
+    for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 0.2 * skin;
+    scene_v(&s)[3] = 1e-3;
+    assert_false(contact_straighten(&s.c, 0.1, s.y));
+    assert_close(s.y[1], 0.2 * skin, 0.0);
+    assert_close(scene_v(&s)[3], 1e-3, 0.0);
+    for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 30.0 * skin;
+    assert_true(contact_straighten(&s.c, 0.1, s.y));
+    assert_close(0.25 * s.y[1] + 0.75 * s.y[3], 0.0, 1e-9 * skin);
+    assert_close(0.25 * scene_v(&s)[1] + 0.75 * scene_v(&s)[3], 0.0, 1e-15);
+    assert_close(scene_v(&s)[0], 0.5, 1e-7);
+    assert_int_equal(s.c.sites.list[scene_edge(&s, 0, 1)].n_closed, 1);
+    const contact_books *books = &s.c.sites.books;
+    assert_close(books->impulse[1], -4.0 * 0.75e-3, 1e-8);
+    assert_close(books->projection, -40.0 * 30.0 * skin, 1e-3 * skin);
+    assert_close(books->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
+    assert_int_equal(s.n_events, 1);
+    assert_close(s.c.sites.straightened, 30.0 * skin, 1e-9 * skin);
+    scene_close(&s);
+}
+
 /* The body goes right along edge 1-2 with u: the ridge, closed with that, comes over node 1 to edge 0-1. */
 static void slide_on(scene *s, double bend, double u)
 {
@@ -1222,6 +1251,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_edge_may_touch_a_vertex_but_not_start_with_it_inside),
     cmocka_unit_test(at_the_start_a_touching_edge_is_in_contact),
     cmocka_unit_test(at_the_start_an_edge_may_touch_two_vertices),
+    cmocka_unit_test(a_closed_edge_that_has_opened_is_put_back),
     cmocka_unit_test(an_edge_slides_stops_and_slides_on_a_vertex),
     cmocka_unit_test(a_vertex_glides_from_edge_to_edge_of_a_flat_side),
     cmocka_unit_test(a_vertex_leaves_a_convex_corner_of_the_body),

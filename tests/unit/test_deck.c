@@ -118,7 +118,6 @@ static void every_key_finds_its_place(void **state)
     assert_close(d.options.gravity[0], 1.0, 0.0);
     assert_close(d.options.gravity[1], -2.0, 0.0);
     assert_int_equal(d.options.method, DEM_METHOD_BS23);
-    assert_string_equal(deck_method_name(d.options.method), "bs23");
     assert_close(d.options.rtol, 1e-4, 0.0);
     assert_close(d.options.max_step, 1e-5, 0.0);
     assert_close(d.options.v_scale, 3.0, 0.0);

@@ -31,7 +31,7 @@ static void make_step(step *s, const motion *m, double t0, double t1)
 {
     sample(m, t0, s->y0, s->f0);
     sample(m, t1, s->y1, s->f1);
-    s->path = (path){n_nodes, t0, t1, t1, s->y0, s->f0, s->y1, s->f1};
+    s->path = (path){n_nodes, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false};
 }
 
 /* Polynomials of degree 5 in t, other ones for each coordinate. */
@@ -198,12 +198,32 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
 static void a_displacement_beyond_rounding_is_followed(void **state)
 {
     double y0[4] = {1.0, 2.0, 0.0, 0.0}, y1[4] = {1.1, 2.0, 0.0, 0.0}, f[4] = {0.0, 0.0, 0.0, 0.0};
-    const path p = {1, 0.0, 2.0, 2.0, y0, f, y1, f};
+    const path p = {1, 0.0, 2.0, 2.0, y0, f, y1, f, false};
     (void)state;
     assert_close(path_position(&p, 1.0, 0).x, 1.05, 1e-15);
     assert_close(path_velocity(&p, 1.0, 0).x, 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
     assert_close(path_position(&p, 1.0, 0).y, 2.0, 0.0);
     assert_close(path_velocity(&p, 1.0, 0).y, 0.0, 0.0);
+}
+
+/* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: accelerations at the end do not count. */
+static void a_parabolic_path_matches_what_a_method_of_order_2_knows(void **state)
+{
+    double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};
+    double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
+    const path p = {1, 0.0, 2.0, 2.0, y0, f0, y1, f1, true};
+    (void)state;
+    assert_close(path_position(&p, 1.0, 0).x, 1.0 + 3.0 - 1.25, 1e-15);
+    assert_close(path_velocity(&p, 1.0, 0).x, 3.0 + 4.0 - 1.5, 1e-15);
+    assert_close((path_position(&p, 1e-6, 0).x - 1.0) / 1e-6, 3.0, 1e-5);
+    assert_close((path_velocity(&p, 1e-6, 0).x - 3.0) / 1e-6, 4.0, 1e-5);
+    for (int end = 0; end < 2; end++) {
+        path_state(&p, 2.0 * end, y);
+        assert_memory_equal(y, end ? y1 : y0, sizeof y);
+    }
+    path_state(&p, 0.5, y);
+    assert_close(y[0], path_position(&p, 0.5, 0).x, 0.0);
+    assert_close(y[2], path_velocity(&p, 0.5, 0).x, 0.0);
 }
 
 int main(void)
@@ -216,6 +236,7 @@ int main(void)
         cmocka_unit_test(it_is_continuous_at_its_ends),
         cmocka_unit_test(rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step),
         cmocka_unit_test(a_displacement_beyond_rounding_is_followed),
+        cmocka_unit_test(a_parabolic_path_matches_what_a_method_of_order_2_knows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -437,6 +437,8 @@ static void the_header_tells_what_is_about_to_run(void **state)
     assert_close(number_in(l->text, "time", "t_end"), 0.25, 0.0);
     assert_close(number_before(l->text, " frames"), 26.0, 0.0);       /* the one at 0 too */
     assert_close(number_in(l->text, "estimate", "least"), 25.0, 0.0); /* steps of 0.01 s */
+    /* one chunk of 1024 rows of 49 numbers, and 26 frames of three */
+    assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (1024 * 49 * 8 + 26 * 24), 5e-4);
     drop_logged(l);
 }
 
@@ -445,7 +447,7 @@ static void the_header_tells_what_is_probed_and_where(void **state)
     (void)state;
     char name[] = "a.nml", title[] = "";
     dem_probe probes[3] = {{"foot", DEM_PROBE_NODE, {2, 0}, 1},
-                           {"strut", DEM_PROBE_SPRING, {1, 0}, 1},
+                           {"strut", DEM_PROBE_SPRING, {1, 0}, 30},
                            {"span", DEM_PROBE_GAUGE, {0, 2}, 1}};
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .probes = probes, .n_probes = 3};
@@ -458,6 +460,8 @@ static void the_header_tells_what_is_probed_and_where(void **state)
     assert_non_null(strstr(l->text, "\nprobe      span: gauge from node 0 to 2 at (0, 0) m\n"));
     assert_close(number_in(l->text, "probe", "strut: spring"), 1.0, 0.0);
     assert_close(number_in(l->text, "probe", "strut: spring 1 at ("), 0.5 * (a[0] + b[0]), six_digits);
+    /* 25000 steps: chunks of 1024 rows, of the history, foot and span, and one of the strut */
+    assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (25 * (40 + 9 + 3) + 3) * 1024 * 8, 0.05);
     drop_logged(l);
 }
 
@@ -651,6 +655,73 @@ static void of_many_obstacles_only_the_first_are_listed(void **state)
 
 /* ---- counts ---- */
 
+static void an_open_ledger_is_warned_of_once(void **state)
+{
+    (void)state;
+    for (int terminal = 0; terminal < 2; terminal++) {
+        logged *l = drop_node(terminal, 0.5);
+        l->report.closure = 1e-300; /* rounding is enough */
+        finish(l, 0.5);
+        const char *warning = strstr(l->text, "\nwarning    the energy ledger is open by ");
+        assert_non_null(warning);
+        assert_null(strstr(warning + 1, "\nwarning "));
+        assert_true(fabs(number_in(l->text, "warning", "open by")) < 1e-10);
+        drop_logged(l);
+    }
+}
+
+static void the_header_tells_the_damping_of_springs(void **state)
+{
+    (void)state;
+    const dem_material solid = {
+        .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0, .damping_time = 2e-6};
+    const dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, 0.01));
+    assert_ok(dem_lattice_assemble(&lattice, &solid));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, 1e-5);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\ndamping    of springs: 2e-06 s\n"));
+    drop_logged(l);
+}
+
+/* Twenty nodes, each a body that a boundary holds. */
+static void of_many_bodies_and_boundaries_only_the_first_are_listed(void **state)
+{
+    enum { n = 20 };
+    (void)state;
+    double x[2 * n] = {0.0}, masses[n];
+    dem_boundary held[n];
+    dem_index nodes[n];
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    for (dem_index k = 0; k < n; k++) {
+        x[2 * k] = (double)k, masses[k] = 1.0, nodes[k] = k;
+        held[k] = (dem_boundary){.kind = DEM_BOUNDARY_VELOCITY, .components = 3, .n_nodes = 1, .nodes = &nodes[k]};
+    }
+    support_lattice(&lattice, n, x, masses, 0, NULL, 0.0, 0.0, NULL);
+    lattice.body = malloc(n * sizeof *lattice.body);
+    assert_non_null(lattice.body);
+    for (int k = 0; k < n; k++) lattice.body[k] = k;
+    options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0;
+    options.n_boundaries = n, options.boundaries = held;
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, 0.1);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nconstants  bodies 17 to 20: not measured\n"));
+    finish(l, 0.1);
+    assert_non_null(strstr(l->text, "\nboundary   16: force (0, 9.81) N, moved by (0, 0) m\n"));
+    assert_non_null(strstr(l->text, "\nboundary   17 to 20: see /history\n"));
+    drop_logged(l);
+}
+
 static void counts_are_those_of_the_simulation(void **state)
 {
     (void)state;
@@ -721,6 +792,9 @@ int main(void)
         cmocka_unit_test(the_header_tells_the_rules_of_impact),
         cmocka_unit_test(the_header_tells_friction_and_damping),
         cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
+        cmocka_unit_test(an_open_ledger_is_warned_of_once),
+        cmocka_unit_test(the_header_tells_the_damping_of_springs),
+        cmocka_unit_test(of_many_bodies_and_boundaries_only_the_first_are_listed),
         cmocka_unit_test(counts_are_those_of_the_simulation),
         cmocka_unit_test(every_kind_of_event_is_told),
     };

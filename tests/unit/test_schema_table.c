@@ -186,8 +186,8 @@ static void ranges_can_be_read_and_are_not_empty(void **state)
 
 static void check_choices(const schema_group *group, const schema_key *key)
 {
-    char all[200];
-    const char *seen[16];
+    char all[256];
+    const char *seen[32];
     size_t n = 0;
     assert_int_equal(key->type == SCHEMA_CHOICE, key->choices != NULL);
     if (key->choices == NULL) return;

@@ -77,8 +77,8 @@ static void options_outside_their_ranges_are_named(void **state)
     options.max_impacts = 0;
     refuse(model, &options, "max_impacts must be >= 1, got 0");
     options = point_options();
-    options.method = (dem_method)9;
-    refuse(model, &options, "unknown method 9");
+    options.method = (dem_method)99;
+    refuse(model, &options, "unknown method 99");
     for (int k = 0; k < 6; k++) {
         options = point_options();
         double *const lengths[6] = {&options.spacing,    &options.v_scale, &options.max_step,
@@ -200,6 +200,33 @@ static void defaults_come_from_the_model(void **state)
     assert_close(options.skin, 1e-6 * dem_model_spacing(model), 0.0);
     assert_close(options.v_scale, hypot(0.5, 4.0), 1e-14); /* the initial speed is the largest */
     assert_int_equal(options.max_impacts, 10000);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+}
+
+/* An eighth of the stability bound where omega_max is known; what is given counts. */
+static void methods_without_error_estimate_take_steps_of_one_length(void **state)
+{
+    static const dem_method methods[2] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3};
+    dem_options options = dem_options_default();
+    (void)state;
+    dem_model *model = make_falling(0.0);
+    for (int k = 0; k < 2; k++) {
+        dem_method_traits traits;
+        options.method = methods[k];
+        assert_ok(dem_method_describe(&traits, options.method));
+        dem_simulation *simulation = simulate(model, &options);
+        const double step = traits.stable / 8.0 / dem_model_omega_max(model);
+        assert_close(dem_simulation_options(simulation).fixed_step, step, 1e-15 * step);
+        assert_close(dem_simulation_options(simulation).max_step, step, 1e-15 * step);
+        assert_ok(dem_simulation_advance(simulation, 20.5 * step));
+        assert_int_equal(dem_simulation_counts(simulation).steps, 21);
+        assert_int_equal(dem_simulation_counts(simulation).evaluations, 21 * traits.evaluations + 1);
+        dem_simulation_destroy(simulation);
+    }
+    options.max_step = 0.01;
+    dem_simulation *simulation = simulate(model, &options);
+    assert_close(dem_simulation_options(simulation).fixed_step, 0.01, 0.0);
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
 }
@@ -813,6 +840,7 @@ int main(void)
         cmocka_unit_test(a_model_without_springs_needs_its_scales_as_options),
         cmocka_unit_test(a_start_deeper_than_the_skin_is_refused),
         cmocka_unit_test(defaults_come_from_the_model),
+        cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
         cmocka_unit_test(the_scale_of_speed_is_that_of_the_drop_or_of_sound),
         cmocka_unit_test(a_run_cut_anywhere_is_the_whole_run_bit_for_bit),
         cmocka_unit_test(two_simulations_of_a_model_do_not_disturb_each_other),

@@ -314,7 +314,40 @@ static void forces_are_minus_the_gradient_of_the_energy(void **state)
     gsl_rng_free(rng);
 }
 
-/* Rounding of sums of 12 terms, against the largest force. */
+/* Second differences of the guard's energy along any direction u never exceed the sum of bound_i u_i^2, and come
+ * within a factor of 3 of it along the force; it is 0 where no triangle is squeezed. */
+static void the_bound_of_the_guard_is_above_its_second_variation(void **state)
+{
+    const double step = 1e-4;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    double x[2 * n_nodes], closest = 0.0;
+    (void)state;
+    triangles t = compile_fan(strengths, NULL);
+    for (dem_index i = 0; i < n_nodes; i++) assert_close(triangles_guard_bound(&t, i, corners), 0.0, 0.0);
+    for (int trial = 0; trial < 2000; trial++) {
+        double u[2 * n_nodes], moved[2 * n_nodes], allowed = 0.0, scale = 0.0;
+        squeeze(x, rng);
+        for (int k = 0; k < 2 * n_nodes; k++) {
+            const vec2 force = triangles_force(&t, k / 2, x);
+            u[k] = trial % 2 == 1 ? gsl_rng_uniform(rng) - 0.5 : (k % 2 == 0 ? force.x : force.y);
+            allowed += triangles_guard_bound(&t, k / 2, x) * u[k] * u[k];
+            scale = fmax(scale, fabs(u[k]));
+        }
+        if (!(scale > 0.0)) continue;
+        double sum = -2.0 * energy_of(&t, x);
+        for (int side = -1; side <= 1; side += 2) {
+            for (int k = 0; k < 2 * n_nodes; k++) moved[k] = x[k] + side * step / scale * u[k];
+            sum += energy_of(&t, moved);
+        }
+        const double share = sum / (step * step) * scale * scale / allowed;
+        assert_true(share < 1.0 + 1e-3); /* what higher orders and rounding add over the step */
+        closest = fmax(closest, share);
+    }
+    assert_true(closest > 1.0 / 3.0);
+    triangles_free(&t);
+    gsl_rng_free(rng);
+}
+
 /* Central differences of the forces along a random motion, over 1e-6 m: truncation 1e-12 g w'''' A0 (dJ/dx)^4 = 1e-4
  * N/m at worst where nothing crosses the ends of the polynomial, rounding 1e-15 * 1e5 N/1e-6 m. */
 static void the_tangent_is_the_derivative_of_the_force(void **state)
@@ -343,6 +376,7 @@ static void the_tangent_is_the_derivative_of_the_force(void **state)
     gsl_rng_free(rng);
 }
 
+/* Rounding of sums of 12 terms, against the largest force. */
 static void triangles_exert_no_force_and_no_torque_on_the_whole(void **state)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -397,6 +431,7 @@ int main(void)
         cmocka_unit_test(a_squeezed_triangle_pushes_its_corner_back),
         cmocka_unit_test(forces_are_minus_the_gradient_of_the_energy),
         cmocka_unit_test(the_tangent_is_the_derivative_of_the_force),
+        cmocka_unit_test(the_bound_of_the_guard_is_above_its_second_variation),
         cmocka_unit_test(triangles_exert_no_force_and_no_torque_on_the_whole),
         cmocka_unit_test(area_is_positive_counter_clockwise),
     };

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One of two. */
+#include "engine.h"
+
+#include "integrator.h"
+#include "verlet.h"
+
+dem_status engine_create(engine *out, const motion *problem, double t, const double *y)
+{
+    *out = (engine){0};
+    if (problem->method == DEM_METHOD_VERLET) return verlet_create(&out->verlet, problem, t, y);
+    return integrator_create(&out->integrator, problem, t, y);
+}
+
+void engine_destroy(engine *e)
+{
+    integrator_destroy(e->integrator);
+    verlet_destroy(e->verlet);
+    *e = (engine){0};
+}
+
+dem_status engine_step(engine *e, path *step, bool *rooted)
+{
+    return e->verlet != NULL ? verlet_step(e->verlet, step, rooted) : integrator_step(e->integrator, step, rooted);
+}
+
+dem_status engine_restart(engine *e, double t, const double *y)
+{
+    if (e->verlet == NULL) return integrator_restart(e->integrator, t, y);
+    verlet_restart(e->verlet, t, y);
+    return DEM_OK;
+}
+
+dem_counts engine_counts(const engine *e)
+{
+    return e->verlet != NULL ? verlet_counts(e->verlet) : integrator_counts(e->integrator);
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What takes the steps, whichever method they are of: ARKODE for those of Runge and Kutta, or Verlet's. */
+#ifndef DEM_ENGINE_H
+#define DEM_ENGINE_H
+
+#include <stdbool.h>
+
+#include "motion.h"
+
+typedef struct engine {
+    struct integrator *integrator; /* one of both */
+    struct verlet *verlet;
+} engine;
+
+/** Starts at (t, y). Free with engine_destroy. */
+dem_status engine_create(engine *out, const motion *problem, double t, const double *y);
+void engine_destroy(engine *e);
+
+/** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the engine and
+ *  hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
+dem_status engine_step(engine *e, path *step, bool *rooted);
+
+/** Goes on from another state. */
+dem_status engine_restart(engine *e, double t, const double *y);
+
+/** Steps, rejections, evaluations and retries so far; the rest is 0. */
+dem_counts engine_counts(const engine *e);
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What an engine integrates. It knows no physics but that y = (x, v) with x' = v. */
+#ifndef DEM_MOTION_H
+#define DEM_MOTION_H
+
+#include "path.h"
+
+typedef struct motion {
+    dem_index n_nodes;  /* y has 4 n_nodes entries */
+    dem_index n_books;  /* the last of these nodes are integrated along, and have no part in the error */
+    dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
+    /** Derivative f of y at t; returns 0, or 1 if it is not finite. */
+    int (*derivative)(double t, const double *y, double *f, void *context);
+    void (*guards)(double t, const double *y, double *g, void *context);
+    /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */
+    double (*stiffening)(const double *y, void *context);
+    void *context;
+    dem_method method;
+    double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
+    double max_step;                       /* s */
+    double fixed_step;                     /* s; > 0: steps of this length without error control */
+} motion;
+
+/** Length of a fixed step from y, s: halved as often as it takes that it is no longer in units of the highest frequency
+ *  than about the rest shape. */
+static inline double motion_fixed_step(const motion *p, const double *y)
+{
+    double h = p->fixed_step;
+    const double stiffening = p->stiffening != NULL ? p->stiffening(y, p->context) : 1.0;
+    while (h * stiffening > p->fixed_step) h *= 0.5;
+    return h;
+}
+
+#endif

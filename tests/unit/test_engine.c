@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* engine.c: whichever method takes the steps, a ball bounces at the times of free fall, in which all are exact. */
+#include "../verification/support.h"
+
+#include "engine.h"
+
+static const double g = 9.81, skin = 1e-10;
+
+static int fall(double t, const double *y, double *f, void *context)
+{
+    int *calls = context;
+    (void)t;
+    (*calls)++;
+    f[0] = y[2];
+    f[1] = y[3];
+    f[2] = 0.0;
+    f[3] = -g;
+    return 0;
+}
+
+static void height(double t, const double *y, double *guard, void *context)
+{
+    (void)t;
+    (void)context;
+    guard[0] = y[1] + skin;
+}
+
+static void every_method_finds_the_bounces_of_a_ball(void **state)
+{
+    const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
+    (void)state;
+    for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
+        dem_method_traits traits;
+        if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
+        int calls = 0, bounces = 0;
+        const motion problem = {.n_nodes = 1,
+                                .n_guards = 1,
+                                .derivative = fall,
+                                .guards = height,
+                                .context = &calls,
+                                .method = (dem_method)method,
+                                .position_error = 1.0,
+                                .velocity_error = 1.0,
+                                .max_step = 0.05,
+                                .fixed_step = traits.adaptive ? 0.0 : 0.05};
+        engine e;
+        path p = {0};
+        assert_ok(engine_create(&e, &problem, 0.0, y0));
+        for (; bounces < 4;) {
+            bool rooted;
+            double y[4];
+            assert_ok(engine_step(&e, &p, &rooted));
+            if (!rooted) continue;
+            assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9); /* what the skin delays */
+            path_state(&p, p.end, y);
+            assert_close(y[0], p.end, 1e-12);
+            y[1] = 0.0;
+            y[3] = -y[3];
+            assert_ok(engine_restart(&e, p.end, y));
+        }
+        const dem_counts counts = engine_counts(&e);
+        assert_int_equal(counts.evaluations, calls);
+        assert_true(counts.steps >= (dem_index)(p.end / 0.05));
+        engine_destroy(&e);
+    }
+}
+
+static void what_cannot_be_made_is_told(void **state)
+{
+    const motion problem = {.n_nodes = 1, .derivative = fall, .max_step = 1.0, .method = (dem_method)99};
+    const double y0[4] = {0.0};
+    engine e;
+    (void)state;
+    assert_int_equal(engine_create(&e, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
+    engine_destroy(&e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_finds_the_bounces_of_a_ball),
+        cmocka_unit_test(what_cannot_be_made_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
