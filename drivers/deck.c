@@ -192,7 +192,7 @@ static void check_frames(const schema_deck *groups, namelist_errors *errors)
                             interval->reals[0], frames, most_frames);
 }
 
-/* SUNDIALS may lack the method. */
+/* SUNDIALS may lack the method, and the machine the kernel. */
 static void check_solver(const schema_instance *solver, namelist_errors *errors)
 {
     const schema_value *name = schema_value_of(solver, "method"), *longest = schema_value_of(solver, "max_step");
@@ -201,6 +201,11 @@ static void check_solver(const schema_instance *solver, namelist_errors *errors)
     if (!name->faulty && dem_method_find(&method, schema_text(solver, "method")) == DEM_OK &&
         dem_method_describe(&traits, method) != DEM_OK)
         namelist_errors_add(errors, name->place, "%s", dem_status_message());
+    const schema_value *instructions = schema_value_of(solver, "kernel");
+    dem_kernel kernel;
+    if (!instructions->faulty && dem_kernel_find(&kernel, schema_text(solver, "kernel")) == DEM_OK &&
+        dem_kernel_check(kernel) != DEM_OK)
+        namelist_errors_add(errors, instructions->place, "%s", dem_status_message());
     if (longest->given && schema_value_of(solver, "fixed_step")->given)
         namelist_errors_add(errors, longest->place, "'max_step' in &solver: give it or 'fixed_step', not both");
 }
@@ -245,6 +250,8 @@ static void set_options(dem_options *options, const schema_deck *groups)
     *options = dem_options_default();
     for (int c = 0; c < 2; c++) options->gravity[c] = schema_value_of(run, "gravity")->reals[c];
     (void)dem_method_find(&options->method, schema_text(solver, "method")); /* the table of keys has no other name */
+    (void)dem_kernel_find(&options->kernel, schema_text(solver, "kernel"));
+    options->threads = (int32_t)schema_real(solver, "threads");
     options->rtol = schema_real(solver, "rtol");
     options->spacing = schema_real(solver, "spacing");
     options->v_scale = schema_real(solver, "v_scale");

@@ -83,7 +83,7 @@ static int code_of(dem_status status)
 
 /* ---- the run ---- */
 
-static dem_status write_provenance(dem_trajectory *trajectory, const deck *d)
+static dem_status write_provenance(dem_trajectory *trajectory, const deck *d, dem_kernel kernel)
 {
     char versions[256], problem[OUTPUT_HASH], hash[OUTPUT_HASH], start[32];
     const time_t now = time(NULL);
@@ -92,9 +92,11 @@ static dem_status write_provenance(dem_trajectory *trajectory, const deck *d)
     output_print_hash(problem, d->hash);
     output_print_hash(hash, d->run_hash);
     (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
-    const char *const notes[][2] = {{"versions", versions}, {"kernel", "portable"}, {"problem", problem},
-                                    {"run", hash},          {"start", start},       {"deck", d->source},
-                                    {"resolved", d->echo},  {"title", d->title},    {"physics", d->physics}};
+    const char *const notes[][2] = {{"versions", versions}, {"kernel", dem_kernel_name(kernel)},
+                                    {"problem", problem},   {"run", hash},
+                                    {"start", start},       {"deck", d->source},
+                                    {"resolved", d->echo},  {"title", d->title},
+                                    {"physics", d->physics}};
     dem_status status = DEM_OK;
     for (size_t k = 0; k < sizeof notes / sizeof notes[0] && status == DEM_OK; k++)
         status = dem_trajectory_note(trajectory, notes[k][0], notes[k][1]);
@@ -144,7 +146,7 @@ static dem_status advance(const deck *d, dem_simulation *simulation, audience *a
     const dem_observer frames = dem_trajectory_observer(a->trajectory), followed = report_observer(&a->log);
     const dem_observer peaks = dem_peaks_observer(a->peaks), resting = relaxation_observer(&a->rest);
     const dem_observer overlapping = {.step = stop_at_overlap};
-    dem_status status = write_provenance(a->trajectory, d);
+    dem_status status = write_provenance(a->trajectory, d, dem_simulation_options(simulation).kernel);
     if (status == DEM_OK && a->peaks != NULL) status = dem_simulation_observe(simulation, &peaks);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &frames);
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &followed);

@@ -366,6 +366,8 @@ static void print_time(FILE *out, double t_end, const dem_simulation *simulation
     (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
                   (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
     print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
+    (void)fprintf(out, "kernel     %s, %d thread%s\n", dem_kernel_name(o.kernel), (int)o.threads,
+                  o.threads > 1 ? "s" : "");
     (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing = %.3g at v_scale along x; it does not bound the step\n",
                   o.v_scale * o.max_step / o.spacing);
 }

@@ -212,6 +212,10 @@ static const schema_key solver_keys[] = {
      "Length that position errors are measured in; default: the shortest spring.", "0.01"},
     {"mass_damping", SCHEMA_REAL, 1, 1, "1/s", "0", ">= 0", NULL, PHYSICS,
      "Damping of the masses: each feels -mass_damping m v, so that bodies come to rest; 0 is none.", NULL},
+    {"kernel", SCHEMA_CHOICE, 1, 1, "-", "'auto'", ANY, "auto|portable|avx2|avx512", false,
+     "Instructions that forces are evaluated with; 'auto': the last that the machine has. Same bits with all.", NULL},
+    {"threads", SCHEMA_INTEGER, 1, 1, "-", "1", "[1, 1024]", NULL, false,
+     "Threads that work at once. Results are the same to the bit for any number.", NULL},
 };
 
 static const schema_key output_keys[] = {

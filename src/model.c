@@ -171,6 +171,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(fill_defaults(&m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(layout_compile(&m->layout, &m->springs, &m->triangles));
     TRY(surface_compile(&m->surface, &m->lattice));
     TRY(stress_compile(&m->stress, &m->lattice, &m->springs));
     TRY(obstacles_compile(&m->obstacles, list, n));
@@ -218,6 +219,7 @@ void dem_model_destroy(dem_model *model)
     dem_lattice_free(&model->lattice);
     springs_free(&model->springs);
     triangles_free(&model->triangles);
+    layout_free(&model->layout);
     surface_free(&model->surface);
     stress_free(&model->stress);
     obstacles_free(&model->obstacles);

@@ -4,6 +4,7 @@
 #define DEM_MODEL_H
 
 #include "boundary.h"
+#include "layout.h"
 #include "obstacle.h"
 #include "springs.h"
 #include "stress.h"
@@ -16,6 +17,7 @@ struct dem_model {
     triangles triangles;
     surface surface; /* edges that may touch */
     stress_map stress;
+    layout layout; /* of springs and triangles, for sweeps over all nodes */
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
     dem_index n_sites;

@@ -9,6 +9,7 @@
 #include "contact.h"
 #include "diagnostics.h"
 #include "engine.h"
+#include "kernel.h"
 #include "overlap.h"
 #include "status.h"
 
@@ -37,6 +38,7 @@ struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
     boundaries boundaries;
+    kernel kernel;
     overlap overlap;
     contact contact;
     engine engine;
@@ -122,11 +124,7 @@ static int derivative(double t, const double *y, double *f, void *context)
     const model_load *load = &s->contact.sites.scene.rule.load;
     double *a = f + n, sum = 0.0;
     for (dem_index k = 0; k < n; k++) sum += f[k] = y[n + k];
-    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {
-        const vec2 ai = model_acceleration(s->model, load, i, y, y + n);
-        sum += ai.x + ai.y;
-        vec2_put(a, i, ai);
-    }
+    sum += kernel_accelerate(&s->kernel, load, y, y + n, a);
     contact_constrain(&s->contact, y, a);
     const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, y + n, f, a);
     fill_rates(s, y, a + 2 * s->model->lattice.n_nodes, work);
@@ -301,6 +299,8 @@ static dem_status check_options(const dem_options *o)
     CHECK(isfinite(o->mass_damping) && o->mass_damping >= 0.0, DEM_ERROR_ARGUMENT, "mass_damping must be >= 0, got %g",
           o->mass_damping);
     CHECK(isfinite(o->window), DEM_ERROR_ARGUMENT, "window must be finite, got %g", o->window);
+    CHECK(o->threads >= 1 && o->threads <= 1024, DEM_ERROR_ARGUMENT, "threads must be in [1, 1024], got %d",
+          o->threads);
     CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
     return DEM_OK;
 }
@@ -397,6 +397,8 @@ static dem_status set_up(dem_simulation *s)
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + unknowns(model), model->lattice.velocity, block);
     boundaries_begin(&s->boundaries, s->y + unknowns(model));
+    TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
+    s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
@@ -441,6 +443,7 @@ void dem_simulation_destroy(dem_simulation *s)
 {
     if (s == NULL) return;
     engine_destroy(&s->engine);
+    kernel_destroy(&s->kernel);
     contact_destroy(&s->contact);
     boundaries_free(&s->boundaries);
     overlap_destroy(&s->overlap);

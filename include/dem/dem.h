@@ -146,6 +146,23 @@ typedef struct dem_boundary {
     double ramp;            /**< s, >= 0; > 0 for a displacement */
 } dem_boundary;
 
+/** With which instructions forces are evaluated. All give the same results to the bit. */
+typedef enum dem_kernel {
+    DEM_KERNEL_AUTO = 0, /**< the last of these that the machine has */
+    DEM_KERNEL_PORTABLE, /**< C, on any machine */
+    DEM_KERNEL_AVX2,
+    DEM_KERNEL_AVX512 /**< F, DQ and VL */
+} dem_kernel;
+
+/** The kernel of a name, as in decks: "avx2"; on this machine or not.  \return DEM_ERROR_ARGUMENT if there is none */
+DEM_API dem_status dem_kernel_find(dem_kernel *out, const char *name);
+
+/** NULL if there is no such kernel. */
+DEM_API const char *dem_kernel_name(dem_kernel kind);
+
+/** \return DEM_ERROR_ARGUMENT if this machine, or this build of the library, does not have the kernel */
+DEM_API dem_status dem_kernel_check(dem_kernel kind);
+
 typedef struct dem_options {
     size_t struct_size; /**< set by dem_options_default() */
     dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
@@ -167,7 +184,11 @@ typedef struct dem_options {
                                is reflected at once, and hops of less than twice this become lasting contacts;
                                0: every impact by itself */
     double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
-    int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    int32_t vertices;  /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    dem_kernel kernel; /**< default DEM_KERNEL_AUTO */
+    int32_t
+        threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit. A library
+                          built without OpenMP does the work of all in one */
     dem_index n_boundaries;         /**< default 0 */
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
 } dem_options;
@@ -181,6 +202,7 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
     options.max_impacts = 10000;
     options.window = -1.0;
     options.vertices = 1;
+    options.threads = 1;
     return options;
 }
 

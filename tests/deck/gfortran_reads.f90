@@ -92,9 +92,10 @@ contains
   end subroutine
 
   subroutine read_solver()
-    character(4096) :: method
+    character(4096) :: method, kernel
     real(dp) :: rtol, max_step, v_scale, spacing, mass_damping
-    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping
+    integer :: threads
+    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping, kernel, threads
     read (unit, nml=solver, iostat=status, iomsg=message)
   end subroutine
 

@@ -169,7 +169,7 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "stability",
+                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "stability", "kernel",
                           "formula", "constants", "frequency", "estimate"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")

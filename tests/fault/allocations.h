@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* malloc, calloc and realloc of what a test links with, failing when they are told to: the linker's --wrap leads here.
- * For one test program each. */
+/* malloc, calloc, realloc and aligned_alloc of what a test links with, failing when they are told to: the linker's
+ * --wrap leads here. For one test program each. */
 #ifndef DEM_TEST_ALLOCATIONS_H
 #define DEM_TEST_ALLOCATIONS_H
 
@@ -12,6 +12,8 @@ void *__real_realloc(void *old, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t n, size_t size);
 void *__wrap_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
 
 static long allocations, failing; /* the failing-th fails; 0: none */
 static int from_then_on;
@@ -35,6 +37,11 @@ void *__wrap_calloc(size_t n, size_t size)
 void *__wrap_realloc(void *old, size_t size)
 {
     return fails() ? NULL : __real_realloc(old, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return fails() ? NULL : __real_aligned_alloc(alignment, size);
 }
 
 #endif

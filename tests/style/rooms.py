@@ -10,14 +10,17 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "random", "commit"},
+    {"vec2", "status", "random", "commit", "aligned", "threads"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file",
      "scan", "namelist", "placement", "pores", "profile", "file", "words", "image", "outline"},
-    {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts",
+    {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema", "parts",
      "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
-    {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table",
-     "schema_print", "uses", "mask"},
-    {"touch", "diagnostics", "integrator", "verlet", "tangent", "peaks_file", "shape", "loading", "probes"},
+    {"layout"},
+    {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
+    {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
+     "schema_table", "schema_print", "uses", "mask"},
+    {"touch", "diagnostics", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
+     "sweep_avx512", "peaks_file", "shape", "loading", "probes"},
     {"reaction", "books", "engine", "spectrum", "constants", "area"},
     {"site", "form"},
     {"sites", "search", "body"},
@@ -30,6 +33,8 @@ LAYERS = [
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c"}),
+    (r"#include <immintrin", {"src/lanes_avx2.h", "src/lanes_avx512.h"}),
+    (r"_Pragma|#pragma|_OPENMP", {"src/threads.h"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
     (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
     (r"#include [<\"]cairo", {"drivers/png.c"}),

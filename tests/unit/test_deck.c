@@ -96,7 +96,8 @@ static void every_key_finds_its_place(void **state)
                        "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber', velocity = 4, -5 /\n"
                        "&obstacle points = 0, -1, 1, -2, 2, -1, restitution = 0.25 /\n" FLOOR
                        "&contact skin = 1e-7, rest_speed = 1e-4, max_impacts = 77 /\n"
-                       "&solver method = 'bs23', rtol = 1e-4, max_step = 1e-5, v_scale = 3, spacing = 0.5 /\n"
+                       "&solver method = 'bs23', rtol = 1e-4, max_step = 1e-5, v_scale = 3, spacing = 0.5,\n"
+                       "kernel = 'portable', threads = 2 /\n"
                        "&output name = 'n', frame_interval = 0.125, precision = 'double', deflate = 4, events = T /\n");
     assert_string_equal(d.title, "A title");
     assert_string_equal(d.name, "n");
@@ -118,6 +119,8 @@ static void every_key_finds_its_place(void **state)
     assert_close(d.options.gravity[0], 1.0, 0.0);
     assert_close(d.options.gravity[1], -2.0, 0.0);
     assert_int_equal(d.options.method, DEM_METHOD_BS23);
+    assert_int_equal(d.options.kernel, DEM_KERNEL_PORTABLE);
+    assert_int_equal(d.options.threads, 2);
     assert_close(d.options.rtol, 1e-4, 0.0);
     assert_close(d.options.max_step, 1e-5, 0.0);
     assert_close(d.options.v_scale, 3.0, 0.0);

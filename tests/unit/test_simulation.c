@@ -79,6 +79,14 @@ static void options_outside_their_ranges_are_named(void **state)
     options = point_options();
     options.method = (dem_method)99;
     refuse(model, &options, "unknown method 99");
+    options = point_options();
+    options.kernel = (dem_kernel)99;
+    refuse(model, &options, "unknown kernel 99");
+    options = point_options();
+    options.threads = 0;
+    refuse(model, &options, "threads must be in [1, 1024], got 0");
+    options.threads = 1025;
+    refuse(model, &options, "threads must be in [1, 1024], got 1025");
     for (int k = 0; k < 6; k++) {
         options = point_options();
         double *const lengths[6] = {&options.spacing,    &options.v_scale, &options.max_step,
@@ -326,6 +334,27 @@ static void a_run_cut_anywhere_is_the_whole_run_bit_for_bit(void **state)
         dem_simulation_destroy(simulation);
         dem_model_destroy(model);
     }
+}
+
+static void kernels_and_threads_leave_no_trace_in_the_run(void **state)
+{
+    (void)state;
+    dem_model *model = make_falling(0.7);
+    const snapshot usual = run_whole(model);
+    for (dem_kernel kind = DEM_KERNEL_AUTO; kind <= DEM_KERNEL_AVX512; kind++)
+        for (int threads = 1; threads <= 3; threads++) {
+            dem_options options = dem_options_default();
+            options.kernel = kind;
+            options.threads = threads;
+            if (dem_kernel_check(kind) != DEM_OK) continue;
+            dem_simulation *simulation = simulate(model, &options);
+            assert_true(kind == DEM_KERNEL_AUTO || dem_simulation_options(simulation).kernel == kind);
+            assert_ok(dem_simulation_advance(simulation, t_whole));
+            const snapshot other = snap(simulation);
+            assert_same(&other, &usual);
+            dem_simulation_destroy(simulation);
+        }
+    dem_model_destroy(model);
 }
 
 static void two_simulations_of_a_model_do_not_disturb_each_other(void **state)
@@ -843,6 +872,7 @@ int main(void)
         cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
         cmocka_unit_test(the_scale_of_speed_is_that_of_the_drop_or_of_sound),
         cmocka_unit_test(a_run_cut_anywhere_is_the_whole_run_bit_for_bit),
+        cmocka_unit_test(kernels_and_threads_leave_no_trace_in_the_run),
         cmocka_unit_test(two_simulations_of_a_model_do_not_disturb_each_other),
         cmocka_unit_test(the_energy_ledger_closes),
         cmocka_unit_test(frames_come_at_multiples_of_the_interval_from_start_to_end),

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory for numbers that vector instructions read: from the start of a cache line on. */
+#ifndef DEM_ALIGNED_H
+#define DEM_ALIGNED_H
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNED_TO = 64 };
+
+/** n zeros, never of no bytes; NULL without memory. Free with free(). */
+static inline double *aligned_zeros(size_t n)
+{
+    const size_t line = ALIGNED_TO / sizeof(double), size = (n / line + 1) * ALIGNED_TO;
+    double *array = aligned_alloc(ALIGNED_TO, size);
+    return array != NULL ? memset(array, 0, size) : NULL;
+}
+
+#endif

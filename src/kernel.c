@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Shares the blocks of a layout among threads; what is not in blocks, and what is rare, goes row by row. */
+#include "kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "aligned.h"
+#include "status.h"
+#include "threads.h"
+
+/* ---- which there are ---- */
+
+#ifdef DEM_X86_KERNELS
+#define HAS(feature) (__builtin_cpu_supports(feature) != 0)
+#else
+#define HAS(feature) false
+#define sweep_avx2   NULL
+#define sweep_avx512 NULL
+#endif
+
+typedef struct kernel_row {
+    const char *name;
+    sweep_function *sweep;
+} kernel_row;
+
+static const kernel_row rows[] = {
+    [DEM_KERNEL_AUTO] = {"auto", NULL},
+    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512},
+};
+enum { n_rows = sizeof rows / sizeof rows[0] };
+
+static bool runs_here(dem_kernel kind)
+{
+    if (kind == DEM_KERNEL_AVX2) return HAS("avx2");
+    if (kind == DEM_KERNEL_AVX512) return HAS("avx512f") && HAS("avx512dq") && HAS("avx512vl");
+    return kind == DEM_KERNEL_PORTABLE;
+}
+
+static dem_kernel fastest(void)
+{
+    dem_kernel kind = DEM_KERNEL_AVX512;
+    while (!runs_here(kind)) kind--;
+    return kind;
+}
+
+dem_status dem_kernel_find(dem_kernel *out, const char *name)
+{
+    CHECK(out != NULL && name != NULL, DEM_ERROR_ARGUMENT, "dem_kernel_find: %s is NULL", out == NULL ? "out" : "name");
+    for (int k = 0; k < n_rows; k++)
+        if (strcmp(rows[k].name, name) == 0) {
+            *out = (dem_kernel)k;
+            return DEM_OK;
+        }
+    return status_fail(DEM_ERROR_ARGUMENT, "no kernel is called '%s'", name);
+}
+
+const char *dem_kernel_name(dem_kernel kind)
+{
+    return (int)kind >= 0 && (int)kind < n_rows ? rows[kind].name : NULL;
+}
+
+dem_status dem_kernel_check(dem_kernel kind)
+{
+    CHECK(dem_kernel_name(kind) != NULL, DEM_ERROR_ARGUMENT, "unknown kernel %d", (int)kind);
+    CHECK(kind == DEM_KERNEL_AUTO || runs_here(kind), DEM_ERROR_ARGUMENT,
+          "this machine, or this build of the library, does not have the kernel '%s'", rows[kind].name);
+    return DEM_OK;
+}
+
+/* ---- set-up ---- */
+
+static dem_status allocate(kernel *k)
+{
+    const layout *l = &k->model->layout;
+    const size_t n = (size_t)l->n_nodes;
+    k->ring_size = 2 * (size_t)l->ring_length * (l->damped ? 2 : 1); /* a multiple of 16 */
+    k->rings = aligned_zeros((size_t)k->n_threads * k->ring_size);
+    k->guarded = calloc((size_t)l->n_blocks + 1, sizeof *k->guarded);
+    k->sums = calloc((size_t)k->n_threads, sizeof *k->sums);
+    if (l->order != NULL) k->packed = aligned_zeros(7 * n);
+    CHECK(k->rings && k->guarded && k->sums && (k->packed || l->order == NULL), DEM_ERROR_MEMORY,
+          "out of memory for the forces of %zu nodes", n);
+    for (size_t q = 0; q < n && k->packed != NULL; q++) k->packed[q] = k->model->inverse_mass[l->order[q]];
+    return DEM_OK;
+}
+
+dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads)
+{
+    TRY(dem_kernel_check(kind));
+    if (kind == DEM_KERNEL_AUTO) kind = fastest();
+    kernel k = {.model = model, .kind = kind, .n_threads = n_threads, .sweep = rows[kind].sweep};
+    const dem_status status = allocate(&k);
+    if (status == DEM_OK)
+        *out = k;
+    else
+        kernel_destroy(&k);
+    return status;
+}
+
+void kernel_destroy(kernel *k)
+{
+    free(k->rings);
+    free(k->guarded);
+    free(k->sums);
+    free(k->packed);
+    *k = (kernel){0};
+}
+
+/* ---- evaluation ---- */
+
+/* Takes an array [n][2] into the layout's order. */
+static void pack(const kernel *k, const double *from, double *to)
+{
+    const layout *l = &k->model->layout;
+    THREADS_EACH(k->n_threads)
+    for (dem_index q = 0; q < l->n_nodes; q++) vec2_put(to, q, vec2_at(from, l->order[q]));
+}
+
+static void unpack(const kernel *k, const double *from, double *to)
+{
+    const layout *l = &k->model->layout;
+    THREADS_EACH(k->n_threads)
+    for (dem_index q = 0; q < l->n_nodes; q++) vec2_put(to, l->order[q], vec2_at(from, q));
+}
+
+static double sweep_blocks(kernel *k, const sweep *s)
+{
+    double sum = 0.0;
+    THREADS_EACH(k->n_threads)
+    for (int t = 0; t < k->n_threads; t++) {
+        const dem_index first = threads_share(s->layout->n_blocks, k->n_threads, t);
+        const dem_index last = threads_share(s->layout->n_blocks, k->n_threads, t + 1);
+        k->sums[t] = first < last ? k->sweep(s, first, last, k->rings + (size_t)t * k->ring_size) : 0.0;
+    }
+    for (int t = 0; t < k->n_threads; t++) sum += k->sums[t];
+    return sum;
+}
+
+typedef struct motion_state {
+    const model_load *load;
+    const double *x, *v;
+    double *a;
+} motion_state;
+
+/* One row by itself; its accelerations added. */
+static double accelerate_row(const kernel *k, const motion_state *y, dem_index i)
+{
+    const vec2 a = model_acceleration(k->model, y->load, i, y->x, y->v);
+    vec2_put(y->a, i, a);
+    return a.x + a.y;
+}
+
+/* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
+static double accelerate_rest(const kernel *k, const motion_state *y)
+{
+    const layout *l = &k->model->layout;
+    double sum = 0.0;
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
+        sum += accelerate_row(k, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index b = 0; b < l->n_blocks; b++)
+        for (dem_index q = LAYOUT_LANES * b, left = k->guarded[b]; left != 0; q++, left >>= 1)
+            if (left & 1) sum += accelerate_row(k, y, l->order != NULL ? l->order[q] : q);
+    const boundaries *pushes = y->load->boundaries;
+    for (dem_index p = 0; pushes != NULL && p < pushes->n; p++)
+        for (dem_index j = 0; pushes->list[p].share != NULL && j < pushes->list[p].n_nodes; j++)
+            sum += accelerate_row(k, y, pushes->list[p].nodes[j]);
+    return sum;
+}
+
+double kernel_accelerate(kernel *k, const model_load *load, const double *x, const double *v, double *a)
+{
+    const layout *l = &k->model->layout;
+    const dem_index n = l->n_nodes;
+    sweep s = {.layout = l,
+               .inverse_mass = k->model->inverse_mass,
+               .gravity = {load->gravity[0], load->gravity[1]},
+               .mass_damping = load->mass_damping,
+               .x = x,
+               .v = v,
+               .a = a,
+               .guarded = k->guarded};
+    if (k->packed != NULL) {
+        pack(k, x, k->packed + n);
+        if (l->damped || load->mass_damping != 0.0) pack(k, v, k->packed + 3 * n);
+        s.inverse_mass = k->packed;
+        s.x = k->packed + n;
+        s.v = k->packed + 3 * n;
+        s.a = k->packed + 5 * n;
+    }
+    const double sum = sweep_blocks(k, &s);
+    if (k->packed != NULL) unpack(k, s.a, a);
+    const motion_state y = {load, x, v, a};
+    return sum + accelerate_rest(k, &y);
+}

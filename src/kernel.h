@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The accelerations of all nodes at once, by the instructions that the machine has, in threads. Every kernel and every
+ * number of threads gives the bits of model_acceleration(). */
+#ifndef DEM_KERNEL_H
+#define DEM_KERNEL_H
+
+#include "model.h"
+#include "sweep.h"
+
+typedef struct kernel {
+    const dem_model *model;
+    sweep_function *sweep;
+    dem_kernel kind; /* not DEM_KERNEL_AUTO */
+    int n_threads;
+    double *rings;    /* [n_threads][ring_size] */
+    size_t ring_size; /* doubles */
+    uint8_t *guarded; /* [n_blocks] */
+    double *sums;     /* [n_threads] */
+    double *packed;   /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
+} kernel;
+
+/** Borrows the model.  \return DEM_ERROR_ARGUMENT for a kernel that this machine does not have; DEM_ERROR_MEMORY. Free
+ *  with kernel_destroy(). */
+dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads);
+void kernel_destroy(kernel *k);
+
+/** Accelerations a [n_nodes][2] at positions x and velocities v, free of contact.
+ *  \return a sum over them that is not finite if one of them is not */
+double kernel_accelerate(kernel *k, const model_load *load, const double *x, const double *v, double *a);
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One pass over the blocks of a layout: the accelerations of their nodes, free of contact. The same arithmetic for
+ * every instruction set, of IEEE's operations alone, so that all of them give the bits of model_acceleration(). */
+#ifndef DEM_SWEEP_H
+#define DEM_SWEEP_H
+
+#include "layout.h"
+
+/** What a sweep reads and writes; nodes in the order of the layout. */
+typedef struct sweep {
+    const layout *layout;
+    const double *inverse_mass; /* [n_nodes] 1/kg; 0: fixed */
+    vec2 gravity;               /* m/s^2 */
+    double mass_damping;        /* 1/s */
+    const double *x, *v;        /* [n_nodes][2] */
+    double *a;                  /* [n_nodes][2] accelerations */
+    uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
+                                   acceleration is without triangles */
+} sweep;
+
+/** Sweeps blocks first to last - 1.
+ *  \param ring  [layout->ring_length][2] scratch, of one thread
+ *  \return the sum of the accelerations: not finite if one of them is not */
+typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
+
+sweep_function sweep_portable, sweep_avx2, sweep_avx512;
+
+#endif

@@ -1,0 +1,5 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "lanes_avx2.h"
+
+#define SWEEP sweep_avx2
+#include "sweep_body.h"

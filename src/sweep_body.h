@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The sweep, in terms of `pairs`, the two components of eight nodes, and `lanes`, a number for each of them. A file for
+ * each instruction set defines these and SWEEP, and includes this. */
+#ifndef DEM_SWEEP_BODY_H
+#define DEM_SWEEP_BODY_H
+
+#include "sweep.h"
+
+#define INLINE static inline __attribute__((always_inline)) /* so that `damped` is known where loops are compiled */
+
+INLINE pairs fetch(const double *array, const int32_t *lists, int32_t at, bool gathered)
+{
+    return gathered ? pairs_gather(array, lists + at) : pairs_load(array + at);
+}
+
+/* The first eight places of a stream are repeated behind its end, so that any eight in a row can be read. */
+INLINE void repeat(const layout *l, dem_index block, double *ring)
+{
+    for (int32_t p = l->springs.row[block]; p < l->springs.row[block + 1]; p++) {
+        double *place = ring + l->springs.entries[p].to;
+        pairs_store(place + 2 * l->ring_rows, pairs_load(place));
+    }
+}
+
+/* Forces of the springs of which the block has the lower nodes, (1), and behind them in the ring those of damping. */
+INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, double *ring)
+{
+    const layout *l = s->layout;
+    const layout_entry *e = l->springs.entries + l->springs.row[block],
+                       *end = l->springs.entries + l->springs.row[block + 1];
+    const int32_t *lists = l->lists;
+    const double *sets = l->bonds.values, *positions = s->x, *velocities = s->v;
+    const dem_index row = LAYOUT_LANES * block;
+    const pairs x = pairs_load(positions + 2 * row), v = damped ? pairs_load(velocities + 2 * row) : x;
+    double *damping = ring + 2 * l->ring_length;
+    for (; e < end; e++) {
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const double *set = sets + e->set;
+        const pairs d = pairs_sub(fetch(positions, lists, e->at, gathered), x);
+        const lanes square = pairs_dot(d, d), length = lanes_sqrt(square), rest = lanes_load(set + LAYOUT_LANES);
+        const lanes stretch = lanes_mul(lanes_load(set), lanes_sub(length, rest));
+        pairs_store(ring + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
+        if (!damped) continue;
+        const pairs dv = pairs_sub(fetch(velocities, lists, e->at, gathered), v);
+        const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
+        pairs_store(damping + e->to, pairs_scale(lanes_div(rate, lanes_mul(rest, square)), d));
+    }
+    if ((row & (l->ring_rows - 1)) != 0) return;
+    repeat(l, block, ring);
+    if (damped) repeat(l, block, damping);
+}
+
+/* Each node's sum over its row. */
+INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
+{
+    const layout_entry *e = l->terms.entries + l->terms.row[block], *end = l->terms.entries + l->terms.row[block + 1];
+    pairs sum = pairs_both(0.0, 0.0);
+    for (; e < end; e++) {
+        if (e->kind == LAYOUT_SUBTRACT) {
+            sum = pairs_sub(sum, pairs_load(ring + e->at));
+        } else if (e->kind == LAYOUT_ADD) {
+            sum = pairs_add(sum, pairs_load(ring + e->at));
+        } else {
+            const pairs force = fetch(ring, l->lists, e->at, e->kind == LAYOUT_GATHERED);
+            sum = pairs_add(sum, pairs_mask(pairs_negate(force, (unsigned)e->to), e->mask));
+        }
+    }
+    return sum;
+}
+
+/* A bit for each node whose lane is among these and takes part. */
+INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
+{
+    unsigned nodes = 0;
+    for (int q = 0; q < LAYOUT_LANES; q++) nodes |= (chosen >> layout_lane(q) & mask >> (2 * q) & 1u) << q;
+    return nodes;
+}
+
+/* Each node's sum over its triangles of the area term, and which nodes the guard acts on. */
+INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
+{
+    const layout *l = s->layout;
+    const pairs x = pairs_load(s->x + 2 * LAYOUT_LANES * block), turn = pairs_both(-0.5, 0.5);
+    pairs sum = pairs_both(0.0, 0.0);
+    for (int32_t p = l->corners.row[block]; p < l->corners.row[block + 1]; p++) {
+        const layout_entry *e = &l->corners.entries[p];
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const double *set = l->areas.values + e->set;
+        const pairs next = fetch(s->x, l->lists, e->at, gathered), last = fetch(s->x, l->lists, e->to, gathered);
+        const lanes twice = pairs_cross(pairs_sub(next, x), pairs_sub(last, x));
+        const lanes area = lanes_mul(lanes_all(0.5), twice), rest = lanes_load(set);
+        const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES));
+        if (below != 0) *guarded |= nodes_of(below, e->mask);
+        if (!l->stiff) continue;
+        const lanes stretch = lanes_sub(lanes_div(area, rest), lanes_all(1.0));
+        const lanes slope = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), stretch);
+        const pairs gradient = pairs_mul(turn, pairs_swap(pairs_sub(last, next)));
+        const pairs force = pairs_scale(lanes_mul(lanes_all(-1.0), slope), gradient);
+        sum = pairs_add(sum, pairs_mask(force, e->mask));
+    }
+    return sum;
+}
+
+/* m a = F + m g, less the drag. */
+INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const double *ring)
+{
+    const layout *l = s->layout;
+    const dem_index row = LAYOUT_LANES * block;
+    pairs force = sum_terms(l, block, ring);
+    if (damped) force = pairs_add(force, sum_terms(l, block, ring + 2 * l->ring_length));
+    unsigned guarded = 0;
+    if (l->corners.row[block] < l->corners.row[block + 1]) force = pairs_add(force, sum_corners(s, block, &guarded));
+    s->guarded[block] = (uint8_t)guarded;
+    const pairs inverse_mass = pairs_spread(s->inverse_mass + row);
+    pairs a = pairs_add(pairs_both(s->gravity.x, s->gravity.y), pairs_mul(inverse_mass, force));
+    if (s->mass_damping != 0.0)
+        a = pairs_add(a, pairs_mul(pairs_both(-s->mass_damping, -s->mass_damping), pairs_load(s->v + 2 * row)));
+    return pairs_unless_zero(inverse_mass, a);
+}
+
+/* Blocks below the first are evaluated only. Nodes collect a block behind, when what was left has reached the cache. */
+INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, double *ring)
+{
+    const dem_index reach = s->layout->reach;
+    pairs sum = pairs_both(0.0, 0.0);
+    for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
+        if (block < last) evaluate_springs(s, block, damped, ring);
+        if (block <= first) continue;
+        const pairs a = accelerate(s, block - 1, damped, ring);
+        pairs_store(s->a + 2 * LAYOUT_LANES * (block - 1), a);
+        sum = pairs_add(sum, a);
+    }
+    return pairs_total(sum);
+}
+
+double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
+{
+    return s->layout->damped ? run(s, first, last, true, ring) : run(s, first, last, false, ring);
+}
+
+#endif

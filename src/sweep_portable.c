@@ -1,0 +1,5 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "lanes_portable.h"
+
+#define SWEEP sweep_portable
+#include "sweep_body.h"
