@@ -8,12 +8,18 @@
 
 enum { ALIGNED_TO = 64 };
 
-/** n zeros, never of no bytes; NULL without memory. Free with free(). */
+/** n numbers, not set, never of no bytes; NULL without memory. Free with free(). */
+static inline double *aligned_reals(size_t n)
+{
+    const size_t line = ALIGNED_TO / sizeof(double);
+    return aligned_alloc(ALIGNED_TO, (n / line + 1) * ALIGNED_TO);
+}
+
+/** n zeros. */
 static inline double *aligned_zeros(size_t n)
 {
-    const size_t line = ALIGNED_TO / sizeof(double), size = (n / line + 1) * ALIGNED_TO;
-    double *array = aligned_alloc(ALIGNED_TO, size);
-    return array != NULL ? memset(array, 0, size) : NULL;
+    double *array = aligned_reals(n);
+    return array != NULL ? memset(array, 0, n * sizeof *array) : NULL;
 }
 
 #endif

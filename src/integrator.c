@@ -7,10 +7,15 @@
 #include <string.h>
 
 #include "arkode.h"
+#include "aligned.h"
 #include "method.h"
 #include "status.h"
+#include "vector.h"
 
-enum { max_retries = 10 };
+enum {
+    max_retries = 10,
+    most_vectors = 20 /* of ARKODE and here, but for the stages */
+};
 
 static const double no_weight = 1e-100;
 
@@ -21,16 +26,18 @@ struct integrator {
     void *arkode;
     arkode_controller controller;
     arkode_errors errors;
-    N_Vector y;          /* what ARKODE returns */
-    N_Vector y1, f0, f1; /* the accepted step for the path */
-    double *y0, *arrays; /* [4 n] each: y0, then those behind the vectors */
-    double *inside;      /* [4 n] state at a root function's time */
-    double *guards;      /* [n_guards] values of the guards at guards_t */
-    double guards_t;     /* s; NAN: none */
-    double t;            /* last accepted time, of y0 */
-    double t1;           /* end of the step that y1, f0, f1 hold */
-    bool holds_step;     /* y1, f0, f1 are those of the step that ends at t1 */
-    bool at_end;         /* the path was handed out: y1 is the start of the next step */
+    vector_space *space;
+    N_Vector y;              /* what ARKODE returns */
+    N_Vector y0, y1, f0, f1; /* the accepted step for the path; y0 is the last accepted state */
+    N_Vector weights;        /* of the error, the same at all times */
+    double *inside;          /* [4 n] state at a root function's time */
+    double *guards;          /* [n_guards] values of the guards at guards_t */
+    double guards_t;         /* s; NAN: none */
+    double t;                /* last accepted time, of y0 */
+    double t1;               /* end of the step that y1, f0, f1 hold */
+    bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
+    bool at_end;             /* the path was handed out: y1 is the start of the next step */
+    bool knows_f0;           /* f0 is that of y0 */
     dem_counts counts;
     char message[256]; /* ARKODE's last complaint */
 };
@@ -41,11 +48,11 @@ static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     integrator *I = user;
     I->counts.evaluations++;
-    return I->problem.derivative(t, N_VGetArrayPointer(y), N_VGetArrayPointer(f), I->problem.context) == 0 ? 0 : -1;
+    return I->problem.derivative(t, vector_values(y), vector_fresh(f), I->problem.context) == 0 ? 0 : -1;
 }
 
-/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation derivatives there are the
- * stored ones. */
+/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation they are the stored ones: no
+ * number is copied. */
 static int fetch_step(integrator *I)
 {
     double now;
@@ -53,7 +60,8 @@ static int fetch_step(integrator *I)
     if (I->holds_step && I->t1 == now) return 0;
     if (ARKodeGetDky(I->arkode, now, 0, I->y1) != ARK_SUCCESS) return -1;
     if (ARKodeGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS) return -1;
-    if (ARKodeGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS) return -1;
+    if (!I->knows_f0 && ARKodeGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS) return -1;
+    I->knows_f0 = true;
     I->t1 = now;
     I->holds_step = true;
     return 0;
@@ -65,10 +73,10 @@ static path held_path(const integrator *I)
                   .t0 = I->t,
                   .t1 = I->t1,
                   .end = I->t1,
-                  .y0 = I->y0,
-                  .f0 = N_VGetArrayPointer(I->f0),
-                  .y1 = N_VGetArrayPointer(I->y1),
-                  .f1 = N_VGetArrayPointer(I->f1)};
+                  .y0 = vector_values(I->y0),
+                  .f0 = vector_values(I->f0),
+                  .y1 = vector_values(I->y1),
+                  .f1 = vector_values(I->f1)};
 }
 
 /* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in
@@ -77,7 +85,7 @@ static int call_guards(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
     integrator *I = user;
     double now;
-    const double *state = N_VGetArrayPointer(y);
+    const double *state = vector_values(y);
     if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
     if (t > I->t && t < now) {
         if (fetch_step(I) != 0) return -1;
@@ -101,13 +109,8 @@ static int call_guards(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 static int call_weights(N_Vector y, N_Vector weights, void *user)
 {
     const integrator *I = user;
-    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_books;
-    const double share = sqrt((double)n / (double)n_real); /* the norm is a mean over all */
-    double *w = N_VGetArrayPointer(weights);
     (void)y;
-    for (dem_index k = 0; k < 4 * n; k++) w[k] = no_weight;
-    for (dem_index k = 0; k < 2 * n_real; k++) w[k] = share / I->problem.position_error;
-    for (dem_index k = 2 * n; k < 2 * (n + n_real); k++) w[k] = share / I->problem.velocity_error;
+    vector_share(I->weights, weights);
     return 0;
 }
 
@@ -122,18 +125,37 @@ static void keep_message(const char *message, void *user)
 static dem_status allocate(integrator *I)
 {
     const dem_index n = 4 * I->problem.n_nodes;
-    I->arrays = calloc(6 * (size_t)n, sizeof *I->arrays);
-    CHECK(I->arrays != NULL, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
-          (long long)I->problem.n_nodes);
-    I->y0 = I->arrays;
-    I->inside = I->arrays + n;
+    N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
-    I->y = N_VMake_Serial(n, I->arrays + 2 * n, I->sundials);
-    I->y1 = N_VMake_Serial(n, I->arrays + 3 * n, I->sundials);
-    I->f0 = N_VMake_Serial(n, I->arrays + 4 * n, I->sundials);
-    I->f1 = N_VMake_Serial(n, I->arrays + 5 * n, I->sundials);
-    CHECK(I->y && I->y1 && I->f0 && I->f1, DEM_ERROR_MEMORY, "out of memory for SUNDIALS vectors");
+    I->inside = aligned_zeros((size_t)n);
+    I->space = vector_space_create(n, I->problem.bulk, I->problem.n_threads, most_vectors + I->table.stages);
+    bool complete = I->inside != NULL && I->space != NULL;
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
+        *vectors[k] = vector_create(I->space, I->sundials);
+        complete = *vectors[k] != NULL;
+    }
+    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)I->problem.n_nodes);
     return DEM_OK;
+}
+
+/* The norm is a mean over all, books too, which have no part in the error. */
+static void fill_weights(integrator *I)
+{
+    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_books;
+    const double share = sqrt((double)n / (double)n_real);
+    double *w = vector_fresh(I->weights);
+    for (dem_index k = 0; k < 4 * n; k++) w[k] = no_weight;
+    for (dem_index k = 0; k < 2 * n_real; k++) w[k] = share / I->problem.position_error;
+    for (dem_index k = 2 * n; k < 2 * (n + n_real); k++) w[k] = share / I->problem.velocity_error;
+}
+
+/* The state from which the next step goes. */
+static void start_from(integrator *I, double t, const double *y)
+{
+    memcpy(vector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    vector_share(I->y0, I->y);
+    I->t = t;
+    I->at_end = I->holds_step = I->knows_f0 = false;
 }
 
 /* The order that ARKODE is told limits the degree of its interpolant, and nothing else: below 4 it would not hold the
@@ -196,9 +218,8 @@ static dem_status set_up(integrator *I, double t, const double *y)
     CHECK(I->problem.n_guards <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld guards are too many for ARKODE",
           (long long)I->problem.n_guards);
     TRY(allocate(I));
-    memcpy(I->y0, y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
-    memcpy(N_VGetArrayPointer(I->y), I->y0, 4 * (size_t)I->problem.n_nodes * sizeof *y);
-    I->t = t;
+    fill_weights(I);
+    start_from(I, t, y);
     I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
     CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
     int failed = arkode_listen(I->sundials, I->arkode, &I->errors);
@@ -235,12 +256,12 @@ void integrator_destroy(integrator *I)
     if (I == NULL) return;
     if (I->arkode != NULL) ARKodeFree(&I->arkode);
     arkode_free_controller(I->controller);
-    if (I->y != NULL) N_VDestroy(I->y);
-    if (I->y1 != NULL) N_VDestroy(I->y1);
-    if (I->f0 != NULL) N_VDestroy(I->f0);
-    if (I->f1 != NULL) N_VDestroy(I->f1);
+    N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+        if (vectors[k] != NULL) N_VDestroy(vectors[k]);
+    vector_space_free(I->space);
     if (I->sundials != NULL) SUNContext_Free(&I->sundials);
-    free(I->arrays);
+    free(I->inside);
     free(I->guards);
     free(I);
 }
@@ -252,7 +273,7 @@ static dem_status retry(integrator *I, double *h)
     *h *= 0.1;
     I->counts.retries++;
     CHECK(ARKodeSetInitStep(I->arkode, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
-    return integrator_restart(I, I->t, I->y0);
+    return integrator_restart(I, I->t, vector_values(I->y0));
 }
 
 static dem_status fail_step(integrator *I, int flag)
@@ -267,7 +288,8 @@ static dem_status fail_step(integrator *I, int flag)
 dem_status integrator_step(integrator *I, path *step, bool *rooted)
 {
     if (I->at_end) { /* go on from the end of the path handed out */
-        memcpy(I->y0, N_VGetArrayPointer(I->y1), 4 * (size_t)I->problem.n_nodes * sizeof *I->y0);
+        vector_share(I->y1, I->y0);
+        vector_share(I->f1, I->f0);
         I->t = I->t1;
         I->at_end = false;
     }
@@ -275,7 +297,8 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
     int flag = ARK_RHSFUNC_FAIL;
     for (int attempt = 0; attempt <= max_retries; attempt++) {
         I->holds_step = false;
-        if (I->problem.fixed_step > 0.0) (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, I->y0));
+        if (I->problem.fixed_step > 0.0)
+            (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, vector_values(I->y0)));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries)
@@ -294,11 +317,7 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
 
 dem_status integrator_restart(integrator *I, double t, const double *y)
 {
-    const size_t size = 4 * (size_t)I->problem.n_nodes * sizeof *y;
-    if (y != I->y0) memcpy(I->y0, y, size);
-    memcpy(N_VGetArrayPointer(I->y), I->y0, size);
-    I->t = t;
-    I->at_end = I->holds_step = false;
+    start_from(I, t, y);
     I->guards_t = NAN;
     CHECK(ARKodeReset(I->arkode, t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
           "ARKODE does not restart at t = %.9g s: %s", t, I->message);

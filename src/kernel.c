@@ -15,20 +15,23 @@
 #define HAS(feature) (__builtin_cpu_supports(feature) != 0)
 #else
 #define HAS(feature) false
-#define sweep_avx2   NULL
-#define sweep_avx512 NULL
+#define sweep_avx2   sweep_portable
+#define sweep_avx512 sweep_portable
+#define bulk_avx2    bulk_portable
+#define bulk_avx512  bulk_portable
 #endif
 
 typedef struct kernel_row {
     const char *name;
     sweep_function *sweep;
+    const bulk *bulk;
 } kernel_row;
 
 static const kernel_row rows[] = {
-    [DEM_KERNEL_AUTO] = {"auto", NULL},
-    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512},
+    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL},
+    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, &bulk_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, &bulk_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, &bulk_avx512},
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
@@ -91,7 +94,8 @@ dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, i
 {
     TRY(dem_kernel_check(kind));
     if (kind == DEM_KERNEL_AUTO) kind = fastest();
-    kernel k = {.model = model, .kind = kind, .n_threads = n_threads, .sweep = rows[kind].sweep};
+    kernel k = {
+        .model = model, .kind = kind, .n_threads = n_threads, .sweep = rows[kind].sweep, .bulk = rows[kind].bulk};
     const dem_status status = allocate(&k);
     if (status == DEM_OK)
         *out = k;
@@ -139,38 +143,40 @@ static double sweep_blocks(kernel *k, const sweep *s)
     return sum;
 }
 
-typedef struct motion_state {
-    const model_load *load;
-    const double *x, *v;
-    double *a;
-} motion_state;
-
-/* One row by itself; its accelerations added. */
-static double accelerate_row(const kernel *k, const motion_state *y, dem_index i)
+/* One row by itself; what it adds to the sum. */
+static double accelerate_row(const kernel *k, const model_load *load, const kernel_state *y, dem_index i)
 {
-    const vec2 a = model_acceleration(k->model, y->load, i, y->x, y->v);
+    const vec2 a = model_acceleration(k->model, load, i, y->x, y->v);
     vec2_put(y->a, i, a);
     return a.x + a.y;
 }
 
+static double copy_velocities(const kernel_state *y, dem_index first, dem_index last)
+{
+    double sum = 0.0;
+    for (dem_index i = 2 * first; i < 2 * last && y->u != NULL; i++) sum += y->u[i] = y->v[i];
+    return sum;
+}
+
 /* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
-static double accelerate_rest(const kernel *k, const motion_state *y)
+static double accelerate_rest(const kernel *k, const model_load *load, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     double sum = 0.0;
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
-        sum += accelerate_row(k, y, l->order != NULL ? l->order[q] : q);
+        sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
     for (dem_index b = 0; b < l->n_blocks; b++)
         for (dem_index q = LAYOUT_LANES * b, left = k->guarded[b]; left != 0; q++, left >>= 1)
-            if (left & 1) sum += accelerate_row(k, y, l->order != NULL ? l->order[q] : q);
-    const boundaries *pushes = y->load->boundaries;
-    for (dem_index p = 0; pushes != NULL && p < pushes->n; p++)
-        for (dem_index j = 0; pushes->list[p].share != NULL && j < pushes->list[p].n_nodes; j++)
-            sum += accelerate_row(k, y, pushes->list[p].nodes[j]);
+            if (left & 1) sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index p = 0; load->boundaries != NULL && p < load->boundaries->n; p++) {
+        const boundary *push = &load->boundaries->list[p];
+        for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
+            sum += accelerate_row(k, load, y, push->nodes[j]);
+    }
     return sum;
 }
 
-double kernel_accelerate(kernel *k, const model_load *load, const double *x, const double *v, double *a)
+double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     const dem_index n = l->n_nodes;
@@ -178,20 +184,22 @@ double kernel_accelerate(kernel *k, const model_load *load, const double *x, con
                .inverse_mass = k->model->inverse_mass,
                .gravity = {load->gravity[0], load->gravity[1]},
                .mass_damping = load->mass_damping,
-               .x = x,
-               .v = v,
-               .a = a,
+               .x = y->x,
+               .v = y->v,
+               .u = y->u,
+               .a = y->a,
                .guarded = k->guarded};
     if (k->packed != NULL) {
-        pack(k, x, k->packed + n);
-        if (l->damped || load->mass_damping != 0.0) pack(k, v, k->packed + 3 * n);
+        pack(k, y->x, k->packed + n);
+        if (l->damped || load->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);
         s.inverse_mass = k->packed;
         s.x = k->packed + n;
         s.v = k->packed + 3 * n;
         s.a = k->packed + 5 * n;
+        s.u = NULL;
     }
-    const double sum = sweep_blocks(k, &s);
-    if (k->packed != NULL) unpack(k, s.a, a);
-    const motion_state y = {load, x, v, a};
-    return sum + accelerate_rest(k, &y);
+    double sum = sweep_blocks(k, &s);
+    if (k->packed != NULL) unpack(k, s.a, y->a);
+    sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
+    return sum + accelerate_rest(k, load, y);
 }

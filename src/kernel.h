@@ -4,12 +4,14 @@
 #ifndef DEM_KERNEL_H
 #define DEM_KERNEL_H
 
+#include "bulk.h"
 #include "model.h"
 #include "sweep.h"
 
 typedef struct kernel {
     const dem_model *model;
     sweep_function *sweep;
+    const bulk *bulk;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     int n_threads;
     double *rings;    /* [n_threads][ring_size] */
@@ -24,8 +26,14 @@ typedef struct kernel {
 dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads);
 void kernel_destroy(kernel *k);
 
-/** Accelerations a [n_nodes][2] at positions x and velocities v, free of contact.
- *  \return a sum over them that is not finite if one of them is not */
-double kernel_accelerate(kernel *k, const model_load *load, const double *x, const double *v, double *a);
+/** A state and its derivative, [n_nodes][2] each. */
+typedef struct kernel_state {
+    const double *x, *v;
+    double *u; /* velocities, as v; NULL: not wanted */
+    double *a; /* accelerations, free of contact */
+} kernel_state;
+
+/** Fills u and a.  \return a sum over them that is not finite if one of them is not */
+double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y);
 
 #endif

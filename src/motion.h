@@ -3,6 +3,7 @@
 #ifndef DEM_MOTION_H
 #define DEM_MOTION_H
 
+#include "bulk.h"
 #include "path.h"
 
 typedef struct motion {
@@ -19,6 +20,8 @@ typedef struct motion {
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
     double max_step;                       /* s */
     double fixed_step;                     /* s; > 0: steps of this length without error control */
+    const bulk *bulk;                      /* arithmetic on the states */
+    int n_threads;
 } motion;
 
 /** Length of a fixed step from y, s: halved as often as it takes that it is no longer in units of the highest frequency

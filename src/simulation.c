@@ -122,12 +122,14 @@ static int derivative(double t, const double *y, double *f, void *context)
     dem_simulation *s = context;
     const dem_index n = unknowns(s->model);
     const model_load *load = &s->contact.sites.scene.rule.load;
-    double *a = f + n, sum = 0.0;
-    for (dem_index k = 0; k < n; k++) sum += f[k] = y[n + k];
-    sum += kernel_accelerate(&s->kernel, load, y, y + n, a);
+    const dem_index n_real = 2 * s->model->lattice.n_nodes;
+    double *a = f + n;
+    const kernel_state nodes = {.x = y, .v = y + n, .u = f, .a = a};
+    double sum = kernel_accelerate(&s->kernel, load, &nodes);
+    for (dem_index k = n_real; k < n; k++) sum += f[k] = y[n + k];
     contact_constrain(&s->contact, y, a);
     const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, y + n, f, a);
-    fill_rates(s, y, a + 2 * s->model->lattice.n_nodes, work);
+    fill_rates(s, y, a + n_real, work);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, f);
     return 1;
@@ -414,7 +416,9 @@ static dem_status set_up(dem_simulation *s)
                             .position_error = o->rtol * o->spacing,
                             .velocity_error = o->rtol * o->v_scale,
                             .max_step = o->max_step,
-                            .fixed_step = o->fixed_step};
+                            .fixed_step = o->fixed_step,
+                            .bulk = s->kernel.bulk,
+                            .n_threads = s->kernel.n_threads};
     TRY(engine_create(&s->engine, &problem, 0.0, s->y));
     TRY(overlap_create(&s->overlap, &model->lattice));
     look_for_overlaps(s);

@@ -14,13 +14,14 @@ typedef struct sweep {
     double mass_damping;        /* 1/s */
     const double *x, *v;        /* [n_nodes][2] */
     double *a;                  /* [n_nodes][2] accelerations */
+    double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
     uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
                                    acceleration is without triangles */
 } sweep;
 
 /** Sweeps blocks first to last - 1.
  *  \param ring  [layout->ring_length][2] scratch, of one thread
- *  \return the sum of the accelerations: not finite if one of them is not */
+ *  \return the sum of the accelerations, and of the velocities if wanted: not finite if one of them is not */
 typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
 
 sweep_function sweep_portable, sweep_avx2, sweep_avx512;

@@ -126,9 +126,14 @@ INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, 
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
         if (block < last) evaluate_springs(s, block, damped, ring);
         if (block <= first) continue;
+        const dem_index at = 2 * LAYOUT_LANES * (block - 1);
         const pairs a = accelerate(s, block - 1, damped, ring);
-        pairs_store(s->a + 2 * LAYOUT_LANES * (block - 1), a);
+        pairs_store(s->a + at, a);
         sum = pairs_add(sum, a);
+        if (s->u == NULL) continue;
+        const pairs v = pairs_load(s->v + at);
+        pairs_store(s->u + at, v);
+        sum = pairs_add(sum, v);
     }
     return pairs_total(sum);
 }

@@ -11,9 +11,9 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "random", "commit", "aligned", "threads"},
-    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file",
+    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "hdf5_file",
      "scan", "namelist", "placement", "pores", "profile", "file", "words", "image", "outline"},
-    {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema", "parts",
+    {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema", "parts",
      "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
     {"layout"},
     {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
@@ -32,7 +32,7 @@ LAYERS = [
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
-    (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c"}),
+    (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c", "src/vector.c", "src/vector.h"}),
     (r"#include <immintrin", {"src/lanes_avx2.h", "src/lanes_avx512.h"}),
     (r"_Pragma|#pragma|_OPENMP", {"src/threads.h"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),

@@ -34,6 +34,8 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
         int calls = 0, bounces = 0;
         const motion problem = {.n_nodes = 1,
+                                .bulk = &bulk_portable,
+                                .n_threads = 1,
                                 .n_guards = 1,
                                 .derivative = fall,
                                 .guards = height,
@@ -67,7 +69,12 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
 
 static void what_cannot_be_made_is_told(void **state)
 {
-    const motion problem = {.n_nodes = 1, .derivative = fall, .max_step = 1.0, .method = (dem_method)99};
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .derivative = fall,
+                            .max_step = 1.0,
+                            .method = (dem_method)99};
     const double y0[4] = {0.0};
     engine e;
     (void)state;

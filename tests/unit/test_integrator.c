@@ -78,6 +78,8 @@ static integrator *make(world *w, int (*derivative)(double, const double *, doub
                         double error, double fixed_step, const double *y)
 {
     const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
                             .derivative = derivative,
                             .context = w,
                             .method = method,
@@ -179,6 +181,8 @@ static int steps_with_errors(double position, double velocity)
 {
     world w = {.fails_after = 1e9};
     const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
                             .derivative = swing,
                             .context = &w,
                             .position_error = position,
@@ -208,6 +212,8 @@ static void errors_of_positions_and_of_velocities_both_count(void **state)
 static void an_unknown_method_is_refused(void **state)
 {
     const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
                             .derivative = fall,
                             .method = (dem_method)77,
                             .position_error = 1.0,
@@ -271,6 +277,8 @@ static void evaluations_are_counted(void **state)
 static integrator *make_fall(world *w, const double *y)
 {
     const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
                             .n_guards = 2,
                             .derivative = fall,
                             .guards = heights,
@@ -443,6 +451,8 @@ static void a_tolerance_out_of_reach_is_told(void **state)
 static void guards_that_are_no_numbers_are_an_error(void **state)
 {
     const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
                             .n_guards = 2,
                             .derivative = fall,
                             .guards = broken_heights,

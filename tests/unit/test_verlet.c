@@ -52,6 +52,8 @@ static double stiffening(const double *y, void *context)
 static verlet *make(world *w, double h, dem_index n_guards, const double *y)
 {
     const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
                             .n_guards = n_guards,
                             .derivative = move,
                             .guards = heights,
@@ -345,7 +347,7 @@ static void guards_that_are_no_numbers_are_an_error(void **state)
 
 static void without_a_fixed_step_it_is_refused(void **state)
 {
-    const motion problem = {.n_nodes = 1, .derivative = move, .max_step = 1.0};
+    const motion problem = {.n_nodes = 1, .bulk = &bulk_portable, .n_threads = 1, .derivative = move, .max_step = 1.0};
     const double y0[4] = {0.0};
     verlet *V = NULL;
     (void)state;
