@@ -191,7 +191,7 @@ static bulk_sum square(const vector_space *s, const double *x, const double *w, 
     return sum;
 }
 
-/* Sums are exact within a range of sizes. Ranges are tried, from a sample's on; the least that holds all numbers counts. */
+/* Sums are exact within a range of sizes. Ranges are tried from a sample on: the least that holds all counts. */
 static sunrealtype norm(N_Vector x, N_Vector w)
 {
     const vector_space *s = content_of(x)->space;
