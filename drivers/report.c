@@ -90,12 +90,14 @@ static double closure_of(const report *r, dem_energy e)
     return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
 }
 
-static void watch_ledger(report *r, const dem_state *state)
+static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
+    const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
     if (r->warned || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
     r->warned = true;
-    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a smaller 'rtol' closes it\n",
-                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
+    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
+                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t,
+                  fixed ? "shorter step" : "smaller 'rtol'");
 }
 
 static void watch_overlap(report *r, const dem_simulation *simulation)
@@ -135,7 +137,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_strain(r, simulation, state.t);
     pace_follow(&r->pace, simulation, &state);
     follow_contact(r, simulation, &state);
-    watch_ledger(r, &state);
+    watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;

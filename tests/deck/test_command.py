@@ -197,7 +197,7 @@ class Check(Case):
         self.assertEqual((t_end, order, rtol), (8e-3, 5, 1e-6))
         self.assertAlmostEqual(step * omega_max, 0.5, places=3)
         share, growth = numbers("stability  omega_max h = #; with fehlberg45 undamped oscillations grow at any step, "
-                                "here by # a step", out)
+                                "here by up to # in one", out)
         self.assertEqual((share, growth), (0.5, 1.3e-5))
         speed, = numbers("formula 6  (|v_x| + |v_y|) h/spacing = # at v_scale along x; it does "
                          "not bound the step", out)

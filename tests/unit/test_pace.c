@@ -2,6 +2,7 @@
 /* pace.c: what it says of a pair of masses on a spring, whose highest frequency is known, and of a thrown node. */
 #include "pace.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "../verification/support.h"
@@ -52,7 +53,7 @@ static void the_bound_is_that_of_the_method(void **state)
     assert_string_equal(
         text, "time       t_end 7 s, fehlberg45 of order 5, rtol 1e-06, largest step 0.05 s\n"
               "stability  omega_max h = 0.5; with fehlberg45 undamped oscillations grow at any step, here by "
-              "1.3e-05 a step\n"
+              "up to 1.3e-05 in one\n"
               "formula 6  (|v_x| + |v_y|) h/spacing = 0.00025 at v_scale along x; it does not bound the step\n");
     options.method = DEM_METHOD_VERLET;
     options.v_scale = 3.0;
@@ -72,8 +73,28 @@ static void a_step_beyond_the_bound_is_warned_of(void **state)
     for (int above = 0; above < 2; above++) {
         options.fixed_step = above ? 0.2001 : 0.1999;
         print_plan(&options);
-        assert_int_equal(strstr(text, "WARNING: longer than that, the run may blow up") != NULL, above);
+        assert_int_equal(strstr(text, "; WARNING: from 2 on the run may blow up\n") != NULL, above);
     }
+}
+
+/* At 2.7 the fastest is damped with Fehlberg's weights, but slower ones grow: at 2 as in the closed form of |R|,
+ * R the exponential series to z^5/120 and z^6/2080. */
+static void the_growth_is_that_of_the_worst_oscillation(void **state)
+{
+    dem_options options = dem_options_default();
+    double largest = 0.0;
+    (void)state;
+    for (double z = 0.0; z < 2.7; z += 1e-3) {
+        const double z2 = z * z, re = 1.0 - z2 / 2.0 + z2 * z2 / 24.0 - z2 * z2 * z2 / 2080.0;
+        largest = fmax(largest, hypot(re, z * (1.0 - z2 / 6.0 + z2 * z2 / 120.0)) - 1.0);
+    }
+    assert_true(dem_method_growth(DEM_METHOD_FEHLBERG45, 2.7) < 1.0);
+    options.fixed_step = 0.27;
+    print_plan(&options);
+    const char *found = strstr(text, "here by up to ");
+    assert_non_null(found);
+    assert_close(strtod(found + strlen("here by up to "), NULL), largest, 0.06 * largest); /* two digits */
+    assert_non_null(strstr(text, " in one; WARNING: from 1.09 on the run may blow up\n"));
 }
 
 static void without_springs_nothing_bounds_the_step(void **state)
@@ -129,6 +150,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_bound_is_that_of_the_method),
         cmocka_unit_test(a_step_beyond_the_bound_is_warned_of),
+        cmocka_unit_test(the_growth_is_that_of_the_worst_oscillation),
         cmocka_unit_test(without_springs_nothing_bounds_the_step),
         cmocka_unit_test(the_largest_value_of_6_is_that_of_the_fastest_step),
     };
