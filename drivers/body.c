@@ -81,10 +81,29 @@ static void check_material(const schema_deck *groups, const schema_instance *bod
     const char *name = schema_text(body, "material");
     char hint[64 * (MATERIALS_LISTED + 1)];
     if (has_shape(body, "file") || value->faulty || groups->misspelt || has_faulty_name(groups)) return;
-    if (schema_count(groups, "material") == 0 || find_material(groups, name) != NULL) return;
+    const schema_instance *material = find_material(groups, name);
+    if (material != NULL && is_given(material, "bond_stiffness") && is_given(body, "diagonal"))
+        namelist_errors_add(errors, place_of(body, "diagonal"),
+                            "'diagonal' in &body is not used with the 'bond_stiffness' of its material");
+    if (schema_count(groups, "material") == 0 || material != NULL) return;
     hint_material(hint, sizeof hint, groups, name);
     namelist_errors_add(errors, value->place, "there is no material '%.40s'%s%s", name,
                         value->given ? "" : ", the default of 'material' in &body", hint);
+}
+
+/* E or E_ij; with that no nu, and no other ratio of the stiffnesses of squares. */
+static void check_stiffness(const schema_instance *material, namelist_errors *errors)
+{
+    static const char *const unused[] = {"youngs_modulus", "poissons_ratio", "plane"};
+    const bool faulty =
+        schema_value_of(material, "youngs_modulus")->faulty || schema_value_of(material, "bond_stiffness")->faulty;
+    const bool bond = is_given(material, "bond_stiffness");
+    if (!bond && !is_given(material, "youngs_modulus") && !faulty)
+        namelist_errors_add(errors, material->place, "'youngs_modulus' or 'bond_stiffness' in &material must be given");
+    for (size_t k = 0; bond && k < sizeof unused / sizeof *unused; k++)
+        if (is_given(material, unused[k]))
+            namelist_errors_add(errors, place_of(material, unused[k]),
+                                "'%s' in &material does not go with 'bond_stiffness'", unused[k]);
 }
 
 /* Only lattice files come with springs and masses of their own. */
@@ -97,6 +116,8 @@ static void check_materials(const schema_deck *groups, namelist_errors *errors)
     }
     if (needed && schema_count(groups, "material") == 0 && !groups->misspelt)
         namelist_errors_add(errors, (namelist_place){1, 1}, "&material must be given");
+    for (size_t k = 0; k < schema_count(groups, "material"); k++)
+        check_stiffness(schema_get(groups, "material", k), errors);
 }
 
 static void check_names(const schema_deck *groups, namelist_errors *errors)
@@ -167,7 +188,8 @@ static dem_status check_scales(const builder *b, const dem_material *m)
 {
     const char *key = has_shape(b->body, "mesh") ? "scale" : "spacing";
     const double spacing = b->facts.form.spacing, area = 0.43301270189221932 * spacing * spacing;
-    const double mass = m->density * m->thickness * area / 3.0, stiffness = m->youngs_modulus * m->thickness * spacing;
+    const double mass = m->density * m->thickness * area / 3.0;
+    const double stiffness = m->bond_stiffness > 0.0 ? m->bond_stiffness : m->youngs_modulus * m->thickness * spacing;
     if (fault_of(area) != NULL)
         namelist_errors_add(b->errors, place_of(b->body, key),
                             "body %zu: the area of a triangle, %g m^2, is %s; its sides are %g m", b->number, area,
@@ -177,6 +199,10 @@ static dem_status check_scales(const builder *b, const dem_material *m)
             b->errors, place_of(b->body, "material"),
             "body %zu: the mass of a node, %g kg, is %s; density %g kg/m^3, thickness %g m, spacing %g m", b->number,
             mass, fault_of(mass), m->density, m->thickness, spacing);
+    else if (fault_of(stiffness) != NULL && m->bond_stiffness > 0.0)
+        namelist_errors_add(b->errors, place_of(b->body, "material"),
+                            "body %zu: the stiffness of a spring, %g N, is %s", b->number, stiffness,
+                            fault_of(stiffness));
     else if (fault_of(stiffness) != NULL)
         namelist_errors_add(b->errors, place_of(b->body, "material"),
                             "body %zu: the stiffness of a spring, %g N, is %s; Young's modulus %g Pa, thickness %g m, "
@@ -226,6 +252,7 @@ static dem_status make_mesh(builder *b)
     const schema_deck *groups = b->scene->groups;
     const schema_instance *m = find_material(groups, schema_text(b->body, "material"));
     const dem_material material = {.youngs_modulus = schema_real(m, "youngs_modulus"),
+                                   .bond_stiffness = schema_real(m, "bond_stiffness"),
                                    .poissons_ratio = schema_real(m, "poissons_ratio"),
                                    .plane = is_in_plane_strain(m) ? DEM_PLANE_STRAIN : DEM_PLANE_STRESS,
                                    .density = schema_real(m, "density"),
@@ -236,7 +263,11 @@ static dem_status make_mesh(builder *b)
     dem_status status = form_triangulate(&b->lattice, &b->facts.form, groups, b->number - 1, scene->folder, b->errors);
     if (status == DEM_OK) status = check_scales(b, &material);
     if (status == DEM_OK) status = settle_parts(b);
-    if (status == DEM_OK) status = report(b, dem_lattice_assemble(&b->lattice, &material), "shape");
+    if (status == DEM_OK && form_has_squares(b->body))
+        status = report(b, dem_lattice_assemble_squares(&b->lattice, &material, schema_real(b->body, "diagonal")),
+                        "diagonal");
+    else if (status == DEM_OK)
+        status = report(b, dem_lattice_assemble(&b->lattice, &material), "shape");
     b->facts.true_mass = material.density * material.thickness * b->facts.form.area;
     return status;
 }
@@ -363,6 +394,22 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
                             k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0],
                             spike->x[1], spike->depth, skin);
     return true;
+}
+
+void body_drop_unused(schema_deck *groups)
+{
+    form_drop_unused(groups);
+    for (size_t i = 0; i < groups->n_instances; i++) {
+        schema_instance *group = &groups->instances[i];
+        const bool material = strcmp(group->group->name, "material") == 0;
+        if (material && is_given(group, "bond_stiffness")) {
+            schema_drop(group, "poissons_ratio");
+            schema_drop(group, "plane");
+        }
+        if (strcmp(group->group->name, "body") != 0) continue;
+        const schema_instance *own = find_material(groups, schema_text(group, "material"));
+        if (own != NULL && is_given(own, "bond_stiffness")) schema_drop(group, "diagonal");
+    }
 }
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)

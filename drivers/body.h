@@ -22,6 +22,9 @@ typedef struct body_scene {
 /* What can be said without geometry: keys a shape lacks or does not use, names and numbers that refer to nothing. */
 void body_check_all(const schema_deck *groups, namelist_errors *errors);
 
+/* Takes the defaults of keys away that a choice does not use: they mean nothing, and stated they are faults. */
+void body_drop_unused(schema_deck *groups);
+
 /* How a body starts: its node that may touch and lies deepest in the obstacles; their point deepest in its triangles */
 typedef struct body_start {
     double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */

@@ -478,7 +478,7 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
 static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *errors)
 {
     char *folder = folder_of(d->path);
-    form_drop_unused(groups);
+    body_drop_unused(groups);
     loading_drop_unused(groups);
     uses_drop(groups, &profile_uses);
     bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);

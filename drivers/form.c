@@ -26,6 +26,9 @@ static const uses_key body_keys[] = {
     {"points", "polygon", true},
     {"spacing", OURS, true},
     {"lattice", OURS, false},
+    {"diagonal", OURS, false},
+    {"jitter", OURS, false},
+    {"seed", OURS, false},
     {"material", OURS ", mesh", false},
     {"file", "file, mask, mesh", true},
     {"scale", "mask, mesh", true},
@@ -35,19 +38,26 @@ static const uses_key void_keys[] = {
     {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},
     {"points", "polygon", true}, {"angle", "rectangle, polygon", false},
 };
+static const uses_key lattice_keys[] = {{"diagonal", "square", false}};
 static const uses_key pores_keys[] = {{"mean", "lognormal, normal", true}, {"deviation", "lognormal, normal", true}};
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
 static const uses body_uses = {"body", "shape", COUNT(body_keys), body_keys};
+static const uses lattice_uses = {"body", "lattice", COUNT(lattice_keys), lattice_keys};
 static const uses void_uses = {"void", "shape", COUNT(void_keys), void_keys};
 static const uses pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
 
 void form_drop_unused(schema_deck *groups)
 {
     uses_drop(groups, &body_uses);
+    uses_drop(groups, &lattice_uses);
     uses_drop(groups, &void_uses);
     uses_drop(groups, &pores_uses);
+    for (size_t i = 0; i < groups->n_instances; i++) {
+        schema_instance *group = &groups->instances[i];
+        if (strcmp(group->group->name, "body") == 0 && schema_real(group, "jitter") == 0.0) schema_drop(group, "seed");
+    }
 }
 
 static bool has_shape(const schema_instance *group, const char *name)
@@ -204,9 +214,19 @@ static void check_pores(const schema_instance *group, namelist_errors *errors)
         namelist_errors_add(errors, group->place, "'number' or 'porosity' in &pores must be given");
 }
 
+/* Keys that a shape does not use have been reported. */
+static void check_lattice(const schema_instance *body, namelist_errors *errors)
+{
+    if (strstr(OURS, schema_text(body, "shape")) == NULL) return;
+    uses_check(body, &lattice_uses, errors);
+    if (schema_given(body, "seed") && !schema_value_of(body, "jitter")->faulty && schema_real(body, "jitter") == 0.0)
+        namelist_errors_add(errors, schema_place(body, "seed"), "'seed' in &body is not used without 'jitter'");
+}
+
 static void check_body(const schema_instance *body, namelist_errors *errors)
 {
     uses_check(body, &body_uses, errors);
+    check_lattice(body, errors);
     check_ring(body, errors);
     check_spacing(body, check_polygon(body, errors), errors);
     check_file(body, errors);
@@ -363,6 +383,7 @@ static dem_status make_shape(former *f, shape *s)
 {
     dem_status status = read_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
     s->spacing = f->form.spacing = schema_real(f->body, "spacing");
+    s->squares = form_has_squares(f->body);
     if (status == DEM_OK && has_shape(f->body, "mask")) status = read_mask(f, s);
     if (s->outline.kind == OUTLINE_RECTANGLE) s->outline.centre[1] = 0.5 * s->outline.size[1];
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "void"); k++)
@@ -452,6 +473,11 @@ static dem_status mark_crack(const former *f, unsigned char *keep, const schema_
     return DEM_ERROR_MODEL;
 }
 
+bool form_has_squares(const schema_instance *body)
+{
+    return schema_is(body, "lattice", "square");
+}
+
 static bool has_cracks(const former *f)
 {
     for (size_t k = 0; k < schema_count(f->groups, "crack"); k++)
@@ -469,6 +495,7 @@ static dem_status crack(former *f)
     memset(keep, 1, (size_t)n + 1);
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "crack"); k++)
         if (own(f, "crack", k) != NULL) status = mark_crack(f, keep, own(f, "crack", k), shift);
+    if (form_has_squares(f->body)) shape_keep_cells(keep, n);
     if (status == DEM_OK) {
         status = dem_lattice_trim(&f->lattice, keep);
         if (status == DEM_ERROR_MODEL)
@@ -481,6 +508,13 @@ static dem_status crack(former *f)
 }
 
 /* ---- all of it ---- */
+
+static dem_status jitter(former *f)
+{
+    const double share = schema_real(f->body, "jitter");
+    if (share == 0.0) return DEM_OK;
+    return dem_lattice_jitter(&f->lattice, share * f->form.spacing, (uint64_t)schema_real(f->body, "seed"));
+}
 
 char *form_file(const char *folder, const schema_instance *body)
 {
@@ -506,6 +540,7 @@ dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *
         if (status == DEM_OK) status = cut_lattice(&f, &s);
     }
     if (status == DEM_OK && has_cracks(&f)) status = crack(&f);
+    if (status == DEM_OK) status = jitter(&f);
     if (status != DEM_OK) dem_lattice_free(&f.lattice);
     shape_free(&s);
     *lattice = f.lattice;

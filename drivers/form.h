@@ -27,6 +27,9 @@ void form_drop_unused(schema_deck *groups);
 dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *groups, size_t k, const char *folder,
                             namelist_errors *errors);
 
+/* Whether a body's lattice is of squares: its triangles 2 k and 2 k + 1 are then a cell. */
+bool form_has_squares(const schema_instance *body);
+
 /* Path of the file that a body is made from, malloc'ed; NULL when memory runs out. `folder` is that of the deck, with
  * its last '/', or "". */
 char *form_file(const char *folder, const schema_instance *body);

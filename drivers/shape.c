@@ -26,7 +26,8 @@ static bool fits(void *context, const double x[2], double radius)
 /* Whether its lattice is made to its size: a rectangle's is rounded to whole spacings. */
 static bool is_fitted(const shape *s)
 {
-    return !is_mask(s) && (s->outline.kind == OUTLINE_RECTANGLE || s->outline.kind == OUTLINE_DISC);
+    if (is_mask(s) || s->outline.kind == OUTLINE_RING || s->outline.kind == OUTLINE_POLYGON) return false;
+    return s->outline.kind == OUTLINE_RECTANGLE || !s->squares;
 }
 
 static int is_kept(void *context, const double x[2])
@@ -90,27 +91,67 @@ pores_status shape_add_pores(shape *s, pores *out, pores_recipe *recipe)
 
 /* ---- lattice ---- */
 
+static dem_status make_grid(dem_lattice *out, const shape *s, const double size[2], const double foot[2])
+{
+    const dem_status status = s->squares ? dem_lattice_squares(out, size[0], size[1], s->spacing)
+                                         : dem_lattice_rectangle(out, size[0], size[1], s->spacing);
+    if (status == DEM_OK) dem_lattice_move(out, 0.0, foot);
+    return status;
+}
+
 /* A grid that stands on the outline's lowest point and covers it, symmetric about the middle of its box. */
 static dem_status cover(dem_lattice *out, const shape *s)
 {
     double box[4];
     outline_box(&s->outline, box);
-    const double width = box[2] - box[0] + 2.0 * s->spacing, height = box[3] - box[1] + s->spacing;
-    const double foot[2] = {0.5 * (box[0] + box[2]), box[1]};
-    const dem_status status = dem_lattice_rectangle(out, width, height, s->spacing);
-    if (status == DEM_OK) dem_lattice_move(out, 0.0, foot);
-    return status;
+    const double size[2] = {box[2] - box[0] + 2.0 * s->spacing, box[3] - box[1] + s->spacing};
+    return make_grid(out, s, size, (double[2]){0.5 * (box[0] + box[2]), box[1]});
+}
+
+/* With a node in the centre. */
+static dem_status cover_disc(dem_lattice *out, const shape *s)
+{
+    const double reach = s->spacing * (floor(s->outline.radius / s->spacing + rounding) + 1.0);
+    if (!s->squares) return dem_lattice_disc(out, s->outline.radius, s->spacing);
+    return make_grid(out, s, (double[2]){2.0 * reach, 2.0 * reach}, (double[2]){0.0, -reach});
 }
 
 dem_status shape_mesh(dem_lattice *out, const shape *s)
 {
     const outline *o = &s->outline;
-    if (o->kind == OUTLINE_DISC || o->kind == OUTLINE_RING) return dem_lattice_disc(out, o->radius, s->spacing);
-    return is_fitted(s) ? dem_lattice_rectangle(out, o->size[0], o->size[1], s->spacing) : cover(out, s);
+    if (o->kind == OUTLINE_DISC || o->kind == OUTLINE_RING) return cover_disc(out, s);
+    return is_fitted(s) ? make_grid(out, s, o->size, (double[2]){0.0, 0.0}) : cover(out, s);
+}
+
+void shape_keep_cells(unsigned char *keep, dem_index n_triangles)
+{
+    for (dem_index t = 0; t + 1 < n_triangles; t += 2) keep[t] = keep[t + 1] = keep[t] != 0 && keep[t + 1] != 0;
+}
+
+static dem_status cut_cells(dem_lattice *lattice, const shape *s)
+{
+    const dem_index n = lattice->n_triangles;
+    unsigned char *node = malloc((size_t)lattice->n_nodes), *keep = malloc((size_t)n);
+    dem_status status = node != NULL && keep != NULL ? DEM_OK : DEM_ERROR_MEMORY;
+    shape cut = *s;
+    for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++)
+        node[i] = is_kept(&cut, lattice->x + 2 * i) != 0;
+    for (dem_index t = 0; status == DEM_OK && t < n; t++) {
+        const dem_index *corner = lattice->triangles + 3 * t;
+        keep[t] = node[corner[0]] && node[corner[1]] && node[corner[2]];
+    }
+    if (status == DEM_OK) {
+        shape_keep_cells(keep, n);
+        status = dem_lattice_trim(lattice, keep);
+    }
+    free(node);
+    free(keep);
+    return status;
 }
 
 dem_status shape_cut(dem_lattice *lattice, const shape *s)
 {
     shape cut = *s;
+    if (s->squares) return cut_cells(lattice, s);
     return is_fitted(s) && s->n_voids == 0 ? DEM_OK : dem_lattice_cut(lattice, is_kept, &cut);
 }

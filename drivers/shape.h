@@ -15,6 +15,7 @@ typedef struct shape {
     outline outline; /* owned; of a mask the rectangle of its image */
     mask mask;       /* owned; without pixels: none */
     double spacing;  /* m */
+    bool squares;    /* its lattice is of squares, each of two triangles, 2 k and 2 k + 1; else of triangles */
     size_t n_voids;
     outline *voids; /* owned */
 } shape;
@@ -36,11 +37,14 @@ bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice
 /* Adds pores as voids; the recipe's box is set here. `out` is that of pores_place(), for the caller to free. */
 pores_status shape_add_pores(shape *s, pores *out, pores_recipe *recipe);
 
+/* Of each cell of a lattice of squares keeps both triangles or none.  \param keep [n_triangles] 0 or 1 */
+void shape_keep_cells(unsigned char *keep, dem_index n_triangles);
+
 /* Triangulation that has the rectangle or disc of its outline, or covers any other one, without voids. Caller owns
  * *out. */
 dem_status shape_mesh(dem_lattice *out, const shape *s);
 
-/* Takes out what is beyond the outline or in a void: nodes on the edge of one stay.
+/* Takes out what is beyond the outline or in a void, whole cells of squares: nodes on the edge of one stay.
  * \return DEM_ERROR_MODEL if nothing is left */
 dem_status shape_cut(dem_lattice *lattice, const shape *s);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Equilateral triangulations of simple shapes, holes in them, and the springs and masses that make them a solid. */
+/* Equilateral triangulations and square cells of simple shapes, holes in them, and nodes moved at random. */
 #include <dem/dem.h>
 
 #include <math.h>
@@ -7,12 +7,14 @@
 #include <stdlib.h>
 
 #include "lattice.h"
+#include "random.h"
 #include "sides.h"
 #include "status.h"
 #include "vec2.h"
 
 static const double max_nodes = 1099511627776.0; /* 2^40: no byte count of an array overflows */
 static const double sqrt3_2 = 0.86602540378443864676;
+static const double least_area = 0.1; /* of a triangle, over what it was before its nodes were moved */
 
 /* ---- equilateral triangulations ---- */
 
@@ -69,6 +71,18 @@ static dem_index *grid_triangles(const grid *g, dem_index n)
     return triangles;
 }
 
+/* Hands a lattice over that may lack memory. */
+static dem_status finish(dem_lattice *out, dem_lattice *lattice)
+{
+    const dem_index n = lattice->n_nodes;
+    if (lattice->x == NULL || lattice->triangles == NULL) {
+        dem_lattice_free(lattice);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
+    }
+    *out = *lattice;
+    return DEM_OK;
+}
+
 static dem_status grid_lattice(dem_lattice *out, const grid *g)
 {
     const dem_index wide = g->last / 2 - g->first / 2 + 1;
@@ -78,13 +92,37 @@ static dem_status grid_lattice(dem_lattice *out, const grid *g)
     lattice.n_triangles = (g->last - g->first) * (2 * g->reach - 1);
     lattice.x = grid_nodes(g, lattice.n_nodes);
     lattice.triangles = grid_triangles(g, lattice.n_triangles);
-    if (lattice.x == NULL || lattice.triangles == NULL) {
-        dem_lattice_free(&lattice);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)lattice.n_nodes);
-    }
-    *out = lattice;
-    return DEM_OK;
+    return finish(out, &lattice);
 }
+
+/* ---- square cells ---- */
+
+static double *square_nodes(dem_index columns, dem_index rows, double spacing)
+{
+    double *x = lattice_zeros((columns + 1) * (rows + 1), 2 * sizeof *x), *next = x;
+    for (dem_index r = 0; x != NULL && r <= rows; r++)
+        for (dem_index c = 0; c <= columns; c++) {
+            *next++ = (double)(2 * c - columns) * (0.5 * spacing);
+            *next++ = (double)r * spacing;
+        }
+    return x;
+}
+
+/* The triangles of a cell meet along one diagonal or the other, like the fields of a chessboard. */
+static dem_index *square_triangles(dem_index columns, dem_index rows)
+{
+    dem_index *triangles = lattice_zeros(2 * columns * rows, 3 * sizeof *triangles), *next = triangles;
+    for (dem_index r = 0; triangles != NULL && r < rows; r++)
+        for (dem_index c = 0; c < columns; c++) {
+            const dem_index a = r * (columns + 1) + c, b = a + 1, d = a + columns + 1;
+            const bool rising = (r + c) % 2 == 0;
+            next = put_triangle(next, a, b, rising ? d + 1 : d);
+            next = put_triangle(next, rising ? a : b, d + 1, d);
+        }
+    return triangles;
+}
+
+/* ---- equilateral triangles: shapes ---- */
 
 static int is_in_disc(void *context, const double x[2])
 {
@@ -92,191 +130,93 @@ static int is_in_disc(void *context, const double x[2])
     return vec2_norm(vec2_at(x, 0)) <= *radius;
 }
 
-/* ---- springs and masses of a triangulation ---- */
-
-static double area_of(const dem_lattice *lattice, dem_index t)
-{
-    const dem_index *corner = lattice->triangles + 3 * t;
-    const vec2 a = vec2_at(lattice->x, corner[0]), b = vec2_at(lattice->x, corner[1]),
-               c = vec2_at(lattice->x, corner[2]);
-    return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
-}
-
 static bool is_positive(double value)
 {
     return isfinite(value) && value > 0.0;
 }
 
-static dem_status check_ratio(const dem_material *material)
-{
-    const double nu = material->poissons_ratio, highest = material->plane == DEM_PLANE_STRAIN ? 0.5 : 1.0;
-    CHECK(material->plane == DEM_PLANE_STRESS || material->plane == DEM_PLANE_STRAIN, DEM_ERROR_ARGUMENT,
-          "plane is %d, which is neither stress nor strain", (int)material->plane);
-    CHECK(nu > -1.0 && nu < highest, DEM_ERROR_ARGUMENT, "Poisson's ratio must be in (-1, %g) in plane %s: %g", highest,
-          material->plane == DEM_PLANE_STRAIN ? "strain" : "stress", nu);
-    return DEM_OK;
-}
-
-static dem_status check_material(const dem_material *material)
-{
-    CHECK(material != NULL, DEM_ERROR_ARGUMENT, "material is NULL");
-    CHECK(is_positive(material->youngs_modulus), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: %g Pa",
-          material->youngs_modulus);
-    TRY(check_ratio(material));
-    CHECK(is_positive(material->density), DEM_ERROR_ARGUMENT, "density must be > 0: %g kg/m^3", material->density);
-    CHECK(is_positive(material->thickness), DEM_ERROR_ARGUMENT, "thickness must be > 0: %g m", material->thickness);
-    CHECK(isfinite(material->guard) && material->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g",
-          material->guard);
-    CHECK(isfinite(material->damping_time) && material->damping_time >= 0.0, DEM_ERROR_ARGUMENT,
-          "damping_time must be >= 0: %g s", material->damping_time);
-    return DEM_OK;
-}
-
-/* The plate in plane stress that moves like the solid. */
-typedef struct plate {
-    double modulus, ratio; /* E h, N/m; nu */
-} plate;
-
-static plate plate_of(const dem_material *m)
-{
-    const double nu = m->poissons_ratio, modulus = m->youngs_modulus * m->thickness;
-    if (m->plane == DEM_PLANE_STRESS) return (plate){modulus, nu};
-    return (plate){modulus / (1.0 - nu * nu), nu / (1.0 - nu)};
-}
-
-/* 8/3 G h, which is E h at nu = 1/3, to the bit. */
-static double spring_modulus(plate p)
-{
-    return p.modulus * ((4.0 / 3.0) / (1.0 + p.ratio));
-}
-
-/* kappa = (lambda - G) h, which is 0 at nu = 1/3, to the bit. */
-static double area_modulus(plate p)
-{
-    return p.modulus * (3.0 * p.ratio - 1.0) / (2.0 * (1.0 - p.ratio * p.ratio));
-}
-
-static dem_status fill_masses(double *mass, const dem_lattice *lattice, const dem_material *material)
-{
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
-        const dem_index *corner = lattice->triangles + 3 * t;
-        const double area = area_of(lattice, t);
-        CHECK(is_positive(area), DEM_ERROR_MODEL,
-              "triangle %lld (nodes %lld, %lld, %lld) has the area %g m^2; it must be > 0", (long long)t,
-              (long long)corner[0], (long long)corner[1], (long long)corner[2], area);
-        for (int c = 0; c < 3; c++) mass[corner[c]] += material->density * material->thickness * area / 3.0;
-    }
-    for (dem_index i = 0; i < lattice->n_nodes; i++)
-        CHECK(mass[i] > 0.0, DEM_ERROR_MODEL, "node %lld belongs to no triangle", (long long)i);
-    return DEM_OK;
-}
-
-static dem_index count_edges(const sides *edges, dem_index n_nodes)
-{
-    dem_index n = 0;
-    for (dem_index i = 0; i < n_nodes; i++)
-        for (dem_index p = edges->row[i]; p < edges->row[i + 1]; p++) n += sides_edge_begins(edges, i, p);
-    return n;
-}
-
-static void fill_springs(dem_lattice *solid, const sides *edges, const dem_lattice *lattice, double modulus)
-{
-    dem_index k = -1;
-    double length = 0.0;
-    for (dem_index i = 0; i < lattice->n_nodes; i++)
-        for (dem_index p = edges->row[i]; p < edges->row[i + 1]; p++) {
-            const dem_index j = edges->list[p].upper;
-            if (sides_edge_begins(edges, i, p)) {
-                length = vec2_norm(vec2_sub(vec2_at(lattice->x, j), vec2_at(lattice->x, i)));
-                solid->ends[2 * ++k] = i;
-                solid->ends[2 * k + 1] = j;
-                solid->rest_length[k] = length;
-            }
-            solid->stiffness[k] += modulus * area_of(lattice, edges->list[p].triangle) / length; /* 8/3 G h A/|e| */
-        }
-}
-
-/* Kelvin-Voigt: a strain rate e' acts like the strain damping_time e'. */
-static dem_status fill_viscosity(dem_lattice *solid, double damping_time)
-{
-    if (damping_time == 0.0) return DEM_OK;
-    solid->viscosity = lattice_zeros(solid->n_springs, sizeof *solid->viscosity);
-    CHECK_MEMORY(solid->viscosity);
-    for (dem_index k = 0; k < solid->n_springs; k++) solid->viscosity[k] = damping_time * solid->stiffness[k];
-    return DEM_OK;
-}
-
-/* An array of one strength for all triangles; none where that is 0. */
-static dem_status fill_triangles(double **array, dem_index n_triangles, double strength)
-{
-    if (strength == 0.0) return DEM_OK;
-    *array = lattice_zeros(n_triangles, sizeof **array);
-    CHECK_MEMORY(*array);
-    for (dem_index t = 0; t < n_triangles; t++) (*array)[t] = strength;
-    return DEM_OK;
-}
-
-static void swap(double **a, double **b)
-{
-    double *const old = *a;
-    *a = *b;
-    *b = old;
-}
-
-/* Hands the arrays of a solid over; `solid` gets the old ones. */
-static void give(dem_lattice *lattice, dem_lattice *solid)
-{
-    dem_index *const old = lattice->ends;
-    lattice->n_springs = solid->n_springs;
-    lattice->ends = solid->ends;
-    solid->ends = old;
-    swap(&lattice->mass, &solid->mass);
-    swap(&lattice->rest_length, &solid->rest_length);
-    swap(&lattice->stiffness, &solid->stiffness);
-    swap(&lattice->viscosity, &solid->viscosity);
-    swap(&lattice->guard, &solid->guard);
-    swap(&lattice->area_stiffness, &solid->area_stiffness);
-    swap(&lattice->thickness, &solid->thickness);
-    swap(&lattice->modulus, &solid->modulus);
-}
-
-/* Into `solid`, which the caller frees after a failure: masses, springs, their damping, what triangles have. */
-static dem_status assemble(dem_lattice *solid, const dem_lattice *lattice, const dem_material *material)
-{
-    const plate p = plate_of(material);
-    sides edges;
-    solid->mass = lattice_zeros(lattice->n_nodes, sizeof *solid->mass);
-    CHECK_MEMORY(solid->mass);
-    TRY(fill_masses(solid->mass, lattice, material));
-    TRY(fill_triangles(&solid->guard, lattice->n_triangles,
-                       material->guard * material->youngs_modulus * material->thickness));
-    TRY(fill_triangles(&solid->area_stiffness, lattice->n_triangles, area_modulus(p)));
-    TRY(fill_triangles(&solid->thickness, lattice->n_triangles, material->thickness));
-    TRY(fill_triangles(&solid->modulus, lattice->n_triangles, spring_modulus(p) / material->thickness));
-    TRY(sides_create(&edges, lattice));
-    solid->n_springs = count_edges(&edges, lattice->n_nodes);
-    solid->ends = lattice_zeros(solid->n_springs, 2 * sizeof *solid->ends);
-    solid->rest_length = lattice_zeros(solid->n_springs, sizeof *solid->rest_length);
-    solid->stiffness = lattice_zeros(solid->n_springs, sizeof *solid->stiffness);
-    const bool complete = solid->ends != NULL && solid->rest_length != NULL && solid->stiffness != NULL;
-    if (complete) fill_springs(solid, &edges, lattice, spring_modulus(p));
-    sides_free(&edges);
-    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)solid->n_springs);
-    return fill_viscosity(solid, material->damping_time);
-}
-
-dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing)
+static dem_status check_rectangle(const dem_lattice *out, double width, double height, double spacing)
 {
     CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
     CHECK(is_positive(spacing) && spacing <= width && spacing <= height && isfinite(width) && isfinite(height),
           DEM_ERROR_ARGUMENT, "a rectangle of %g m x %g m cannot have the spacing %g m", width, height, spacing);
-    const double columns = round(width / spacing), strips = round(height / (sqrt3_2 * spacing));
-    const double nodes = (strips + 1.0) * (columns + 1.0);
+    return DEM_OK;
+}
+
+static dem_status check_size(double width, double height, double spacing, double nodes)
+{
     CHECK(nodes <= max_nodes, DEM_ERROR_MODEL,
           "a rectangle of %g m x %g m with the spacing %g m would have %.3g nodes; the limit is %.3g", width, height,
           spacing, nodes, max_nodes);
+    return DEM_OK;
+}
+
+/* ---- nodes moved at random ---- */
+
+/* Uniform in a disc. */
+static vec2 random_shift(uint64_t *state, double radius)
+{
+    vec2 place;
+    do place = (vec2){random_next(state), random_next(state)};
+    while (vec2_dot(place, place) > 1.0);
+    return vec2_scale(radius, place);
+}
+
+static double area_of(const double *x, const dem_index *corner)
+{
+    const vec2 a = vec2_at(x, corner[0]);
+    return 0.5 * vec2_cross(vec2_sub(vec2_at(x, corner[1]), a), vec2_sub(vec2_at(x, corner[2]), a));
+}
+
+static dem_status check_areas(const dem_lattice *l)
+{
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        CHECK(is_positive(area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
+              "triangle %lld has the area %g m^2; it must be > 0 to be jittered", (long long)t,
+              area_of(l->x, l->triangles + 3 * t));
+    return DEM_OK;
+}
+
+/* Brings the corners of triangles that lost most of their area half way back, until there are none. */
+static void relent(const dem_lattice *l, double *x)
+{
+    for (bool again = true; again;) {
+        again = false;
+        for (dem_index t = 0; t < l->n_triangles; t++) {
+            const dem_index *corner = l->triangles + 3 * t;
+            if (area_of(x, corner) >= least_area * area_of(l->x, corner)) continue;
+            again = true;
+            for (int c = 0; c < 3; c++) {
+                const vec2 before = vec2_at(l->x, corner[c]), shift = vec2_sub(vec2_at(x, corner[c]), before);
+                vec2_put(x, corner[c], vec2_along(before, 0.5, shift));
+            }
+        }
+    }
+}
+
+/* ---- public ---- */
+
+dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing)
+{
+    TRY(check_rectangle(out, width, height, spacing));
+    const double columns = round(width / spacing), strips = round(height / (sqrt3_2 * spacing));
+    TRY(check_size(width, height, spacing, (strips + 1.0) * (columns + 1.0)));
     const grid g = {.reach = (dem_index)columns, .first = 0, .last = (dem_index)strips, .spacing = spacing};
     return grid_lattice(out, &g);
+}
+
+dem_status dem_lattice_squares(dem_lattice *out, double width, double height, double spacing)
+{
+    TRY(check_rectangle(out, width, height, spacing));
+    const double columns = round(width / spacing), rows = round(height / spacing);
+    TRY(check_size(width, height, spacing, (columns + 1.0) * (rows + 1.0)));
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = ((dem_index)columns + 1) * ((dem_index)rows + 1);
+    lattice.n_triangles = 2 * (dem_index)columns * (dem_index)rows;
+    lattice.x = square_nodes((dem_index)columns, (dem_index)rows, spacing);
+    lattice.triangles = square_triangles((dem_index)columns, (dem_index)rows);
+    return finish(out, &lattice);
 }
 
 dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
@@ -323,17 +263,29 @@ dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, cons
     return status;
 }
 
-dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material)
+dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed)
 {
-    dem_lattice solid;
     TRY(lattice_check(lattice));
-    TRY(check_material(material));
-    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "the lattice already has %lld springs",
+    CHECK(isfinite(radius) && radius >= 0.0, DEM_ERROR_ARGUMENT, "the radius of the jitter must be >= 0: %g m", radius);
+    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be jittered: %lld springs",
           (long long)lattice->n_springs);
-    CHECK(lattice->n_triangles > 0, DEM_ERROR_MODEL, "a lattice without triangles cannot be assembled");
-    dem_lattice_init(&solid);
-    const dem_status status = assemble(&solid, lattice, material);
-    if (status == DEM_OK) give(lattice, &solid);
-    dem_lattice_free(&solid);
+    CHECK(lattice->n_triangles > 0, DEM_ERROR_MODEL, "a lattice without triangles cannot be jittered");
+    TRY(check_areas(lattice));
+    unsigned char *rim = lattice_zeros(lattice->n_nodes, sizeof *rim);
+    double *x = lattice_zeros(lattice->n_nodes, 2 * sizeof *x);
+    dem_status status =
+        rim != NULL && x != NULL ? sides_contact_flags(rim, lattice) : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) {
+        const vec2 shift = random_shift(&seed, radius), none = {0.0, 0.0};
+        vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), rim[i] != 0 ? none : shift));
+    }
+    if (status == DEM_OK) {
+        relent(lattice, x);
+        double *const old = lattice->x;
+        lattice->x = x;
+        x = old;
+    }
+    free(rim);
+    free(x);
     return status;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "lattice.h"
+#include "random.h"
 #include "status.h"
 #include "tangent.h"
 
@@ -72,13 +73,13 @@ static double product(const lanczos *l, const double *a, const double *b)
     return sum;
 }
 
-/* Every mode is in it: numbers of a linear congruential generator, between -1 and 1; 0 where a node is fixed. */
+/* Every mode is in it: random numbers; 0 where a node is fixed. */
 static void start(lanczos *l)
 {
     uint64_t state = 1;
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) {
-        state = state * 6364136223846793005u + 1442695040888963407u;
-        l->vector[k] = l->model->inverse_mass[k / 2] > 0.0 ? (double)(state >> 33) / 1073741824.0 - 1.0 : 0.0;
+        const double value = random_next(&state);
+        l->vector[k] = l->model->inverse_mass[k / 2] > 0.0 ? value : 0.0;
     }
     const double size = sqrt(product(l, l->vector, l->vector));
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes && size > 0.0; k++) l->vector[k] /= size;

@@ -21,7 +21,9 @@ typedef enum dem_plane {
 
 /** An isotropic solid; `plane` says how it is a body in the plane. */
 typedef struct dem_material {
-    double youngs_modulus; /**< E, Pa, > 0 */
+    double youngs_modulus; /**< E, Pa, > 0; 0 where the springs are given by bond_stiffness */
+    double bond_stiffness; /**< 0, or E_ij, N, > 0: every spring has this, as the paper draws them, whatever its length;
+                                nothing else is known then, neither E nor nu                                    (1) */
     double poissons_ratio; /**< nu, in (-1, 1) in plane stress, in (-1, 0.5) in plane strain. Springs alone have 1/3 in
                                 plane stress, 1/4 in plane strain; any other needs the area term */
     dem_plane plane;
@@ -78,6 +80,11 @@ DEM_API void dem_lattice_free(dem_lattice *lattice);
  *  \return DEM_ERROR_ARGUMENT unless 0 < spacing <= width, height; DEM_ERROR_MEMORY */
 DEM_API dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing);
 
+/** The same of square cells: round(width/spacing) x round(height/spacing) of them, each of two triangles, 2 k and
+ *  2 k + 1, whose common sides turn from cell to cell. dem_lattice_assemble_squares() makes it a solid. What cuts it
+ *  should take both triangles of a cell or none. Otherwise as dem_lattice_rectangle(). */
+DEM_API dem_status dem_lattice_squares(dem_lattice *out, double width, double height, double spacing);
+
 /** Equilateral triangulation of a disc about the origin, with a node at its centre. Otherwise as
  *  dem_lattice_rectangle(), with 0 < spacing <= radius. */
 DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing);
@@ -108,6 +115,19 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
+
+/** The same for cells of two triangles each, 2 k and 2 k + 1, that make a convex quadrilateral; both its diagonals are
+ *  springs. A cell gives half of E h/(1 + nu) to each side, `diagonal` times E h/(1 + nu) to both diagonals, and each
+ *  corner of a square a quarter of its mass. A block of squares then has exactly E and nu along its sides, and the
+ *  shear stiffness diagonal E/(1 + nu): 0.5 is isotropic, and nu = diagonal/(1 + diagonal) needs no area term.
+ *  \param diagonal  stiffness of a diagonal over that of a side, both in N/m, > 0 and less than (1 + nu)/(2 (1 - nu)),
+ *                   or cells warp; usual: 0.5, for nu > 0. Not used with a bond stiffness */
+DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal);
+
+/** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
+ *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For
+ *  triangulations not yet assembled; a lattice that has springs is refused. */
+DEM_API dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed);
 
 /** Number of parts that springs do not connect.
  *  \param[out] part  [n_nodes] the part of each node, numbered by their lowest nodes; may be NULL */

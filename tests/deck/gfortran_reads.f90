@@ -22,8 +22,9 @@ contains
 
   subroutine read_material()
     character(4096) :: name, plane
-    real(dp) :: youngs_modulus, poissons_ratio, density, thickness, guard, damping_time
-    namelist /material/ name, youngs_modulus, poissons_ratio, plane, density, thickness, guard, damping_time
+    real(dp) :: youngs_modulus, bond_stiffness, poissons_ratio, density, thickness, guard, damping_time
+    namelist /material/ name, youngs_modulus, bond_stiffness, poissons_ratio, plane, density, thickness, guard, &
+      damping_time
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 
@@ -31,8 +32,10 @@ contains
     character(4096) :: shape, lattice, material, disconnected, file
     real(dp), save :: points(20000)
     real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), spin, scale, threshold
-    namelist /body/ shape, size, radius, inner_radius, points, lattice, spacing, material, position, angle, clearance, &
-      velocity, spin, disconnected, file, scale, threshold
+    real(dp) :: diagonal, jitter
+    integer(selected_int_kind(18)) :: seed
+    namelist /body/ shape, size, radius, inner_radius, points, lattice, diagonal, spacing, jitter, seed, material, &
+      position, angle, clearance, velocity, spin, disconnected, file, scale, threshold
     read (unit, nml=body, iostat=status, iomsg=message)
   end subroutine
 

@@ -76,6 +76,18 @@ static dem_status build(dem_lattice *lattice)
     return status;
 }
 
+static dem_status build_squares(void)
+{
+    const dem_material raw = {.bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6};
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    dem_status status = dem_lattice_squares(&lattice, 0.02, 0.02, 0.01);
+    if (status == DEM_OK) status = dem_lattice_jitter(&lattice, 1e-3, 1);
+    if (status == DEM_OK) status = dem_lattice_assemble_squares(&lattice, &raw, 0.5);
+    dem_lattice_free(&lattice);
+    return status;
+}
+
 static dem_status measure(const dem_model *model)
 {
     dem_constants constants;
@@ -128,7 +140,8 @@ static dem_status run(void)
     dem_model *model = NULL;
     dem_simulation *simulation = NULL;
     dem_lattice_init(&lattice);
-    dem_status status = build(&lattice);
+    dem_status status = build_squares();
+    if (status == DEM_OK) status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(&model, &lattice, &obstacle, 1);
     if (status == DEM_OK) status = measure(model);
     if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);

@@ -10,11 +10,11 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "commit"},
+    {"vec2", "status", "random", "commit"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file",
      "scan", "namelist", "placement", "pace", "pores", "profile", "file", "words", "image", "outline"},
-    {"motion", "lattice_mesh", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts", "clearance",
-     "grid", "table", "pgm", "png", "msh", "crack"},
+    {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts",
+     "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
     {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table",
      "schema_print", "uses", "mask"},
     {"touch", "diagnostics", "integrator", "verlet", "tangent", "peaks_file", "shape", "loading", "probes"},
@@ -114,8 +114,9 @@ for source in sources:
         if len(row) > MAX_LINE:
             complain(source, number, f"line of {len(row)} characters")
     rows = without_comments(text).splitlines()
-    if len(rows) > MAX_FILE and source.relative_to(ROOT).parts[0] != "tests":
-        complain(source, MAX_FILE, f"{len(rows)} lines")
+    length = sum(1 for row in rows if row.strip())
+    if length > MAX_FILE and source.relative_to(ROOT).parts[0] != "tests":
+        complain(source, 1, f"{length} lines of code")
     check_functions(source, rows)
     if source.relative_to(ROOT).parts[0] in ("src", "drivers"):
         check_includes(source, rows)

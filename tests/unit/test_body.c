@@ -139,6 +139,33 @@ static void the_material_is_found_by_its_name(void **state)
     drop_built(&c);
 }
 
+/* k = E h/(1 + nu) of a side between two cells, times its length; r k, times its length, of a diagonal. */
+static void squares_have_the_springs_of_their_diagonal(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", lattice = 'square', diagonal = 0.25 /", NULL, 0);
+    const double k = 1e7 * 0.5 / (4.0 / 3.0);
+    assert_int_equal(b.lattice.n_nodes, 9 * 5);
+    assert_int_equal(b.lattice.n_springs, 8 * 5 + 9 * 4 + 2 * 8 * 4);
+    for (dem_index s = 0; s < b.lattice.n_springs; s++) {
+        const double length = b.lattice.rest_length[s], share = b.lattice.stiffness[s] / (k * length);
+        assert_true(length > 0.6 ? fabs(share - 0.25) < tiny : fabs(share - 1.0) < tiny || fabs(share - 0.5) < tiny);
+    }
+    assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 8.0, 1e-9);
+    drop_built(&b);
+}
+
+static void a_bond_stiffness_is_that_of_every_spring(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN "&material name = 'rubber', bond_stiffness = 700, density = 1000 /\n" BLOCK " /", NULL, 0);
+    for (dem_index s = 0; s < b.lattice.n_springs; s++) assert_close(b.lattice.stiffness[s], 700.0, 0.0);
+    assert_null(b.lattice.area_stiffness);
+    drop_built(&b);
+}
+
 static void all_nodes_have_the_velocity(void **state)
 {
     (void)state;
@@ -337,6 +364,8 @@ int main(void)
         cmocka_unit_test(a_disc_is_placed_by_its_centre),
         cmocka_unit_test(mass_is_density_times_thickness_times_area),
         cmocka_unit_test(the_material_is_found_by_its_name),
+        cmocka_unit_test(squares_have_the_springs_of_their_diagonal),
+        cmocka_unit_test(a_bond_stiffness_is_that_of_every_spring),
         cmocka_unit_test(all_nodes_have_the_velocity),
         cmocka_unit_test(a_void_turns_with_its_body),
         cmocka_unit_test(voids_and_pores_of_other_bodies_do_nothing),

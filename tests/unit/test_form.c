@@ -219,6 +219,49 @@ static void cracks_are_for_their_body_and_must_meet_it(void **state)
     expect_fault(BLOCK DISC "&crack body = 2, points = 3,1, 4,1 /", 1, 3, "crosses no triangle of body 2");
 }
 
+/* ---- squares, jitter ---- */
+
+#define SQUARES BODY "'rectangle', size = 4, 2, lattice = 'square'"
+
+static void every_shape_may_be_of_squares(void **state)
+{
+    (void)state;
+    expect_area(SQUARES " /", 8.0, 1e-12);
+    expect_area(BODY "'disc', radius = 1, lattice = 'square' /", pi, 0.13);
+    expect_area(BODY "'ring', radius = 2, inner_radius = 1, lattice = 'square' /", 3.0 * pi, 0.15);
+    expect_area(SQUARES " /\n&void centre = 0, 1, radius = 0.5 /", 8.0 - 0.25 * pi, 0.05);
+}
+
+static void cracks_take_whole_cells(void **state)
+{
+    (void)state;
+    formed f = build_good(SQUARES " /\n&crack points = -0.27,1.02, -0.23,1.04 /"); /* a corner of one triangle */
+    assert_int_equal(f.form.n_cracked, 2);
+    dem_lattice_free(&f.lattice);
+}
+
+/* By at most the share of the spacing, the same for the same seed. */
+static void jitter_moves_nodes_that_are_not_on_the_boundary(void **state)
+{
+    (void)state;
+    formed f = build_good(BLOCK), g = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2 /"),
+           h = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 1 /"),
+           other = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 2 /");
+    const dem_index n = f.lattice.n_nodes;
+    double most = 0.0;
+    for (dem_index i = 0; i < n; i++)
+        most =
+            fmax(most, hypot(g.lattice.x[2 * i] - f.lattice.x[2 * i], g.lattice.x[2 * i + 1] - f.lattice.x[2 * i + 1]));
+    assert_true(most > 0.018 && most <= 0.02);
+    assert_memory_equal(g.lattice.x, h.lattice.x, 2 * (size_t)n * sizeof(double));
+    assert_memory_not_equal(g.lattice.x, other.lattice.x, 2 * (size_t)n * sizeof(double));
+    assert_memory_equal(g.lattice.x, f.lattice.x, 2 * 41 * sizeof(double)); /* the lowest row */
+    dem_lattice_free(&f.lattice);
+    dem_lattice_free(&g.lattice);
+    dem_lattice_free(&h.lattice);
+    dem_lattice_free(&other.lattice);
+}
+
 /* ---- checks ---- */
 
 static void assert_checked(const char *text, int line, const char *word)
@@ -328,6 +371,9 @@ int main(void)
         cmocka_unit_test(a_mask_stands_on_its_lower_edge),
         cmocka_unit_test(a_mesh_is_scaled_and_may_have_cracks),
         cmocka_unit_test(cracks_are_for_their_body_and_must_meet_it),
+        cmocka_unit_test(every_shape_may_be_of_squares),
+        cmocka_unit_test(cracks_take_whole_cells),
+        cmocka_unit_test(jitter_moves_nodes_that_are_not_on_the_boundary),
         cmocka_unit_test(sizes_at_the_limit_pass),
         cmocka_unit_test(groups_name_a_body_that_can_have_them),
         cmocka_unit_test(pores_have_a_number_or_a_porosity),

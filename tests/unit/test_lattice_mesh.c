@@ -1,20 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* lattice_mesh.c and sides.c: shapes, holes in them, springs and masses by the finite-element rule. */
+/* lattice_mesh.c and sides.c: shapes, holes in them, nodes moved at random. */
 #include "solids.h"
 
+#include <stdbool.h>
+
 static const double spacing = 2.5e-3; /* m */
-/* Triangles with both ends of a spring among their corners. */
-static int triangles_at(const dem_lattice *lattice, dem_index spring)
-{
-    int n = 0;
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
-        int shared = 0;
-        for (int c = 0; c < 3; c++)
-            for (int e = 0; e < 2; e++) shared += lattice->triangles[3 * t + c] == lattice->ends[2 * spring + e];
-        n += shared == 2;
-    }
-    return n;
-}
 
 #define assert_refused(call, status, message)                                                                          \
     do {                                                                                                               \
@@ -233,205 +223,124 @@ static void a_cut_refuses_to_leave_nothing_and_to_cut_springs(void **state)
     dem_lattice_free(&lattice);
 }
 
-/* ---- assemble ---- */
+/* ---- squares ---- */
 
-static void springs_come_by_lower_then_upper_node_without_duplicates(void **state)
+static void squares_are_two_triangles_each_that_meet_along_turning_diagonals(void **state)
 {
     (void)state;
-    dem_lattice lattice = make_solid(0.03, 0.03, spacing);
-    assert_int_equal(lattice.n_nodes - lattice.n_springs + lattice.n_triangles, 1); /* Euler */
-    for (dem_index k = 0; k < lattice.n_springs; k++) {
-        const dem_index *end = lattice.ends + 2 * k;
-        assert_true(end[0] < end[1]);
-        if (k > 0) assert_true(end[-2] < end[0] || (end[-2] == end[0] && end[-1] < end[1]));
-        assert_close(lattice.rest_length[k], spacing, 1e-13 * spacing);
+    dem_lattice lattice;
+    assert_int_equal(dem_lattice_squares(&lattice, 0.031, 0.024, 0.01), DEM_OK); /* 3 x 2 cells */
+    assert_int_equal(lattice.n_nodes, 12);
+    assert_int_equal(lattice.n_triangles, 12);
+    assert_int_equal(lattice.n_springs, 0);
+    for (dem_index i = 0; i < 12; i++) {
+        assert_close(lattice.x[2 * i], 0.01 * (double)(i % 4) - 0.015, 1e-18);
+        assert_close(lattice.x[2 * i], -lattice.x[2 * (4 * (i / 4) + 3 - i % 4)], 0.0);
+        assert_close(lattice.x[2 * i + 1], 0.01 * (double)(i / 4), 1e-18);
+    }
+    for (dem_index k = 0; k < 6; k++) {
+        const dem_index *t = lattice.triangles + 6 * k, corner = k / 3 * 4 + k % 3;
+        const bool rising = (k / 3 + k % 3) % 2 == 0;
+        assert_close(area_of(&lattice, 2 * k), 5e-5, 1e-18);
+        assert_close(area_of(&lattice, 2 * k + 1), 5e-5, 1e-18);
+        assert_int_equal(t[0], corner); /* lower left */
+        assert_int_equal(t[2], rising ? corner + 5 : corner + 4);
+        assert_int_equal(t[3], rising ? corner : corner + 1);
     }
     dem_lattice_free(&lattice);
 }
 
-static void stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary(void **state)
+static void squares_refuse_impossible_sizes(void **state)
 {
     (void)state;
-    const double inside = sqrt(3.0) / 2.0 * rubber.youngs_modulus * rubber.thickness * spacing;
-    dem_lattice lattice = make_solid(0.03, 0.03, spacing);
-    dem_index n_boundary = 0;
-    for (dem_index k = 0; k < lattice.n_springs; k++) {
-        const int n = triangles_at(&lattice, k);
-        assert_true(n == 1 || n == 2);
-        assert_close(lattice.stiffness[k], 0.5 * n * inside, 1e-12 * inside);
-        n_boundary += n == 1;
+    dem_lattice lattice;
+    assert_refused(dem_lattice_squares(&lattice, 1.0, 1.0, 1.5), DEM_ERROR_ARGUMENT,
+                   "a rectangle of 1 m x 1 m cannot have the spacing 1.5 m");
+    assert_refused(dem_lattice_squares(NULL, 1.0, 1.0, 1.0), DEM_ERROR_ARGUMENT, "out is NULL");
+    assert_refused(dem_lattice_squares(&lattice, 1.0, 1.0, 1e-9), DEM_ERROR_MODEL,
+                   "a rectangle of 1 m x 1 m with the spacing 1e-09 m would have 1e+18 nodes; the limit is 1.1e+12");
+}
+
+/* ---- jitter ---- */
+
+static bool is_inside(const dem_lattice *lattice, dem_index i)
+{
+    const double *x = lattice->x + 2 * i;
+    return fabs(x[0]) < 0.02 - 0.9 * spacing && x[1] > 0.5 * spacing && x[1] < 0.03 - 0.5 * spacing;
+}
+
+static void jitter_moves_the_nodes_inside_within_its_radius_and_no_other(void **state)
+{
+    (void)state;
+    const double radius = 0.2 * spacing;
+    dem_lattice lattice = make_rectangle(0.04, 0.03, spacing), before = make_rectangle(0.04, 0.03, spacing);
+    double mean[2] = {0.0, 0.0}, squares = 0.0;
+    dem_index n_inside = 0;
+    assert_int_equal(dem_lattice_jitter(&lattice, radius, 1), DEM_OK);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) {
+        const double dx = lattice.x[2 * i] - before.x[2 * i], dy = lattice.x[2 * i + 1] - before.x[2 * i + 1];
+        assert_true(hypot(dx, dy) <= radius * (1.0 + 1e-9));
+        if (!is_inside(&before, i)) {
+            assert_true(dx == 0.0 && dy == 0.0);
+            continue;
+        }
+        n_inside++;
+        mean[0] += dx, mean[1] += dy, squares += dx * dx + dy * dy;
     }
-    assert_int_equal(n_boundary, 3 * lattice.n_triangles - 2 * (lattice.n_springs - n_boundary));
+    const double n = (double)n_inside; /* uniform in a disc: mean square radius^2/2, means within 4 deviations */
+    assert_true(n > 100.0);
+    assert_close(squares / n, 0.5 * radius * radius, 4.0 * radius * radius / sqrt(12.0 * n));
+    for (int c = 0; c < 2; c++) assert_close(mean[c] / n, 0.0, 4.0 * 0.5 * radius / sqrt(n));
+    dem_lattice_free(&lattice);
+    dem_lattice_free(&before);
+}
+
+static void jitter_depends_on_its_seed_alone(void **state)
+{
+    (void)state;
+    dem_lattice one = make_rectangle(0.04, 0.03, spacing), same = make_rectangle(0.04, 0.03, spacing),
+                other = make_rectangle(0.04, 0.03, spacing);
+    const size_t size = 2 * (size_t)one.n_nodes * sizeof *one.x;
+    assert_int_equal(dem_lattice_jitter(&one, 1e-4, 7), DEM_OK);
+    assert_int_equal(dem_lattice_jitter(&same, 1e-4, 7), DEM_OK);
+    assert_int_equal(dem_lattice_jitter(&other, 1e-4, 8), DEM_OK);
+    assert_memory_equal(one.x, same.x, size);
+    assert_memory_not_equal(one.x, other.x, size);
+    dem_lattice_free(&one);
+    dem_lattice_free(&same);
+    dem_lattice_free(&other);
+}
+
+/* Two spacings would fold nearly all of them. */
+static void no_triangle_keeps_less_than_a_tenth_of_its_area(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_rectangle(0.04, 0.03, spacing);
+    const double before = area_of(&lattice, 0);
+    double least = 1.0;
+    assert_int_equal(dem_lattice_jitter(&lattice, 2.0 * spacing, 3), DEM_OK);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) least = fmin(least, area_of(&lattice, t) / before);
+    assert_true(least >= 0.1 && least < 0.5);
     dem_lattice_free(&lattice);
 }
 
-static void masses_guard_thickness_and_modulus_are_those_of_the_triangles(void **state)
-{
-    (void)state;
-    dem_lattice lattice = make_solid(0.08, 0.13, spacing);
-    const double share = rubber.density * rubber.thickness * sqrt(3.0) / 12.0 * spacing * spacing;
-    double mass = 0.0;
-    for (dem_index i = 0; i < lattice.n_nodes; i++) mass += lattice.mass[i];
-    assert_close(mass, 3.0 * share * (double)lattice.n_triangles, 1e-12 * mass);
-    assert_close(lattice.mass[0], share, 1e-12 * share); /* the corner belongs to one triangle */
-    assert_close(lattice.mass[33 + 1], 6.0 * share, 1e-11 * share);
-    for (dem_index t = 0; t < lattice.n_triangles; t++) {
-        assert_close(lattice.guard[t], 0.02 * 1e7 * 0.5, 1e-9);
-        assert_close(lattice.thickness[t], 0.5, 0.0);
-        assert_close(lattice.modulus[t], 1e7, 0.0);
-    }
-    dem_lattice_free(&lattice);
-}
-
-static void a_material_without_guard_leaves_guard_NULL(void **state)
-{
-    (void)state;
-    dem_material plain = rubber;
-    plain.guard = 0.0;
-    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
-    assert_int_equal(dem_lattice_assemble(&lattice, &plain), DEM_OK);
-    assert_null(lattice.guard);
-    assert_non_null(lattice.mass);
-    dem_lattice_free(&lattice);
-}
-
-static void viscosity_is_damping_time_times_stiffness(void **state)
-{
-    (void)state;
-    dem_material damped = rubber;
-    damped.damping_time = 3e-5;
-    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
-    assert_null(plain.viscosity);
-    assert_int_equal(dem_lattice_assemble(&lattice, &damped), DEM_OK);
-    assert_memory_equal(lattice.stiffness, plain.stiffness, (size_t)plain.n_springs * sizeof(double));
-    for (dem_index k = 0; k < lattice.n_springs; k++)
-        assert_close(lattice.viscosity[k], 3e-5 * plain.stiffness[k], 0.0);
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&plain);
-}
-
-/* Energy (1) and of the area term under x -> (1 + s strain) x; strain = xx, yy, xy. */
-static double energy_of(const dem_lattice *lattice, const double strain[3], double s)
-{
-    const double J = (1.0 + s * strain[0]) * (1.0 + s * strain[1]) - s * s * strain[2] * strain[2];
-    double energy = 0.0;
-    for (dem_index t = 0; t < lattice->n_triangles && lattice->area_stiffness != NULL; t++)
-        energy += 0.5 * lattice->area_stiffness[t] * area_of(lattice, t) * (J - 1.0) * (J - 1.0);
-    for (dem_index k = 0; k < lattice->n_springs; k++) {
-        const double *a = lattice->x + 2 * lattice->ends[2 * k], *b = lattice->x + 2 * lattice->ends[2 * k + 1];
-        const double dx = b[0] - a[0], dy = b[1] - a[1], rest = lattice->rest_length[k];
-        const double length =
-            hypot(dx + s * (strain[0] * dx + strain[2] * dy), dy + s * (strain[2] * dx + strain[1] * dy));
-        energy += 0.5 * lattice->stiffness[k] * (length - rest) * (length - rest) / rest;
-    }
-    return energy;
-}
-
-/* Hooke's law of a solid in three dimensions: of plane strain as it is, of plane stress with the strain across that
- * leaves no stress there. The third order in s cancels in the mean of s and -s; the fourth is of order s^2. */
-static void expect_energy_of(const dem_material *solid, const double e[3])
-{
-    const double nu = solid->poissons_ratio, s = 1e-4, G = 0.5 * solid->youngs_modulus / (1.0 + nu);
-    const double lambda = 2.0 * G * nu / (1.0 - 2.0 * nu);
-    const double across = solid->plane == DEM_PLANE_STRAIN ? 0.0 : -nu / (1.0 - nu) * (e[0] + e[1]);
-    const double trace = e[0] + e[1] + across;
-    const double squares = e[0] * e[0] + e[1] * e[1] + across * across + 2.0 * e[2] * e[2];
-    dem_lattice lattice = make_rectangle(0.03, 0.05, spacing);
-    assert_int_equal(dem_lattice_assemble(&lattice, solid), DEM_OK);
-    const double volume = (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing * solid->thickness;
-    const double expected = s * s * volume * (0.5 * lambda * trace * trace + G * squares);
-    const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
-    assert_close(mean / expected, 1.0, 1e-7);
-    dem_lattice_free(&lattice);
-}
-
-static void a_uniformly_strained_block_has_the_energy_of_its_solid(void **state)
-{
-    (void)state;
-    static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {1, 1, 0}, {0.3, -0.7, 0.5}};
-    static const double ratios[] = {-0.3, 0.0, 0.1, 0.25, 1.0 / 3.0, 0.45};
-    dem_material solid = rubber;
-    for (int plane = 0; plane < 2; plane++)
-        for (size_t n = 0; n < sizeof ratios / sizeof *ratios; n++)
-            for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
-                solid.plane = plane == 0 ? DEM_PLANE_STRESS : DEM_PLANE_STRAIN;
-                solid.poissons_ratio = ratios[n];
-                expect_energy_of(&solid, strains[k]);
-            }
-}
-
-/* kappa = E h (3 nu - 1)/(2 (1 - nu^2)): at 0.5 E h/3; springs alone have 1/3 in plane stress, 1/4 in plane strain. */
-static void area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it(void **state)
-{
-    (void)state;
-    const dem_plane planes[3] = {DEM_PLANE_STRESS, DEM_PLANE_STRESS, DEM_PLANE_STRAIN};
-    const double ratios[3] = {0.5, 1.0 / 3.0, 0.25};
-    for (int k = 0; k < 3; k++) {
-        dem_material solid = rubber;
-        solid.poissons_ratio = ratios[k], solid.plane = planes[k];
-        dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
-        assert_int_equal(dem_lattice_assemble(&lattice, &solid), DEM_OK);
-        for (dem_index t = 0; k == 0 && t < lattice.n_triangles; t++)
-            assert_close(lattice.area_stiffness[t], 1e7 * 0.5 / 3.0, 1e-8);
-        if (k > 0) assert_null(lattice.area_stiffness);
-        dem_lattice_free(&lattice);
-    }
-}
-
-static void assembling_refuses_what_is_not_a_triangulation(void **state)
+static void jitter_refuses_what_it_cannot_move(void **state)
 {
     (void)state;
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
-    const dem_index corner = lattice.triangles[0];
-    lattice.triangles[0] = lattice.triangles[1];
-    lattice.triangles[1] = corner;
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
-                   "triangle 0 (nodes 1, 0, 2) has the area -0.433013 m^2; it must be > 0");
-    lattice.triangles[0] = 9;
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
-                   "triangle 0 has node 9, but there are 5 nodes");
-    lattice.triangles[0] = 0, lattice.triangles[1] = 1;
-    lattice.n_triangles = 1;
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "node 3 belongs to no triangle");
-    lattice.n_triangles = 0;
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
-                   "a lattice without triangles cannot be assembled");
-    assert_null(lattice.mass);
-    lattice.n_triangles = 2;
+    assert_refused(dem_lattice_jitter(&lattice, -0.1, 1), DEM_ERROR_ARGUMENT,
+                   "the radius of the jitter must be >= 0: -0.1 m");
+    assert_refused(dem_lattice_jitter(NULL, 0.1, 1), DEM_ERROR_ARGUMENT, "lattice is NULL");
+    lattice.x[0] += 2.0; /* beyond node 1 */
+    assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
+                   "triangle 0 has the area -0.433013 m^2; it must be > 0 to be jittered");
+    lattice.x[0] -= 2.0;
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "the lattice already has 6 springs");
+    assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
+                   "a lattice that has springs cannot be jittered: 6 springs");
     dem_lattice_free(&lattice);
-}
-
-static void assembling_refuses_impossible_materials(void **state)
-{
-    (void)state;
-    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
-    dem_material m = rubber;
-    m.youngs_modulus = 0.0;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: 0 Pa");
-    m = rubber, m.poissons_ratio = 1.0;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
-                   "Poisson's ratio must be in (-1, 1) in plane stress: 1");
-    m.poissons_ratio = 0.5, m.plane = DEM_PLANE_STRAIN;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
-                   "Poisson's ratio must be in (-1, 0.5) in plane strain: 0.5");
-    m.plane = (dem_plane)2;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
-                   "plane is 2, which is neither stress nor strain");
-    m = rubber, m.density = -1.0;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "density must be > 0: -1 kg/m^3");
-    m = rubber, m.thickness = (double)INFINITY;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "thickness must be > 0: inf m");
-    m = rubber, m.guard = -0.1;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "guard must be >= 0: -0.1");
-    m = rubber, m.damping_time = -1e-6;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: -1e-06 s");
-    m.damping_time = (double)INFINITY;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: inf s");
-    assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
-    assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
-    dem_lattice_free(&lattice);
+    assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
+                   "a lattice without triangles cannot be jittered");
 }
 
 int main(void)
@@ -449,15 +358,12 @@ int main(void)
         cmocka_unit_test(cutting_a_hole_leaves_the_triangles_outside_it),
         cmocka_unit_test(a_cut_drops_nodes_left_without_a_triangle),
         cmocka_unit_test(a_cut_refuses_to_leave_nothing_and_to_cut_springs),
-        cmocka_unit_test(springs_come_by_lower_then_upper_node_without_duplicates),
-        cmocka_unit_test(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary),
-        cmocka_unit_test(masses_guard_thickness_and_modulus_are_those_of_the_triangles),
-        cmocka_unit_test(a_material_without_guard_leaves_guard_NULL),
-        cmocka_unit_test(viscosity_is_damping_time_times_stiffness),
-        cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_its_solid),
-        cmocka_unit_test(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it),
-        cmocka_unit_test(assembling_refuses_what_is_not_a_triangulation),
-        cmocka_unit_test(assembling_refuses_impossible_materials),
+        cmocka_unit_test(squares_are_two_triangles_each_that_meet_along_turning_diagonals),
+        cmocka_unit_test(squares_refuse_impossible_sizes),
+        cmocka_unit_test(jitter_moves_the_nodes_inside_within_its_radius_and_no_other),
+        cmocka_unit_test(jitter_depends_on_its_seed_alone),
+        cmocka_unit_test(no_triangle_keeps_less_than_a_tenth_of_its_area),
+        cmocka_unit_test(jitter_refuses_what_it_cannot_move),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -359,10 +359,10 @@ static void ends_of_ranges_belong_to_them(void **state)
 static void choices_are_listed_with_the_nearest(void **state)
 {
     (void)state;
-    assert_body_errors("shape = 'rectangel' lattice = 'square'",
+    assert_body_errors("shape = 'rectangel' lattice = 'cubic'",
                        "1:15 'shape' in &body must be 'rectangle', 'disc', 'ring', 'polygon', 'mask', 'mesh' or "
                        "'file', got 'rectangel' (did you mean 'rectangle'?)\n"
-                       "1:37 'lattice' in &body must be 'triangular', got 'square'");
+                       "1:37 'lattice' in &body must be 'triangular' or 'square', got 'cubic'");
     assert_errors(RUN MATERIAL BODY "&output precision = 'Double' /",
                   "4:21 'precision' in &output must be 'single' or 'double', got 'Double' (did you mean 'double'?)");
 }

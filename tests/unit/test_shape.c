@@ -231,6 +231,60 @@ static void a_mask_has_nodes_in_its_bright_pixels_only(void **state)
     dem_lattice_free(&lattice);
 }
 
+/* ---- squares ---- */
+
+static void a_rectangle_of_squares_has_its_size(void **state)
+{
+    (void)state;
+    const shape s = {.outline = {.centre = {0.0, 0.5}, .size = {2.0, 1.0}}, .spacing = 0.1, .squares = true};
+    dem_lattice lattice = make_lattice(&s);
+    assert_int_equal(lattice.n_nodes, 21 * 11);
+    assert_int_equal(lattice.n_triangles, 2 * 20 * 10);
+    assert_close(area_of_all(&lattice), 2.0, 1e-12);
+    dem_lattice_free(&lattice);
+}
+
+/* Whole cells: all four of their corners are inside, none in a void. */
+static void a_disc_of_squares_has_whole_cells_about_its_centre(void **state)
+{
+    (void)state;
+    shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 0.5}, .spacing = 0.1, .squares = true};
+    dem_lattice lattice = make_lattice(&s);
+    dem_index n_cells = 0;
+    for (int i = -5; i < 5; i++)
+        for (int j = -5; j < 5; j++) {
+            const int x = i < 0 ? -i : i + 1, y = j < 0 ? -j : j + 1; /* the corner farthest out */
+            n_cells += x * x + y * y <= 25;
+        }
+    assert_int_equal(lattice.n_triangles, 2 * n_cells);
+    for (dem_index k = 0; k < 2 * lattice.n_nodes; k++)
+        assert_close(lattice.x[k], 0.1 * round(10.0 * lattice.x[k]), 1e-14);
+    for (dem_index k = 0; k < n_cells; k++) { /* which make up squares */
+        double low[2] = {1.0, 1.0}, high[2] = {-1.0, -1.0};
+        for (int c = 0; c < 12; c++) {
+            const double x = lattice.x[2 * lattice.triangles[6 * k + c / 2] + c % 2];
+            low[c % 2] = fmin(low[c % 2], x);
+            high[c % 2] = fmax(high[c % 2], x);
+        }
+        for (int c = 0; c < 2; c++) assert_close(high[c] - low[c], 0.1, 1e-14);
+    }
+    dem_lattice_free(&lattice);
+    add(&s, (outline){.kind = OUTLINE_DISC, .radius = 0.02});
+    lattice = make_lattice(&s);
+    assert_int_equal(lattice.n_triangles, 2 * n_cells - 8); /* the four about the node that is gone */
+    dem_lattice_free(&lattice);
+    shape_free(&s);
+}
+
+static void of_a_cell_both_triangles_are_kept_or_none(void **state)
+{
+    (void)state;
+    unsigned char keep[8] = {1, 1, 0, 1, 1, 0, 0, 0};
+    static const unsigned char expected[8] = {1, 1, 0, 0, 0, 0, 0, 0};
+    shape_keep_cells(keep, 8);
+    assert_memory_equal(keep, expected, 8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +299,9 @@ int main(void)
         cmocka_unit_test(a_ring_is_hollow),
         cmocka_unit_test(a_polygon_need_not_be_convex),
         cmocka_unit_test(a_mask_has_nodes_in_its_bright_pixels_only),
+        cmocka_unit_test(a_rectangle_of_squares_has_its_size),
+        cmocka_unit_test(a_disc_of_squares_has_whole_cells_about_its_centre),
+        cmocka_unit_test(of_a_cell_both_triangles_are_kept_or_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,11 +89,41 @@ static void the_highest_frequency_of_a_block_is_that_of_an_independent_program(v
     }
 }
 
+/* Corners that move by turns along one diagonal, h each: the sides have the energy 2 k h^2, k = E h/(1 + nu), the
+ * area term 4 kappa h^2, the motion 1/2 m h'^2. So omega^2 = 4 (k + 2 kappa)/m; along the other diagonal, which the
+ * triangles share, no area changes. Below r = (1 + nu)/(2 (1 - nu)) it is > 0. */
+static void a_square_cell_warps_with_the_frequency_of_its_sides_and_areas(void **state)
+{
+    static const double table[][2] = {{0.0, 0.49}, {0.2, 0.7}, {1.0 / 3.0, 0.5}, {0.45, 1.3}, {-0.5, 0.16}};
+    (void)state;
+    for (size_t j = 0; j < sizeof table / sizeof table[0]; j++) {
+        const double nu = table[j][0], r = table[j][1], k = 1e7 / (1.0 + nu);
+        const double kappa = 1e7 * ((1.0 + r) * nu - r) / (1.0 - nu * nu), m = 1050.0 * spacing * spacing;
+        const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0, .thickness = 1.0};
+        dem_lattice lattice;
+        dem_model *model;
+        assert_ok(dem_lattice_squares(&lattice, spacing, spacing, spacing));
+        assert_ok(dem_lattice_assemble_squares(&lattice, &solid, r));
+        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        dem_lattice_free(&lattice);
+        gsl_vector *squared = frequencies_of(model);
+        const double largest = gsl_vector_get(squared, 7), warps[2] = {4.0 * k / m, 4.0 * (k + 2.0 * kappa) / m};
+        for (int w = 0; w < 2; w++) {
+            double nearest = INFINITY;
+            for (size_t q = 3; q < 8; q++) nearest = fmin(nearest, fabs(gsl_vector_get(squared, q) - warps[w]));
+            assert_close(nearest / largest, 0.0, 1e-7);
+        }
+        gsl_vector_free(squared);
+        dem_model_destroy(model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_are_stable_and_the_bound_is_above_their_frequencies),
         cmocka_unit_test(discs_are_stable_and_the_bound_is_above_their_frequencies),
+        cmocka_unit_test(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas),
         cmocka_unit_test(the_highest_frequency_of_a_block_is_that_of_an_independent_program),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
