@@ -142,8 +142,8 @@ static void compare(const line *l, int duration, const cost *c)
 {
     dem_method_traits method;
     assert_ok(dem_method_describe(&method, l->method));
-    print_message("%-10s %-6g %5g ms: %6.0f evaluations, energy %.2e at the end, %.2e at most", method.name, l->setting,
-                  1e3 * durations[duration], c->end.evaluations, c->end.energy, c->energy_most);
+    print_message("# %-10s %-6g %5g ms: %6.0f evaluations, energy %.2e at the end, %.2e at most", method.name,
+                  l->setting, 1e3 * durations[duration], c->end.evaluations, c->end.energy, c->energy_most);
     if (c->end.position > 0.0) print_message(", positions %.2e spacings", c->end.position);
     print_message("\n");
     const double energy = known_at(l, duration, c->end.evaluations, true);

@@ -38,7 +38,7 @@ static void check_errors(const dem_lattice *body, const dem_obstacle *floor, dou
         run_to(body, floor, t, rtol[k], x + (k > 0 ? n : 0));
         for (size_t c = 0; c < n && k > 0; c++) error += (x[n + c] - x[c]) * (x[n + c] - x[c]);
         error = sqrt(2.0 * error / (double)n);
-        if (k > 0) print_message("rtol %g: error %.2e m\n", rtol[k], error);
+        if (k > 0) print_message("# rtol %g: error %.2e m\n", rtol[k], error);
         if (k > 1) assert_true(before > 30.0 * error);
         before = error;
     }

@@ -103,7 +103,7 @@ static void located_contacts_keep_the_energy_as_known(void **unused)
         const double evaluations = (double)dem_simulation_counts(run.simulation).evaluations;
         dem_method_traits method;
         assert_ok(dem_method_describe(&method, l->method));
-        print_message("%-10s %-6g %6.0f evaluations, %lld impacts: energy %+.2e\n", method.name, l->setting,
+        print_message("# %-10s %-6g %6.0f evaluations, %lld impacts: energy %+.2e\n", method.name, l->setting,
                       evaluations, (long long)run.n_impacts, drift);
         if (l->drift > 0.0 && !(fabs(drift) <= allowed * drift_at(l, evaluations)))
             fail_msg("energy %+.2e, %.2e known", drift, drift_at(l, evaluations));
@@ -262,7 +262,7 @@ static void the_two_step_formula_fails_at_contacts(void **unused)
     for (int k = 0; k < 4; k++) {
         const outcome printed = cut_steps(AS_PRINTED, steps[k] / omega_max());
         const outcome unequal = cut_steps(UNEQUAL_STEPS, steps[k] / omega_max());
-        print_message("(5) at %-4g: stands at %.2f ms, energy %+.1e; for unequal steps at %.2f ms, %+.1e\n", steps[k],
+        print_message("# (5) at %-4g: stands at %.2f ms, energy %+.1e; for unequal steps at %.2f ms, %+.1e\n", steps[k],
                       1e3 * printed.t, printed.drift, 1e3 * unequal.t, unequal.drift);
         assert_true(printed.t < 0.5 * t_end);
         assert_true(unequal.t < 0.5 * t_end);
@@ -277,8 +277,8 @@ static void velocity_verlet_bears_cut_steps(void **unused)
     for (int k = 0; k < 4; k++) {
         const outcome verlet = cut_steps(VELOCITY_VERLET, steps[k] / omega_max());
         const outcome kutta = cut_steps(RUNGE_KUTTA, steps[k] / omega_max());
-        print_message("cut at %-4g: velocity Verlet %+.2e, Runge and Kutta %+.2e at %.1f ms\n", steps[k], verlet.drift,
-                      kutta.drift, 1e3 * kutta.t);
+        print_message("# cut at %-4g: velocity Verlet %+.2e, Runge and Kutta %+.2e at %.1f ms\n", steps[k],
+                      verlet.drift, kutta.drift, 1e3 * kutta.t);
         assert_true(verlet.t >= t_end);
         assert_true(fabs(verlet.drift) < allowed * lines[k].drift);
     }
