@@ -352,6 +352,21 @@ class Run(Case):
         self.assertEqual({path.name for path in (self.folder / "out").iterdir()},
                          {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
 
+    def test_methods_agree(self):
+        """Rebound of a body, to the 1e-3 that steps of an eighth of the bound are good for."""
+        rebounds = {}
+        for method in ("fehlberg45", "rk4", "verlet"):
+            self.put(coarse(name="disc_friction").replace("name           = 'disc_friction'", f"name = '{method}'") +
+                     f"&solver method = '{method}' /\n")
+            log = self.call(0, "deck.nml")
+            rebounds[method], _ = numbers("rebound    vertical velocity of the centre of mass # m/s at the last contact, "
+                                          "# m/s at t_end", log)
+            closure = float(re.search(f"closure ({NUMBER})", log)[1])
+            self.assertLess(abs(closure), 3e-4)
+        self.assertGreater(rebounds["fehlberg45"], 3)
+        for method in ("rk4", "verlet"):
+            self.assertAlmostEqual(rebounds[method] / rebounds["fehlberg45"], 1, delta=1e-3)
+
     def test_the_summary(self):
         log = self.call(0, "deck.nml")
         first, last, apart = numbers("contact    first at # s, last at # s, # s apart", log)
