@@ -90,12 +90,14 @@ static double closure_of(const report *r, dem_energy e)
     return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
 }
 
-static void watch_ledger(report *r, const dem_state *state)
+static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
+    const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
     if (r->warned || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
     r->warned = true;
-    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a smaller 'rtol' closes it\n",
-                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
+    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
+                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t,
+                  fixed ? "shorter step" : "smaller 'rtol'");
 }
 
 static void watch_overlap(report *r, const dem_simulation *simulation)
@@ -133,22 +135,15 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     dem_simulation_state(simulation, &state);
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
+    pace_follow(&r->pace, simulation, &state);
     follow_contact(r, simulation, &state);
-    watch_ledger(r, &state);
+    watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;
 }
 
 /* ---- before and after ---- */
-
-/* Of a simulation that exists, so that the method is known. */
-static dem_method_traits method_of(const dem_simulation *simulation)
-{
-    dem_method_traits traits = {0};
-    (void)dem_method_describe(&traits, dem_simulation_options(simulation).method);
-    return traits;
-}
 
 static bool has_friction(const dem_obstacle *o)
 {
@@ -343,34 +338,8 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
     (void)fprintf(
         out,
         "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output, %.3g MB of memory\n",
-        steps, (int)method_of(simulation).evaluations, frames,
+        steps, (int)pace_method(simulation).evaluations, frames,
         1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)), 1e-6 * state_bytes);
-}
-
-/* What the step is in units of the fastest oscillation, and what the method makes of that. */
-static void print_stability(FILE *out, const dem_method_traits *method, const dem_options *o, double omega)
-{
-    const double z = omega * o->max_step, growth = dem_method_growth(o->method, z) - 1.0;
-    const bool fixed = o->fixed_step > 0.0;
-    if (!(omega > 0.0)) return;
-    (void)fprintf(out, "stability  omega_max h = %.3g; ", z);
-    if (method->stable > 0.0)
-        (void)fprintf(out, "%s is stable up to %.3g, h = %.4g s", method->name, method->stable, method->stable / omega);
-    else
-        (void)fprintf(out, "with %s undamped oscillations grow at any step, here by %.1e a step", method->name,
-                      fmax(growth, 0.0));
-    (void)fprintf(out, "%s\n", fixed && z > method->usable ? "; WARNING: longer than that, the run may blow up" : "");
-}
-
-static void print_time(FILE *out, double t_end, const dem_simulation *simulation)
-{
-    const dem_options o = dem_simulation_options(simulation);
-    const dem_method_traits method = method_of(simulation);
-    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
-                  (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
-    print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
-    (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing = %.3g at v_scale along x; it does not bound the step\n",
-                  o.v_scale * o.max_step / o.spacing);
 }
 
 static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
@@ -410,7 +379,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
     print_rules(out, &o, model);
     (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
-    print_time(out, d->t_end, simulation);
+    pace_print(out, d->t_end, simulation);
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
     print_measured(out, model);
     print_estimates(out, d, simulation);
@@ -586,6 +555,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_boundaries(r->out, simulation);
     print_overlap(r->out, simulation);
     print_events(r->out, &c);
+    pace_print_largest(r->out, &r->pace);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
                   wall_clock() - r->wall_start);

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "deck.h"
+#include "pace.h"
 
 typedef struct report {
     FILE *out;
@@ -22,6 +23,7 @@ typedef struct report {
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max, inverted_max;
+    pace pace;
     bool touched;                       /* there was a contact */
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */

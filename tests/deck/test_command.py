@@ -197,7 +197,7 @@ class Check(Case):
         self.assertEqual((t_end, order, rtol), (8e-3, 5, 1e-6))
         self.assertAlmostEqual(step * omega_max, 0.5, places=3)
         share, growth = numbers("stability  omega_max h = #; with fehlberg45 undamped oscillations grow at any step, "
-                                "here by # a step", out)
+                                "here by up to # in one", out)
         self.assertEqual((share, growth), (0.5, 1.3e-5))
         speed, = numbers("formula 6  (|v_x| + |v_y|) h/spacing = # at v_scale along x; it does "
                          "not bound the step", out)
@@ -361,6 +361,8 @@ class Run(Case):
                                   "# m/s at t_end", log)
         self.assertTrue(5 < at_end < at_last < 10)
         self.assertAlmostEqual(at_last - at_end, 9.81 * (8e-3 - last), delta=1e-3)
+        fastest, when_fastest = numbers("formula 6  (|v_x| + |v_y|) h/spacing was # at most, at # s", log)
+        self.assertTrue(0 < fastest < 0.2 and 0 < when_fastest < 8e-3)
         smallest, _, when_smallest = numbers("strain     smallest # in spring # at # s", log)
         largest, _, when_largest = numbers("strain     largest # in spring # at # s", log)
         self.assertTrue(-1 < smallest < -0.05 < 0.05 < largest < 1)

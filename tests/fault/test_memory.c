@@ -9,36 +9,7 @@
 
 #include "../unit/close.h"
 
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-static long allocations, failing; /* the failing-th fails; 0: none */
-static int from_then_on;
-
-static int fails(void)
-{
-    allocations++;
-    return failing > 0 && (allocations == failing || (from_then_on && allocations > failing));
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return fails() ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t n, size_t size)
-{
-    return fails() ? NULL : __real_calloc(n, size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return fails() ? NULL : __real_realloc(old, size);
-}
+#include "allocations.h"
 
 static int left_half(void *context, const double x[2])
 {

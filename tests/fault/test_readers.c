@@ -8,38 +8,8 @@
 
 #include "../unit/close.h"
 
+#include "allocations.h"
 #include "deck.h"
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t n, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t n, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-static long allocations, failing; /* the failing-th fails; 0: none */
-static int from_then_on;
-
-static int fails(void)
-{
-    allocations++;
-    return failing > 0 && (allocations == failing || (from_then_on && allocations > failing));
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return fails() ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t n, size_t size)
-{
-    return fails() ? NULL : __real_calloc(n, size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return fails() ? NULL : __real_realloc(old, size);
-}
 
 static const char *const files[][2] = {
     {"fault.nml", "&run t_end = 1 /\n"

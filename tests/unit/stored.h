@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "found.h"
 #include "hdf5_file.h"
 
 enum { STORED_VALUES = 4096 };
@@ -56,20 +57,6 @@ static inline const double *stored_values(const stored *s, const char *name, hsi
     (void)H5Sclose(space);
     (void)H5Dclose(id);
     return values;
-}
-
-/** A text attribute. */
-static inline void stored_expect_text(const stored *s, const char *object, const char *name, const char *expected)
-{
-    char text[64] = "";
-    const hid_t id = H5Aopen_by_name(s->file.id, object, name, H5P_DEFAULT, H5P_DEFAULT);
-    if (id < 0) fail_msg("%s has no %s", object, name);
-    const hid_t type = H5Aget_type(id);
-    assert_true(H5Tget_size(type) < sizeof text);
-    assert_true(H5Aread(id, type, text) >= 0);
-    assert_string_equal(text, expected);
-    (void)H5Tclose(type);
-    (void)H5Aclose(id);
 }
 
 /** An attribute of n whole numbers. */

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "found.h"
 #include "grid.h"
 
 static char path[] = "test_grid_XXXXXX";
@@ -33,29 +34,18 @@ static hdf5_file write_one(const grid *g, int deflate)
     return file;
 }
 
-static void expect(const hdf5_file *file, const char *name, const double *expected, hsize_t n)
-{
-    double value[8] = {0.0};
-    const hid_t id = H5Dopen2(file->id, name, H5P_DEFAULT), space = H5Dget_space(id);
-    assert_int_equal(H5Sget_simple_extent_npoints(space), n);
-    assert_true(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
-    for (hsize_t k = 0; k < n; k++) assert_close(value[k], expected[k], 0.0);
-    (void)H5Sclose(space);
-    (void)H5Dclose(id);
-}
-
 static void cells_are_lines_between_points(void **state)
 {
     (void)state;
     const dem_index ends[4] = {0, 1, 2, 1};
     const grid g = {3, 2, ends};
     hdf5_file file = write_one(&g, 1);
-    expect(&file, GRID "NumberOfPoints", (const double[]){3}, 1);
-    expect(&file, GRID "NumberOfCells", (const double[]){2}, 1);
-    expect(&file, GRID "NumberOfConnectivityIds", (const double[]){4}, 1);
-    expect(&file, GRID "Connectivity", (const double[]){0, 1, 2, 1}, 4);
-    expect(&file, GRID "Offsets", (const double[]){0, 2, 4}, 3);
-    expect(&file, GRID "Types", (const double[]){3, 3}, 2); /* VTK's number of a line */
+    found_reals(&file, GRID "NumberOfPoints", (const double[]){3}, 1);
+    found_reals(&file, GRID "NumberOfCells", (const double[]){2}, 1);
+    found_reals(&file, GRID "NumberOfConnectivityIds", (const double[]){4}, 1);
+    found_reals(&file, GRID "Connectivity", (const double[]){0, 1, 2, 1}, 4);
+    found_reals(&file, GRID "Offsets", (const double[]){0, 2, 4}, 3);
+    found_reals(&file, GRID "Types", (const double[]){3, 3}, 2); /* VTK's number of a line */
     assert_ok(hdf5_close(&file, DEM_OK));
 }
 
@@ -64,9 +54,9 @@ static void a_grid_may_have_no_cells(void **state)
     (void)state;
     const grid g = {1, 0, NULL};
     hdf5_file file = write_one(&g, 0);
-    expect(&file, GRID "Connectivity", NULL, 0);
-    expect(&file, GRID "Offsets", (const double[]){0}, 1);
-    expect(&file, GRID "Types", NULL, 0);
+    found_reals(&file, GRID "Connectivity", NULL, 0);
+    found_reals(&file, GRID "Offsets", (const double[]){0}, 1);
+    found_reals(&file, GRID "Types", NULL, 0);
     assert_ok(hdf5_close(&file, DEM_OK));
 }
 

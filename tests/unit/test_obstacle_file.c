@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "found.h"
 #include "obstacle_file.h"
 
 static const double bent[6] = {-1.0, 0.0, 0.0, -0.5, 1.0, 0.0}, flat[4] = {3.0, -2.0, 4.0, -2.0};
@@ -43,17 +44,6 @@ static dem_model *make_model(void)
     return model;
 }
 
-static void expect(const hdf5_file *file, const char *name, const double *expected, hsize_t n)
-{
-    double value[16] = {0.0};
-    const hid_t id = H5Dopen2(file->id, name, H5P_DEFAULT), space = H5Dget_space(id);
-    assert_int_equal(H5Sget_simple_extent_npoints(space), n);
-    assert_true(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
-    for (hsize_t k = 0; k < n; k++) assert_close(value[k], expected[k], 0.0);
-    (void)H5Sclose(space);
-    (void)H5Dclose(id);
-}
-
 static void expect_number(const hdf5_file *file, const char *group, const char *name, double expected)
 {
     double value = NAN;
@@ -63,18 +53,6 @@ static void expect_number(const hdf5_file *file, const char *group, const char *
     assert_close(value, expected, 0.0);
 }
 
-static void expect_text(const hdf5_file *file, const char *group, const char *name, const char *expected)
-{
-    char text[32] = "";
-    const hid_t id = H5Aopen_by_name(file->id, group, name, H5P_DEFAULT, H5P_DEFAULT);
-    assert_true(id >= 0);
-    const hid_t type = H5Aget_type(id);
-    assert_true(H5Tget_size(type) < sizeof text && H5Aread(id, type, text) >= 0);
-    (void)H5Tclose(type);
-    (void)H5Aclose(id);
-    assert_string_equal(text, expected);
-}
-
 static void the_group_has_points_and_laws(void **state)
 {
     (void)state;
@@ -82,14 +60,14 @@ static void the_group_has_points_and_laws(void **state)
     hdf5_file file;
     assert_ok(hdf5_open_new(&file, path, 4096));
     assert_ok(obstacle_file_write(&file, model));
-    expect(&file, "/obstacles/0/points", bent, 6);
-    expect(&file, "/obstacles/1/points", flat, 4);
+    found_reals(&file, "/obstacles/0/points", bent, 6);
+    found_reals(&file, "/obstacles/1/points", flat, 4);
     expect_number(&file, "/obstacles/0", "restitution", 0.5);
     expect_number(&file, "/obstacles/1", "restitution", 0.25);
     expect_number(&file, "/obstacles/0", "friction", 0.3);
     expect_number(&file, "/obstacles/1", "friction", 0.75);
-    expect_text(&file, "/obstacles/0", "friction_law", "coulomb");
-    expect_text(&file, "/obstacles/1", "friction_law", "paper");
+    found_text(&file, "/obstacles/0", "friction_law", "coulomb");
+    found_text(&file, "/obstacles/1", "friction_law", "paper");
     assert_ok(hdf5_close(&file, DEM_OK));
     dem_model_destroy(model);
 }
@@ -103,9 +81,9 @@ static void the_file_has_them_as_lines(void **state)
     assert_ok(obstacle_file_publish(part, path, model, 1));
     assert_int_not_equal(access(part, F_OK), 0);
     assert_ok(hdf5_open_read(&file, path));
-    expect(&file, "/VTKHDF/Points", points, 15);
-    expect(&file, "/VTKHDF/Connectivity", (const double[]){0, 1, 1, 2, 3, 4}, 6);
-    expect(&file, "/VTKHDF/CellData/obstacle", (const double[]){0, 0, 1}, 3);
+    found_reals(&file, "/VTKHDF/Points", points, 15);
+    found_reals(&file, "/VTKHDF/Connectivity", (const double[]){0, 1, 1, 2, 3, 4}, 6);
+    found_reals(&file, "/VTKHDF/CellData/obstacle", (const double[]){0, 0, 1}, 3);
     assert_ok(hdf5_close(&file, DEM_OK));
     dem_model_destroy(model);
 }
