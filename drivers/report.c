@@ -289,6 +289,9 @@ static void print_body(FILE *out, size_t number, const body_facts *b)
     if (b->form.n_pores > 0)
         (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->form.n_pores,
                       b->form.pore_area / (b->form.area + b->form.pore_area));
+    if (b->form.n_inclusions > 0)
+        (void)fprintf(out, "inclusions body %zu: %zu, of %lld triangles\n", number, b->form.n_inclusions,
+                      (long long)b->n_included);
     if (b->form.n_cracked > 0)
         (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
                       (long long)b->form.n_cracked);

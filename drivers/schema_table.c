@@ -126,6 +126,24 @@ static const schema_key crack_keys[] = {
      "-0.04, 0.085, -0.01, 0.085"},
 };
 
+static const schema_key inclusion_keys[] = {
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
+     "Number of the body that has the inclusion, in the order of the deck.", NULL},
+    {"material", SCHEMA_STRING, 1, 1, "-", REQUIRED, ANY, NULL, PHYSICS, "Name of its material.", "'rubber'"},
+    {"shape", SCHEMA_CHOICE, 1, 1, "-", "'disc'", ANY, "disc|rectangle|ring|polygon", PHYSICS,
+     "Shape of the inclusion: the triangles that have their centres in it; of two that overlap the later one counts.",
+     NULL},
+    {"centre", SCHEMA_REAL, 2, 2, "m", REQUIRED, ANY, NULL, PHYSICS,
+     "Its centre, x and y in the body's own coordinates; a polygon's points are counted from it.", "0.02, 0.11"},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc, outer radius of a ring.", "0.01"},
+    {"inner_radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Inner radius of a ring.", NULL},
+    {"size", SCHEMA_REAL, 2, 2, "m", NONE, "> 0", NULL, PHYSICS, "Width and height of a rectangle.", NULL},
+    {"points", SCHEMA_REAL, 6, 0, "m", NONE, ANY, NULL, PHYSICS,
+     "x and y of each corner of a polygon, counted from its centre, either way round.", NULL},
+    {"angle", SCHEMA_REAL, 1, 1, "degrees", "0", ANY, NULL, PHYSICS,
+     "Turn of a rectangle or a polygon about its centre, counter-clockwise.", NONE},
+};
+
 static const schema_key boundary_keys[] = {
     {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS, "Number of the body, in the order of the deck.",
      NULL},
@@ -263,6 +281,8 @@ static const schema_group groups[] = {
     {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},
     {"crack", false, true, "A crack: a polyline that takes away every triangle which it crosses, with its springs.",
      KEYS(crack_keys)},
+    {"inclusion", false, true, "Another material in a part of a body, to which it holds; one group for each.",
+     KEYS(inclusion_keys)},
     {"boundary", false, true, "Nodes that are held, moved or loaded; prescribed ones touch no obstacle.",
      KEYS(boundary_keys)},
     {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},

@@ -124,6 +124,15 @@ DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material
  *                   or cells warp; usual: 0.5, for nu > 0. Not used with a bond stiffness */
 DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal);
 
+/** The same of several materials. Every triangle gives stiffness, mass and damping by its own; so a spring between two
+ *  materials is half of one and half of the other, and they hold together. A bond stiffness is for one material only.
+ *  \param materials  [n_materials]
+ *  \param of         [n_triangles] number of each triangle's material, from 0, the same for both triangles of a cell;
+ *                    NULL: the first
+ *  \param diagonal   of cells, as in dem_lattice_assemble_squares(); 0: triangles */
+DEM_API dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials,
+                                              dem_index n_materials, const dem_index *of, double diagonal);
+
 /** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
  *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For
  *  triangulations not yet assembled; a lattice that has springs is refused. */

@@ -538,6 +538,16 @@ DECKS = [
     ("radii that hardly ever come", BASE + "&pores number = 1, radius = 5e-3, 6e-3, distribution = 'normal',\n"
      "mean = 1, deviation = 1e-3 /\n",
      ["28:1 'mean' and 'deviation' in &pores, 1 m and 0.001 m, give next to no radius from 0.005 m to 0.006 m"]),
+    # inclusions
+    ("inclusion without a material", BASE + "&inclusion centre = 0, 0.02, radius = 0.01 /\n",
+     ["27:1 'material' in &inclusion must be given"]),
+    ("inclusion of an unknown material", BASE + "&inclusion material = 'ruber', centre = 0, 0.02, radius = 0.01 /\n",
+     ["27:12 there is no material 'ruber' (did you mean 'rubber'?)"]),
+    ("inclusion that misses its body", BASE + "&inclusion material = 'rubber', centre = 1, 0.02, radius = 0.01 /\n",
+     ["27:33 inclusion has no triangle of body 1: its centre is in the body's own coordinates"]),
+    ("inclusion of equal springs", BASE + "&material name = 'raw', bond_stiffness = 1, density = 1 /\n"
+     "&inclusion material = 'raw', centre = 0, 0.02, radius = 0.01 /\n",
+     ["15:5 body 1: a bond stiffness, 1 N, is for bodies of one material"]),
     # cracks
     ("crack of an odd number of coordinates", BASE + "&crack points = 0, 0, 1, 1, 2 /\n",
      ["27:8 'points' in &crack must be pairs of x and y, got 5 values"]),

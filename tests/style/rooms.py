@@ -16,7 +16,7 @@ LAYERS = [
     {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts",
      "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
     {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table",
-     "schema_print", "uses", "mask"},
+     "schema_print", "uses", "material", "mask"},
     {"touch", "diagnostics", "integrator", "verlet", "tangent", "peaks_file", "shape", "loading", "probes"},
     {"reaction", "books", "engine", "spectrum", "constants", "area"},
     {"site", "form"},
