@@ -187,7 +187,11 @@ static dem_status assemble(builder *b)
         form_materials(materials, groups, b->number - 1);
         status = form_mark(of, &b->lattice, groups, b->number - 1, b->errors);
     }
-    for (size_t k = 0; status == DEM_OK && k < n; k++) status = check_scales(b, &materials[k]);
+    b->facts.plane_strain = status == DEM_OK;
+    for (size_t k = 0; status == DEM_OK && k < n; k++) {
+        b->facts.plane_strain = b->facts.plane_strain && materials[k].plane == DEM_PLANE_STRAIN;
+        status = check_scales(b, &materials[k]);
+    }
     if (status == DEM_OK)
         status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
                         form_has_squares(b->body) ? "diagonal" : "material");

@@ -39,6 +39,7 @@ typedef struct body_facts {
     double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
     form form;
     dem_index n_included; /* triangles of its inclusions */
+    bool plane_strain;    /* all of its materials are in plane strain */
     parts_loose loose;    /* apart from its largest part */
     bool removed;         /* they have been */
     parts_hinges hinges;

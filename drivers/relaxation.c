@@ -26,11 +26,16 @@ double relaxation_damping(const dem_model *model)
     return extent > 0.0 ? pi * c / extent : 0.0;
 }
 
+double relaxation_settled(const dem_options *options)
+{
+    double last = 0.0;
+    for (dem_index k = 0; k < options->n_boundaries; k++) last = fmax(last, options->boundaries[k].ramp);
+    return last;
+}
+
 relaxation relaxation_start(double residual, const dem_options *options)
 {
-    relaxation r = {.residual = residual, .reached = (double)INFINITY};
-    for (dem_index k = 0; k < options->n_boundaries; k++) r.settled = fmax(r.settled, options->boundaries[k].ramp);
-    return r;
+    return (relaxation){.residual = residual, .reached = (double)INFINITY, .settled = relaxation_settled(options)};
 }
 
 static dem_status look(void *context, const dem_simulation *simulation)
@@ -39,8 +44,9 @@ static dem_status look(void *context, const dem_simulation *simulation)
     dem_state state = {.struct_size = sizeof state};
     if (++r->steps < between_looks) return DEM_OK;
     dem_simulation_state(simulation, &state);
+    if (state.t < r->settled) return DEM_OK;
     const double residual = dem_simulation_residual(simulation);
-    if (state.t < r->settled || isinf(residual)) return DEM_OK;
+    if (isinf(residual)) return DEM_OK;
     r->steps = 0;
     r->reached = residual;
     r->t = state.t;

@@ -19,6 +19,9 @@ typedef struct relaxation {
  * pi c/(2 L), L the extent of all nodes, c = omega_max spacing/2 the speed of sound of a chain. */
 double relaxation_damping(const dem_model *model);
 
+/* When the last ramp ends, s. */
+double relaxation_settled(const dem_options *options);
+
 /* A run that is to end at this residual. */
 relaxation relaxation_start(double residual, const dem_options *options);
 

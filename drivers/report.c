@@ -12,6 +12,7 @@
 #include <dem/trajectory.h>
 
 #include "commit.h"
+#include "relaxation.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
 enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
@@ -90,10 +91,12 @@ static double closure_of(const report *r, dem_energy e)
     return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
 }
 
+/* While a load grows from nothing the largest energy so far is no measure yet: the first steps of a ramp may be off by
+ * all of the 1e-20 J that there are. */
 static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
-    if (r->warned || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
+    if (r->warned || state->t < r->settled || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
     r->warned = true;
     (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
                   r->terminal ? "\n" : "", closure_of(r, state->energy), state->t,
@@ -238,18 +241,30 @@ static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
     }
 }
 
-/* As the library measures them, by loading the model. */
-static void print_constants(FILE *out, const dem_model *model)
+/* Of the solid in plane strain that a plate of the same stiffness stands for: the library's rule backwards. */
+static void read_in_plane_strain(dem_constants *c)
+{
+    c->poissons_ratio /= 1.0 + c->poissons_ratio;
+    c->youngs_modulus *= 1.0 - c->poissons_ratio * c->poissons_ratio;
+}
+
+/* As the library measures them, by loading the model. A lattice file may have several bodies, of which nothing else is
+ * known. */
+static void print_constants(FILE *out, const deck *d, const dem_model *model)
 {
     const dem_index n_bodies = dem_model_sizes(model).n_bodies;
     for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
+        const bool strain = d->n_bodies == (size_t)n_bodies && d->bodies[b].plane_strain;
         dem_constants c;
         (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
-        if (dem_model_constants(model, b, &c) != DEM_OK)
+        if (dem_model_constants(model, b, &c) != DEM_OK) {
             (void)fprintf(out, "not measured: %s\n", dem_status_message());
-        else
-            (void)fprintf(out, "E %.6g Pa, nu %.5g, anisotropy %.4f, waves %.5g and %.5g m/s\n", c.youngs_modulus,
-                          c.poissons_ratio, c.anisotropy, c.longitudinal_speed, c.transverse_speed);
+            continue;
+        }
+        if (strain) read_in_plane_strain(&c);
+        (void)fprintf(out, "E %.6g Pa, nu %.5g%s, anisotropy %.4f, waves %.5g and %.5g m/s\n", c.youngs_modulus,
+                      c.poissons_ratio, strain ? " in plane strain" : "", c.anisotropy, c.longitudinal_speed,
+                      c.transverse_speed);
     }
     if (n_bodies > most_listed)
         (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
@@ -265,7 +280,7 @@ static void print_frequency(FILE *out, const dem_model *model)
                       dem_model_omega_max(model) / omega);
 }
 
-static void print_measured(FILE *out, const dem_model *model)
+static void print_measured(FILE *out, const deck *d, const dem_model *model)
 {
     const double start = wall_clock();
     const dem_index n = dem_model_sizes(model).n_nodes;
@@ -273,7 +288,7 @@ static void print_measured(FILE *out, const dem_model *model)
         (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
         return;
     }
-    print_constants(out, model);
+    print_constants(out, d, model);
     print_frequency(out, model);
     if (wall_clock() - start > 1.0)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
@@ -381,7 +396,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
     pace_print(out, d->t_end, simulation);
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
-    print_measured(out, model);
+    print_measured(out, d, model);
     print_estimates(out, d, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);
@@ -390,6 +405,7 @@ void report_header(FILE *out, const deck *d, const dem_simulation *simulation, c
 void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
     *r = (report){.out = out, .terminal = terminal, .t_end = d->t_end, .closure = d->closure, .area_min = 1.0};
+    r->settled = relaxation_settled(&d->options);
     r->most_stressed = d->most_stressed;
     r->strain_min.spring_min = r->strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
@@ -418,10 +434,10 @@ static void print_contact(const report *r, const dem_simulation *simulation)
 static void print_strain(const report *r)
 {
     if (r->strain_min.spring_min >= 0)
-        (void)fprintf(r->out, "strain     smallest %+.4f in spring %lld at %.4e s\n", r->strain_min.min,
+        (void)fprintf(r->out, "strain     smallest %+.4g in spring %lld at %.4e s\n", r->strain_min.min,
                       (long long)r->strain_min.spring_min, r->strain_min_t);
     if (r->strain_max.spring_max >= 0)
-        (void)fprintf(r->out, "strain     largest %+.4f in spring %lld at %.4e s\n", r->strain_max.max,
+        (void)fprintf(r->out, "strain     largest %+.4g in spring %lld at %.4e s\n", r->strain_max.max,
                       (long long)r->strain_max.spring_max, r->strain_max_t);
     if (r->area_min < 1.0)
         (void)fprintf(
@@ -444,7 +460,7 @@ static void print_node_peak(FILE *out, dem_index node, const dem_node_peak *peak
 static void print_spring_peak(FILE *out, dem_index spring, const dem_spring_peak *peak, const dem_lattice *l)
 {
     const double *a = l->x + 2 * l->ends[2 * spring], *b = l->x + 2 * l->ends[2 * spring + 1];
-    (void)fprintf(out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4f, force %+.4g N at %.4e s\n",
+    (void)fprintf(out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4g, force %+.4g N at %.4e s\n",
                   (long long)spring, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), peak->strain,
                   l->stiffness[spring] * peak->strain, peak->t);
 }

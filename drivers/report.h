@@ -14,6 +14,7 @@ typedef struct report {
     bool terminal;  /* progress is rewritten in place */
     double t_end;   /* s */
     double closure; /* from which on the ledger is warned of */
+    double settled; /* s, when the last ramp ends */
     bool warned, overlapped;
     double wall_start, wall_shown; /* s */
     double t_shown;                /* s */

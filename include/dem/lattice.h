@@ -161,12 +161,13 @@ DEM_API dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocit
 DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
 
 /** What each of some nodes has of the boundary edges between them, half of each edge: by its length in the rest shape,
- *  or, along a unit `direction` [2], by the length of its projection on that. For tractions: dem_boundary's share.
- *  \param nodes        [n] distinct
- *  \param direction    may be NULL
- *  \param[out] length  [n] m, sum over the nodes: length of the edges */
+ *  or, along a unit `direction` [2], by the length of its projection on that, times the thickness of its triangle. For
+ *  tractions: dem_boundary's share.
+ *  \param nodes      [n] distinct
+ *  \param direction  may be NULL
+ *  \param[out] area  [n] m^2, sum over the nodes: area of the edges */
 DEM_API dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
-                                           const double *direction, double *length);
+                                           const double *direction, double *area);
 
 /** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
 DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);

@@ -225,6 +225,8 @@ DECKS = [
      ["27:11 &boundary chooses no node of body 1: places are in the body's own coordinates"]),
     ("boundary of a node too far", BASE + "&boundary where = 'list', nodes = 3, 999 /\n",
      ["27:27 'nodes' in &boundary has node 999; the body has nodes 0 to 31"]),
+    ("two motions of a corner", BASE + "&boundary where = 'side', side = 'left' /\n&boundary where = 'side', side = 'bottom', components = 'y' /\n",
+     ["28:1 &boundary prescribes the motion of node 0 at (-0.02, 0.001) m, as the one in line 27 does"]),
     ("boundary of a node twice", BASE + "&boundary where = 'list', nodes = 3, 3 /\n",
      ["27:27 'nodes' in &boundary has node 3 twice"]),
     ("traction on a node", BASE + "&boundary where = 'box', box = -0.001, -0.001, 0.001, 0.001, kind = 'traction', "

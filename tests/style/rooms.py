@@ -12,7 +12,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 LAYERS = [
     {"vec2", "status", "random", "commit"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file",
-     "scan", "namelist", "placement", "pace", "pores", "profile", "file", "words", "image", "outline"},
+     "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "file", "words", "image", "outline"},
     {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts",
      "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
     {"model", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file", "schema_table",
@@ -23,7 +23,7 @@ LAYERS = [
     {"sites", "search", "body"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
-    {"simulation", "output", "relaxation", "report"},
+    {"simulation", "output", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.

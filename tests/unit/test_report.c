@@ -670,6 +670,66 @@ static void an_open_ledger_is_warned_of_once(void **state)
     }
 }
 
+/* While a force grows the first steps may miss all of the little energy there is: that is told only if it lasts. */
+static void a_ledger_is_not_judged_while_a_ramp_grows(void **state)
+{
+    (void)state;
+    static const dem_index node[] = {0};
+    const dem_boundary push = {
+        .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {1.0, 0.0}, .ramp = 0.2};
+    const double x[2] = {0.0, 0.0};
+    for (int after = 0; after < 2; after++) {
+        const double t_end = after ? 0.3 : 0.1;
+        dem_options options = dem_options_default();
+        dem_lattice lattice;
+        logged *l = calloc(1, sizeof *l);
+        assert_non_null(l);
+        options.n_boundaries = 1, options.boundaries = &push;
+        options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0;
+        support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+        support_open(&l->run, &lattice, NULL, 0, &options);
+        dem_lattice_free(&lattice);
+        follow(l, false, t_end);
+        const deck d = {.t_end = t_end, .closure = 1e-300, .options = options}; /* rounding is enough */
+        report_start(&l->report, l->file, false, &d);
+        finish(l, t_end);
+        assert_int_equal(strstr(l->text, "warning ") != NULL, after);
+        if (after) assert_true(number_in(l->text, "warning", "at") >= push.ramp);
+        drop_logged(l);
+    }
+}
+
+/* E and nu of the deck, though the model is the plate of E/(1 - nu^2) and nu/(1 - nu); the speeds are of space. */
+static void constants_in_plane_strain_are_read_in_plane_strain(void **state)
+{
+    (void)state;
+    const double modulus = 1e7, nu = 0.45, density = 1000.0, shear = 0.5 * modulus / (1.0 + nu);
+    const dem_material solid = {.youngs_modulus = modulus,
+                                .poissons_ratio = nu,
+                                .density = density,
+                                .thickness = 1.0,
+                                .plane = DEM_PLANE_STRAIN};
+    char name[] = "a.nml", title[] = "";
+    body_facts facts = {.plane_strain = true};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &facts, .n_bodies = 1};
+    const dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
+    assert_ok(dem_lattice_assemble(&lattice, &solid));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, d.t_end);
+    report_header(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa, nu 0.45 in plane strain, anisotropy 1.0000,"));
+    assert_close(number_in(l->text, "constants", "waves"), sqrt(shear / density * (1.0 - nu) / (0.5 - nu)), 1e-2);
+    assert_close(number_in(l->text, "constants", "and"), sqrt(shear / density), 1e-2);
+    drop_logged(l);
+}
+
 static void the_header_tells_the_damping_of_springs(void **state)
 {
     (void)state;
@@ -793,6 +853,8 @@ int main(void)
         cmocka_unit_test(the_header_tells_friction_and_damping),
         cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
         cmocka_unit_test(an_open_ledger_is_warned_of_once),
+        cmocka_unit_test(a_ledger_is_not_judged_while_a_ramp_grows),
+        cmocka_unit_test(constants_in_plane_strain_are_read_in_plane_strain),
         cmocka_unit_test(the_header_tells_the_damping_of_springs),
         cmocka_unit_test(of_many_bodies_and_boundaries_only_the_first_are_listed),
         cmocka_unit_test(counts_are_those_of_the_simulation),
