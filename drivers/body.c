@@ -185,6 +185,7 @@ static dem_status assemble(builder *b)
     dem_status status = materials != NULL && of != NULL ? DEM_OK : DEM_ERROR_MEMORY;
     if (status == DEM_OK) {
         form_materials(materials, groups, b->number - 1);
+        b->facts.plane = materials[0].plane;
         status = form_mark(of, &b->lattice, groups, b->number - 1, b->errors);
     }
     for (size_t k = 0; status == DEM_OK && k < n; k++) status = check_scales(b, &materials[k]);
