@@ -229,7 +229,10 @@ static const char reversed[] = "or reverse the obstacle's points: bodies live on
 static dem_status clear(builder *b, const dem_model *model)
 {
     double shift[2];
-    if (!clearance_shift(shift, model, b->scene->gravity, schema_real(b->body, "clearance"))) {
+    bool reached;
+    if (!clearance_shift(shift, &reached, model, b->scene->gravity, schema_real(b->body, "clearance")))
+        return DEM_ERROR_MEMORY;
+    if (!reached) {
         namelist_errors_add(
             b->errors, place_of(b->body, "clearance"),
             "'clearance' in &body cannot be reached: along gravity there is no obstacle below body %zu; "
@@ -326,7 +329,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
     if (spike->depth > skin)
         namelist_errors_add(errors, place,
                             "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
-                            "its nodes, deeper than the skin of %g m; 'position' or a larger 'clearance' can put it "
+                            "its nodes, deeper than the skin of %g m; 'position' or 'clearance' can put it "
                             "in front",
                             k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0],
                             spike->x[1], spike->depth, skin);
