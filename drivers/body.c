@@ -185,13 +185,10 @@ static dem_status assemble(builder *b)
     dem_status status = materials != NULL && of != NULL ? DEM_OK : DEM_ERROR_MEMORY;
     if (status == DEM_OK) {
         form_materials(materials, groups, b->number - 1);
+        b->facts.plane = materials[0].plane;
         status = form_mark(of, &b->lattice, groups, b->number - 1, b->errors);
     }
-    b->facts.plane_strain = status == DEM_OK;
-    for (size_t k = 0; status == DEM_OK && k < n; k++) {
-        b->facts.plane_strain = b->facts.plane_strain && materials[k].plane == DEM_PLANE_STRAIN;
-        status = check_scales(b, &materials[k]);
-    }
+    for (size_t k = 0; status == DEM_OK && k < n; k++) status = check_scales(b, &materials[k]);
     if (status == DEM_OK)
         status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
                         form_has_squares(b->body) ? "diagonal" : "material");
@@ -232,7 +229,10 @@ static const char reversed[] = "or reverse the obstacle's points: bodies live on
 static dem_status clear(builder *b, const dem_model *model)
 {
     double shift[2];
-    if (!clearance_shift(shift, model, b->scene->gravity, schema_real(b->body, "clearance"))) {
+    bool reached;
+    if (!clearance_shift(shift, &reached, model, b->scene->gravity, schema_real(b->body, "clearance")))
+        return DEM_ERROR_MEMORY;
+    if (!reached) {
         namelist_errors_add(
             b->errors, place_of(b->body, "clearance"),
             "'clearance' in &body cannot be reached: along gravity there is no obstacle below body %zu; "
@@ -329,7 +329,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
     if (spike->depth > skin)
         namelist_errors_add(errors, place,
                             "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
-                            "its nodes, deeper than the skin of %g m; 'position' or a larger 'clearance' can put it "
+                            "its nodes, deeper than the skin of %g m; 'position' or 'clearance' can put it "
                             "in front",
                             k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0],
                             spike->x[1], spike->depth, skin);

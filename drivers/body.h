@@ -37,9 +37,9 @@ typedef struct body_start {
 /* What is to be told of a body. */
 typedef struct body_facts {
     double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
+    dem_plane plane;        /* of its material; stress where it has none */
     form form;
     dem_index n_included; /* triangles of its inclusions */
-    bool plane_strain;    /* all of its materials are in plane strain */
     parts_loose loose;    /* apart from its largest part */
     bool removed;         /* they have been */
     parts_hinges hinges;

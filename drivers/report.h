@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The log of a run: what is about to run, a progress line, and what came out. */
+/* The log of a run from its start on: a progress line, and what came out. */
 #ifndef DEM_REPORT_H
 #define DEM_REPORT_H
 
@@ -36,17 +36,11 @@ typedef struct report {
 /** Starts the log of a run. */
 void report_start(report *r, FILE *out, bool terminal, const deck *d);
 
-/** Versions, sizes, rules of contact, scales, estimates. `output`: the file that will be written, NULL: none. */
-void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);
-
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
 /** First and last contact, rebound, strains, what was stressed most, energy ledger and its closure, obstacles,
  *  counts, wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
-
-/** The versions of program, compiler and libraries in one line. */
-void report_versions(char *text, size_t size);
 
 #endif

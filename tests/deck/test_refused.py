@@ -663,10 +663,10 @@ DECKS = [
     ("body deeper than the skin given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact skin = 1e-4 /\n",
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 0.0001 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> clearance = 1e-4") +
+    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> position = 0, 1e-4") +
      "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n",
      ["11:1 body 1 starts with point 2 of obstacle 2, at (0.002, 0.004) m, 0.0039 m inside it between its nodes, "
-      "deeper than the skin of 1e-08 m; 'position' or a larger 'clearance' can put it in front"]),
+      "deeper than the skin of 1e-08 m; 'position' or 'clearance' can put it in front"]),
     ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
      ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the skin of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),

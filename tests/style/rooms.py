@@ -10,7 +10,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "random", "commit"},
+    {"vec2", "status", "random", "commit", "wall"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "hdf5_file",
      "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "file", "words", "image", "outline"},
     {"motion", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "schema", "parts",
@@ -23,7 +23,7 @@ LAYERS = [
     {"sites", "search", "body"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
-    {"simulation", "output", "report"},
+    {"simulation", "output", "preview", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
@@ -31,7 +31,8 @@ BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice"
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
-    (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
+    (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c",
+                          "drivers/preview.c"}),
     (r"#include [<\"]cairo", {"drivers/png.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
