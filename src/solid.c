@@ -226,9 +226,13 @@ static dem_status sort_shares(draft *d)
         sorted[p] = current;
     }
     free(row);
+    if (complete) {
+        free(d->shares);
+        d->shares = sorted;
+    } else {
+        free(sorted);
+    }
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)m / 2);
-    free(d->shares);
-    d->shares = sorted;
     return DEM_OK;
 }
 
