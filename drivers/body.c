@@ -10,7 +10,7 @@
 
 #include <dem/trajectory.h>
 
-enum { MATERIALS_LISTED = 5 };
+#include "material.h"
 
 static const double degree = 0.017453292519943295769; /* pi/180 */
 static const double lost = 1e-6; /* of the spacing: the skin, which rounding of coordinates must not hide */
@@ -35,76 +35,7 @@ static bool has_shape(const schema_instance *group, const char *name)
     return strcmp(schema_text(group, "shape"), name) == 0;
 }
 
-/* ---- checks: materials ---- */
-
-static const schema_instance *find_material(const schema_deck *groups, const char *name)
-{
-    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
-        const schema_instance *material = schema_get(groups, "material", k);
-        if (strcmp(schema_text(material, "name"), name) == 0) return material;
-    }
-    return NULL;
-}
-
-/* Writes " (did you mean 'x'?)" or what names there are. */
-static void hint_material(char *out, size_t size, const schema_deck *groups, const char *name)
-{
-    const char *names[64];
-    size_t n = 0, nearest, length = 0;
-    const size_t count = schema_count(groups, "material");
-    for (; n < count && n < sizeof names / sizeof *names; n++)
-        names[n] = schema_text(schema_get(groups, "material", n), "name");
-    if (schema_nearest(name, names, n, &nearest)) {
-        (void)snprintf(out, size, " (did you mean '%s'?)", names[nearest]);
-        return;
-    }
-    for (size_t k = 0; k < n && k < MATERIALS_LISTED; k++)
-        length += (size_t)snprintf(out + length, size - length, "%s'%.40s'", k == 0 ? "; known: " : ", ", names[k]);
-    if (count > MATERIALS_LISTED) (void)snprintf(out + length, size - length, ", ...");
-}
-
-static bool is_in_plane_strain(const schema_instance *material)
-{
-    return strcmp(schema_text(material, "plane"), "strain") == 0;
-}
-
-static bool has_faulty_name(const schema_deck *groups)
-{
-    for (size_t k = 0; k < schema_count(groups, "material"); k++)
-        if (schema_value_of(schema_get(groups, "material", k), "name")->faulty) return true;
-    return false;
-}
-
-static void check_material(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
-{
-    const schema_value *value = schema_value_of(body, "material");
-    const char *name = schema_text(body, "material");
-    char hint[64 * (MATERIALS_LISTED + 1)];
-    if (has_shape(body, "file") || value->faulty || groups->misspelt || has_faulty_name(groups)) return;
-    const schema_instance *material = find_material(groups, name);
-    if (material != NULL && is_given(material, "bond_stiffness") && is_given(body, "diagonal"))
-        namelist_errors_add(errors, place_of(body, "diagonal"),
-                            "'diagonal' in &body is not used with the 'bond_stiffness' of its material");
-    if (schema_count(groups, "material") == 0 || material != NULL) return;
-    hint_material(hint, sizeof hint, groups, name);
-    namelist_errors_add(errors, value->place, "there is no material '%.40s'%s%s", name,
-                        value->given ? "" : ", the default of 'material' in &body", hint);
-}
-
-/* E or E_ij; with that no nu, and no other ratio of the stiffnesses of squares. */
-static void check_stiffness(const schema_instance *material, namelist_errors *errors)
-{
-    static const char *const unused[] = {"youngs_modulus", "poissons_ratio", "plane"};
-    const bool faulty =
-        schema_value_of(material, "youngs_modulus")->faulty || schema_value_of(material, "bond_stiffness")->faulty;
-    const bool bond = is_given(material, "bond_stiffness");
-    if (!bond && !is_given(material, "youngs_modulus") && !faulty)
-        namelist_errors_add(errors, material->place, "'youngs_modulus' or 'bond_stiffness' in &material must be given");
-    for (size_t k = 0; bond && k < sizeof unused / sizeof *unused; k++)
-        if (is_given(material, unused[k]))
-            namelist_errors_add(errors, place_of(material, unused[k]),
-                                "'%s' in &material does not go with 'bond_stiffness'", unused[k]);
-}
+/* ---- checks ---- */
 
 /* Only lattice files come with springs and masses of their own. */
 static void check_materials(const schema_deck *groups, namelist_errors *errors)
@@ -113,37 +44,26 @@ static void check_materials(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
         needed = needed || (schema_text(body, "shape")[0] != '\0' && !has_shape(body, "file"));
+        if (!has_shape(body, "file")) material_check_user(groups, body, errors);
     }
+    for (size_t k = 0; k < schema_count(groups, "inclusion"); k++)
+        material_check_user(groups, schema_get(groups, "inclusion", k), errors);
     if (needed && schema_count(groups, "material") == 0 && !groups->misspelt)
         namelist_errors_add(errors, (namelist_place){1, 1}, "&material must be given");
-    for (size_t k = 0; k < schema_count(groups, "material"); k++)
-        check_stiffness(schema_get(groups, "material", k), errors);
 }
 
-static void check_names(const schema_deck *groups, namelist_errors *errors)
+static bool has_equal_springs(const schema_deck *groups, const schema_instance *body)
 {
-    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
-        const schema_instance *material = schema_get(groups, "material", k);
-        const schema_instance *first = find_material(groups, schema_text(material, "name"));
-        if (first != material && !has_faulty_name(groups))
-            namelist_errors_add(errors, place_of(material, "name"), "material '%.40s' is given twice, first in line %d",
-                                schema_text(material, "name"), first->place.line);
-    }
+    const schema_instance *material = material_find(groups, schema_text(body, "material"));
+    return material != NULL && is_given(material, "bond_stiffness");
 }
 
-/* The table's range is that of plane stress. */
-static void check_ratios(const schema_deck *groups, namelist_errors *errors)
+static void check_diagonal(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
 {
-    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
-        const schema_instance *material = schema_get(groups, "material", k);
-        const double ratio = schema_real(material, "poissons_ratio");
-        if (is_in_plane_strain(material) && ratio >= 0.5)
-            namelist_errors_add(errors, place_of(material, "poissons_ratio"),
-                                "'poissons_ratio' in &material must be < 0.5 in plane strain, got %g", ratio);
-    }
+    if (is_given(body, "diagonal") && has_equal_springs(groups, body))
+        namelist_errors_add(errors, place_of(body, "diagonal"),
+                            "'diagonal' in &body is not used with the 'bond_stiffness' of its material");
 }
-
-/* ---- checks: references ---- */
 
 static void check_clearance(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
 {
@@ -247,28 +167,45 @@ static dem_status settle_parts(builder *b)
 
 /* ---- shape, material ---- */
 
-static dem_status make_mesh(builder *b)
+/* Of squares; 0 for triangles. Equal springs know of none. */
+static double diagonal_of(const schema_instance *body)
+{
+    if (!form_has_squares(body)) return 0.0;
+    const double *diagonal = reals_of(body, "diagonal");
+    return diagonal != NULL ? diagonal[0] : 0.5;
+}
+
+/* The body's material and those of its inclusions, [1 + n]. */
+static dem_status assemble(builder *b)
 {
     const schema_deck *groups = b->scene->groups;
-    const schema_instance *m = find_material(groups, schema_text(b->body, "material"));
-    const dem_material material = {.youngs_modulus = schema_real(m, "youngs_modulus"),
-                                   .bond_stiffness = schema_real(m, "bond_stiffness"),
-                                   .poissons_ratio = schema_real(m, "poissons_ratio"),
-                                   .plane = is_in_plane_strain(m) ? DEM_PLANE_STRAIN : DEM_PLANE_STRESS,
-                                   .density = schema_real(m, "density"),
-                                   .thickness = schema_real(m, "thickness"),
-                                   .guard = schema_real(m, "guard"),
-                                   .damping_time = schema_real(m, "damping_time")};
+    const size_t n = b->facts.form.n_inclusions + 1;
+    dem_material *materials = calloc(n, sizeof *materials);
+    dem_index *of = calloc((size_t)b->lattice.n_triangles, sizeof *of);
+    dem_status status = materials != NULL && of != NULL ? DEM_OK : DEM_ERROR_MEMORY;
+    if (status == DEM_OK) {
+        form_materials(materials, groups, b->number - 1);
+        b->facts.plane = materials[0].plane;
+        status = form_mark(of, &b->lattice, groups, b->number - 1, b->errors);
+    }
+    for (size_t k = 0; status == DEM_OK && k < n; k++) status = check_scales(b, &materials[k]);
+    if (status == DEM_OK)
+        status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
+                        form_has_squares(b->body) ? "diagonal" : "material");
+    for (dem_index t = 0; status == DEM_OK && t < b->lattice.n_triangles; t++) b->facts.n_included += of[t] > 0;
+    free(materials);
+    free(of);
+    return status;
+}
+
+static dem_status make_mesh(builder *b)
+{
     const body_scene *scene = b->scene;
-    dem_status status = form_triangulate(&b->lattice, &b->facts.form, groups, b->number - 1, scene->folder, b->errors);
-    if (status == DEM_OK) status = check_scales(b, &material);
+    dem_status status =
+        form_triangulate(&b->lattice, &b->facts.form, scene->groups, b->number - 1, scene->folder, b->errors);
     if (status == DEM_OK) status = settle_parts(b);
-    if (status == DEM_OK && form_has_squares(b->body))
-        status = report(b, dem_lattice_assemble_squares(&b->lattice, &material, schema_real(b->body, "diagonal")),
-                        "diagonal");
-    else if (status == DEM_OK)
-        status = report(b, dem_lattice_assemble(&b->lattice, &material), "shape");
-    b->facts.true_mass = material.density * material.thickness * b->facts.form.area;
+    if (status == DEM_OK) status = assemble(b);
+    b->facts.true_mass = b->facts.form.mass;
     return status;
 }
 
@@ -292,7 +229,10 @@ static const char reversed[] = "or reverse the obstacle's points: bodies live on
 static dem_status clear(builder *b, const dem_model *model)
 {
     double shift[2];
-    if (!clearance_shift(shift, model, b->scene->gravity, schema_real(b->body, "clearance"))) {
+    bool reached;
+    if (!clearance_shift(shift, &reached, model, b->scene->gravity, schema_real(b->body, "clearance")))
+        return DEM_ERROR_MEMORY;
+    if (!reached) {
         namelist_errors_add(
             b->errors, place_of(b->body, "clearance"),
             "'clearance' in &body cannot be reached: along gravity there is no obstacle below body %zu; "
@@ -389,7 +329,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
     if (spike->depth > skin)
         namelist_errors_add(errors, place,
                             "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
-                            "its nodes, deeper than the skin of %g m; 'position' or a larger 'clearance' can put it "
+                            "its nodes, deeper than the skin of %g m; 'position' or 'clearance' can put it "
                             "in front",
                             k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0],
                             spike->x[1], spike->depth, skin);
@@ -399,28 +339,21 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
 void body_drop_unused(schema_deck *groups)
 {
     form_drop_unused(groups);
+    material_drop_unused(groups);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
-        const bool material = strcmp(group->group->name, "material") == 0;
-        if (material && is_given(group, "bond_stiffness")) {
-            schema_drop(group, "poissons_ratio");
-            schema_drop(group, "plane");
-        }
-        if (strcmp(group->group->name, "body") != 0) continue;
-        const schema_instance *own = find_material(groups, schema_text(group, "material"));
-        if (own != NULL && is_given(own, "bond_stiffness")) schema_drop(group, "diagonal");
+        if (strcmp(group->group->name, "body") == 0 && has_equal_springs(groups, group)) schema_drop(group, "diagonal");
     }
 }
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
     form_check_all(groups, errors);
-    check_names(groups, errors);
-    check_ratios(groups, errors);
+    material_check_all(groups, errors);
     check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
-        check_material(groups, body, errors);
+        check_diagonal(groups, body, errors);
         check_clearance(groups, body, errors);
     }
 }

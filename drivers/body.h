@@ -37,9 +37,11 @@ typedef struct body_start {
 /* What is to be told of a body. */
 typedef struct body_facts {
     double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
+    dem_plane plane;        /* of its material; stress where it has none */
     form form;
-    parts_loose loose; /* apart from its largest part */
-    bool removed;      /* they have been */
+    dem_index n_included; /* triangles of its inclusions */
+    parts_loose loose;    /* apart from its largest part */
+    bool removed;         /* they have been */
     parts_hinges hinges;
 } body_facts;
 

@@ -1,33 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The way back is found by steps that the gap allows: it changes no faster than the body moves, so nothing is jumped
- * over. The way on is exact: each node runs along a straight line into the segments, thickened by the clearance. */
+ * over. The way on is exact: each node runs along a straight line into the segments, thickened by the clearance, and
+ * each point of an obstacle, as the body sees it, into the sides between nodes. */
 #include "clearance.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-typedef struct path {
-    const dem_model *model;
-    double direction[2]; /* unit */
-    double clearance;
-} path;
+/* ---- points of obstacles and sides of the body ---- */
 
-static bool may_touch(const path *p, dem_index i)
-{
-    return (dem_model_lattice(p->model)->flags[i] & DEM_NODE_CONTACT) != 0;
-}
-
-static double least_gap(const path *p, double s)
-{
-    const dem_lattice *lattice = dem_model_lattice(p->model);
-    double least = (double)INFINITY;
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        const double *x = lattice->position + 2 * i;
-        const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
-        if (may_touch(p, i)) least = fmin(least, dem_model_gap(p->model, moved));
-    }
-    return least;
-}
+static const double no_box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
 
 static void include(double box[4], const double x[2])
 {
@@ -37,91 +20,6 @@ static void include(double box[4], const double x[2])
     }
 }
 
-/* Diagonal of the box around nodes and obstacles. */
-static double extent(const path *p)
-{
-    const dem_lattice *lattice = dem_model_lattice(p->model);
-    const double none = (double)INFINITY;
-    double box[4] = {none, none, -none, -none};
-    dem_index n_obstacles;
-    const dem_obstacle *list = dem_model_obstacles(p->model, &n_obstacles);
-    for (dem_index i = 0; i < lattice->n_nodes; i++) include(box, lattice->position + 2 * i);
-    for (dem_index k = 0; k < n_obstacles; k++)
-        for (dem_index i = 0; i < list[k].n_points; i++) include(box, list[k].points + 2 * i);
-    return hypot(box[2] - box[0], box[3] - box[1]);
-}
-
-/* The first s <= 0 that is free, a little beyond its bound. */
-static bool retreat(const path *p, double *s)
-{
-    const double diagonal = extent(p), least_step = 1e-5 * diagonal, end = -2.0 * diagonal - 2.0 * p->clearance;
-    double gap = least_gap(p, 0.0);
-    for (*s = 0.0; gap<p->clearance && * s> end; gap = least_gap(p, *s)) *s -= p->clearance - gap + least_step;
-    return gap >= p->clearance && isfinite(gap);
-}
-
-/* Way of a point at r, seen from a point, until it is at distance c from it; infinity if it never is. */
-static double way_to_point(const double r[2], const double d[2], double c)
-{
-    const double along = -(r[0] * d[0] + r[1] * d[1]), aside = r[0] * d[1] - r[1] * d[0];
-    const double left = c * c - aside * aside;
-    return left < 0.0 || along <= 0.0 ? (double)INFINITY : fmax(0.0, along - sqrt(left));
-}
-
-/* The same for the straight sides of the segment ab thickened by c. */
-static double way_to_sides(const double x[2], const double d[2], const double a[2], const double b[2], double c)
-{
-    const double length = hypot(b[0] - a[0], b[1] - a[1]), e[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
-    const double r[2] = {x[0] - a[0], x[1] - a[1]};
-    const double height = e[0] * r[1] - e[1] * r[0], fall = e[0] * d[1] - e[1] * d[0];
-    const double slack = 1e-12 * length; /* neither a vertex nor a node already at distance c is missed by rounding */
-    const double toward = height > 0.0 ? -fall : fall, speed = fabs(height) <= slack ? fabs(fall) : toward;
-    const double way = (fabs(height) - c) / speed;
-    if (speed <= 0.0 || way * speed < -slack) return (double)INFINITY;
-    const double place = (r[0] + way * d[0]) * e[0] + (r[1] + way * d[1]) * e[1];
-    return place >= -slack && place <= length + slack ? fmax(0.0, way) : (double)INFINITY;
-}
-
-static double way_to_obstacle(const path *p, const double x[2], const dem_obstacle *obstacle)
-{
-    double way = (double)INFINITY;
-    for (dem_index k = 0; k < obstacle->n_points; k++) {
-        const double *a = obstacle->points + 2 * k, r[2] = {x[0] - a[0], x[1] - a[1]};
-        way = fmin(way, way_to_point(r, p->direction, p->clearance));
-        if (k + 1 < obstacle->n_points) way = fmin(way, way_to_sides(x, p->direction, a, a + 2, p->clearance));
-    }
-    return way;
-}
-
-/* Way from the free place s until the first node is at the clearance. */
-static double advance(const path *p, double s)
-{
-    const dem_lattice *lattice = dem_model_lattice(p->model);
-    dem_index n_obstacles;
-    const dem_obstacle *list = dem_model_obstacles(p->model, &n_obstacles);
-    double way = (double)INFINITY;
-    for (dem_index i = 0; i < lattice->n_nodes; i++) {
-        const double *x = lattice->position + 2 * i;
-        const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
-        for (dem_index k = 0; may_touch(p, i) && k < n_obstacles; k++)
-            way = fmin(way, way_to_obstacle(p, moved, list + k));
-    }
-    return way;
-}
-
-bool clearance_shift(double shift[2], const dem_model *model, const double gravity[2], double clearance)
-{
-    const double g = hypot(gravity[0], gravity[1]);
-    const path p = {.model = model, .direction = {gravity[0] / g, gravity[1] / g}, .clearance = clearance};
-    double s;
-    if (!retreat(&p, &s)) return false;
-    const double way = advance(&p, s);
-    for (int c = 0; c < 2; c++) shift[c] = (s + way) * p.direction[c];
-    return isfinite(way);
-}
-
-/* ---- points of obstacles between nodes ---- */
-
 typedef struct candidate {
     clearance_spike spike;
     bool inside;
@@ -130,6 +28,19 @@ typedef struct candidate {
 typedef struct side {
     dem_index ends[2]; /* ascending */
 } side;
+
+typedef struct ground {
+    const dem_obstacle *list;
+    dem_index n;
+} ground;
+
+/* Sides of a body: those of one triangle only. */
+typedef struct rim {
+    const dem_lattice *lattice;
+    side *sides;
+    size_t n;
+    double box[4]; /* around all nodes: lowest, highest x and y */
+} rim;
 
 static int by_x(const void *a, const void *b)
 {
@@ -190,73 +101,238 @@ static double distance_to(const double x[2], const double a[2], const double b[2
     return hypot(r[0] - place * e[0], r[1] - place * e[1]);
 }
 
-/* The sides of one triangle only; NULL when memory runs out. */
-static side *find_sides(const dem_lattice *lattice, size_t *n)
+/* Returns false when memory runs out. */
+static bool find_rim(rim *out, const dem_lattice *lattice)
 {
     const size_t most = 3 * (size_t)lattice->n_triangles;
     side *list = calloc(most + 1, sizeof *list);
-    if (list == NULL) return NULL;
+    *out = (rim){.lattice = lattice, .sides = list};
+    if (list == NULL) return false;
+    memcpy(out->box, no_box, sizeof no_box);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) include(out->box, start_of(lattice, i));
     for (size_t k = 0; k < most; k++) {
         const dem_index a = lattice->triangles[k], b = lattice->triangles[k % 3 == 2 ? k - 2 : k + 1];
         list[k] = a < b ? (side){{a, b}} : (side){{b, a}};
     }
     qsort(list, most, sizeof *list, by_ends);
-    *n = 0;
     for (size_t k = 0, next; k < most; k = next) {
         for (next = k + 1; next < most && by_ends(&list[k], &list[next]) == 0;) next++;
-        if (next == k + 1) list[(*n)++] = list[k];
+        if (next == k + 1) list[out->n++] = list[k];
     }
-    return list;
+    return true;
 }
 
-/* The obstacles' points, sorted; NULL when memory runs out. */
-static candidate *list_points(const dem_obstacle *obstacles, dem_index n_obstacles, size_t *n)
+static double distance_to_rim(const rim *r, const double x[2])
+{
+    double least = (double)INFINITY;
+    for (size_t k = 0; k < r->n; k++)
+        least = fmin(least, distance_to(x, start_of(r->lattice, r->sides[k].ends[0]),
+                                        start_of(r->lattice, r->sides[k].ends[1])));
+    return least;
+}
+
+/* The obstacles' points as a body sees them that is moved by `shift`, sorted; NULL when memory runs out. */
+static candidate *list_points(const ground *g, const double shift[2], size_t *n)
 {
     *n = 0;
-    for (dem_index k = 0; k < n_obstacles; k++) *n += (size_t)obstacles[k].n_points;
+    for (dem_index k = 0; k < g->n; k++) *n += (size_t)g->list[k].n_points;
     candidate *list = calloc(*n + 1, sizeof *list), *at = list;
-    for (dem_index k = 0; list != NULL && k < n_obstacles; k++)
-        for (dem_index i = 0; i < obstacles[k].n_points; i++, at++) {
-            const double *x = obstacles[k].points + 2 * i;
-            at->spike = (clearance_spike){.obstacle = k, .point = i, .x = {x[0], x[1]}};
+    for (dem_index k = 0; list != NULL && k < g->n; k++)
+        for (dem_index i = 0; i < g->list[k].n_points; i++, at++) {
+            const double *x = g->list[k].points + 2 * i;
+            at->spike = (clearance_spike){.obstacle = k, .point = i, .x = {x[0] - shift[0], x[1] - shift[1]}};
         }
     if (list != NULL) qsort(list, *n, sizeof *list, by_x);
     return list;
 }
 
-static bool measure(clearance_spike *deepest, const dem_lattice *lattice, const candidate *list, size_t n)
+static void mark_all(candidate *points, size_t n, const dem_lattice *lattice)
 {
-    size_t n_sides = 0;
-    side *sides = NULL;
-    for (size_t k = 0; k < n; k++) {
-        double depth = (double)INFINITY;
-        if (!list[k].inside) continue;
-        if (sides == NULL && (sides = find_sides(lattice, &n_sides)) == NULL) return false;
-        for (size_t s = 0; s < n_sides && depth > deepest->depth; s++)
-            depth = fmin(depth, distance_to(list[k].spike.x, start_of(lattice, sides[s].ends[0]),
-                                            start_of(lattice, sides[s].ends[1])));
-        if (depth <= deepest->depth) continue;
-        *deepest = list[k].spike;
-        deepest->depth = depth;
-    }
-    free(sides);
-    return true;
-}
-
-bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, const dem_obstacle *list,
-                          dem_index n_obstacles)
-{
-    size_t n;
-    candidate *points = list_points(list, n_obstacles, &n);
-    *deepest = (clearance_spike){0};
-    if (points == NULL) return false;
     for (dem_index k = 0; k < lattice->n_triangles; k++) {
         const dem_index *corners = lattice->triangles + 3 * k;
         if (can_move(lattice, corners))
             mark(points, n, start_of(lattice, corners[0]), start_of(lattice, corners[1]),
                  start_of(lattice, corners[2]));
     }
-    const bool good = measure(deepest, lattice, points, n);
+}
+
+static bool is_near(const double box[4], const double x[2], double reach)
+{
+    return x[0] >= box[0] - reach && x[0] <= box[2] + reach && x[1] >= box[1] - reach && x[1] <= box[3] + reach;
+}
+
+/* The point deepest in the body moved by `shift`, or nearest to it: of negative depth, no less than -reach, where none
+ * is inside. deepest->x is where the unmoved body sees it. Returns false when memory runs out. */
+static bool find_deepest(clearance_spike *deepest, const rim *r, const ground *g, const double shift[2], double reach)
+{
+    size_t n;
+    candidate *points = list_points(g, shift, &n);
+    *deepest = (clearance_spike){.depth = -reach};
+    if (points == NULL) return false;
+    mark_all(points, n, r->lattice);
+    for (size_t k = 0; k < n; k++) {
+        const double *x = points[k].spike.x;
+        if (!points[k].inside && !is_near(r->box, x, reach)) continue;
+        const double distance = distance_to_rim(r, x), depth = points[k].inside ? distance : -distance;
+        if (depth <= deepest->depth) continue;
+        *deepest = points[k].spike;
+        deepest->depth = depth;
+    }
     free(points);
+    return true;
+}
+
+bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, const dem_obstacle *list,
+                          dem_index n_obstacles)
+{
+    const ground g = {list, n_obstacles};
+    rim r;
+    const bool good = find_rim(&r, lattice) && find_deepest(deepest, &r, &g, (const double[2]){0.0, 0.0}, 0.0);
+    free(r.sides);
+    return good;
+}
+
+/* ---- the way back ---- */
+
+typedef struct path {
+    const dem_model *model;
+    double direction[2]; /* unit */
+    double clearance;
+    rim rim;
+    ground ground;
+} path;
+
+static bool may_touch(const path *p, dem_index i)
+{
+    return (dem_model_lattice(p->model)->flags[i] & DEM_NODE_CONTACT) != 0;
+}
+
+static double least_gap(const path *p, double s)
+{
+    const dem_lattice *lattice = dem_model_lattice(p->model);
+    double least = (double)INFINITY;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        const double *x = lattice->position + 2 * i;
+        const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
+        if (may_touch(p, i)) least = fmin(least, dem_model_gap(p->model, moved));
+    }
+    return least;
+}
+
+/* Diagonal of the box around nodes and obstacles. */
+static double extent(const path *p)
+{
+    double box[4];
+    memcpy(box, p->rim.box, sizeof box);
+    for (dem_index k = 0; k < p->ground.n; k++)
+        for (dem_index i = 0; i < p->ground.list[k].n_points; i++) include(box, p->ground.list[k].points + 2 * i);
+    return hypot(box[2] - box[0], box[3] - box[1]);
+}
+
+/* Of nodes and of points, less than all of it only below the clearance. Returns false when memory runs out. */
+static bool find_gap(double *gap, const path *p, double s)
+{
+    const double shift[2] = {s * p->direction[0], s * p->direction[1]};
+    clearance_spike nearest;
+    if (!find_deepest(&nearest, &p->rim, &p->ground, shift, p->clearance)) return false;
+    *gap = least_gap(p, s);
+    if (nearest.depth > -p->clearance) *gap = fmin(*gap, -nearest.depth);
+    return true;
+}
+
+/* The first s <= 0 that is free, a little beyond its bound; *found: there is one. False when memory runs out. */
+static bool retreat(double *s, bool *found, const path *p)
+{
+    const double diagonal = extent(p), least_step = 1e-5 * diagonal, end = -2.0 * diagonal - 2.0 * p->clearance;
+    double gap;
+    bool good = find_gap(&gap, p, 0.0);
+    for (*s = 0.0; good && gap<p->clearance && * s> end; good = find_gap(&gap, p, *s))
+        *s -= p->clearance - gap + least_step;
+    *found = good && gap >= p->clearance && isfinite(gap);
+    return good;
+}
+
+/* ---- the way on ---- */
+
+/* Way of a point at r, seen from a point, until it is at distance c from it; infinity if it never is. */
+static double way_to_point(const double r[2], const double d[2], double c)
+{
+    const double along = -(r[0] * d[0] + r[1] * d[1]), aside = r[0] * d[1] - r[1] * d[0];
+    const double left = c * c - aside * aside;
+    return left < 0.0 || along <= 0.0 ? (double)INFINITY : fmax(0.0, along - sqrt(left));
+}
+
+/* The same for the straight sides of the segment ab thickened by c. */
+static double way_to_sides(const double x[2], const double d[2], const double a[2], const double b[2], double c)
+{
+    const double length = hypot(b[0] - a[0], b[1] - a[1]), e[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+    const double r[2] = {x[0] - a[0], x[1] - a[1]};
+    const double height = e[0] * r[1] - e[1] * r[0], fall = e[0] * d[1] - e[1] * d[0];
+    const double slack = 1e-12 * length; /* neither a vertex nor a node already at distance c is missed by rounding */
+    const double toward = height > 0.0 ? -fall : fall, speed = fabs(height) <= slack ? fabs(fall) : toward;
+    const double way = (fabs(height) - c) / speed;
+    if (speed <= 0.0 || way * speed < -slack) return (double)INFINITY;
+    const double place = (r[0] + way * d[0]) * e[0] + (r[1] + way * d[1]) * e[1];
+    return place >= -slack && place <= length + slack ? fmax(0.0, way) : (double)INFINITY;
+}
+
+static double way_to_obstacle(const path *p, const double x[2], const dem_obstacle *obstacle)
+{
+    double way = (double)INFINITY;
+    for (dem_index k = 0; k < obstacle->n_points; k++) {
+        const double *a = obstacle->points + 2 * k, r[2] = {x[0] - a[0], x[1] - a[1]};
+        way = fmin(way, way_to_point(r, p->direction, p->clearance));
+        if (k + 1 < obstacle->n_points) way = fmin(way, way_to_sides(x, p->direction, a, a + 2, p->clearance));
+    }
+    return way;
+}
+
+/* Way from the free place s until the first node is at the clearance. */
+static double advance_nodes(const path *p, double s)
+{
+    const dem_lattice *lattice = dem_model_lattice(p->model);
+    double way = (double)INFINITY;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        const double *x = lattice->position + 2 * i;
+        const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
+        for (dem_index k = 0; may_touch(p, i) && k < p->ground.n; k++)
+            way = fmin(way, way_to_obstacle(p, moved, p->ground.list + k));
+    }
+    return way;
+}
+
+/* The same until the first side is, of a point that comes towards the body. */
+static double advance_sides(const path *p, double s)
+{
+    const dem_lattice *lattice = dem_model_lattice(p->model);
+    const double back[2] = {-p->direction[0], -p->direction[1]};
+    double way = (double)INFINITY;
+    for (size_t k = 0; k < p->rim.n; k++) {
+        const dem_index i = p->rim.sides[k].ends[0], j = p->rim.sides[k].ends[1];
+        const double *a = lattice->position + 2 * i, *b = lattice->position + 2 * j;
+        if (!may_touch(p, i) || !may_touch(p, j)) continue;
+        for (dem_index o = 0; o < p->ground.n; o++)
+            for (dem_index q = 0; q < p->ground.list[o].n_points; q++) {
+                const double *x = p->ground.list[o].points + 2 * q;
+                const double seen[2] = {x[0] - s * p->direction[0], x[1] - s * p->direction[1]};
+                way = fmin(way, way_to_sides(seen, back, a, b, p->clearance));
+            }
+    }
+    return way;
+}
+
+bool clearance_shift(double shift[2], bool *reached, const dem_model *model, const double gravity[2], double clearance)
+{
+    const double g = hypot(gravity[0], gravity[1]);
+    path p = {.model = model, .direction = {gravity[0] / g, gravity[1] / g}, .clearance = clearance};
+    double s = 0.0;
+    p.ground.list = dem_model_obstacles(model, &p.ground.n);
+    const bool good = find_rim(&p.rim, dem_model_lattice(model)) && retreat(&s, reached, &p);
+    if (good && *reached) {
+        const double way = fmin(advance_nodes(&p, s), advance_sides(&p, s));
+        for (int c = 0; c < 2; c++) shift[c] = (s + way) * p.direction[c];
+        *reached = isfinite(way);
+    }
+    free(p.rim.sides);
     return good;
 }

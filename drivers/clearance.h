@@ -7,11 +7,12 @@
 
 #include <dem/dem.h>
 
-/* The shift along `gravity` (not 0) after which the smallest dem_model_gap() of the nodes that may touch, where their
- * motion starts, is `clearance`. A body nearer than that or inside an obstacle goes back to the first place free
- * of it; from there, or from where it is, it goes on until it is as near as that for the first time.
- * Returns false if no obstacle lies in its way. */
-bool clearance_shift(double shift[2], const dem_model *model, const double gravity[2], double clearance);
+/* The shift along `gravity` (not 0) after which the smallest gap between body and obstacles, where the motion starts,
+ * is `clearance`: of the nodes that may touch, by dem_model_gap(), and of the obstacles' points to the sides between
+ * two such nodes. A body nearer than that or inside an obstacle goes back to the first place free of it; from there, or
+ * from where it is, it goes on until it is as near as that for the first time. *reached is false if no obstacle lies in
+ * its way. Returns false when memory runs out. */
+bool clearance_shift(double shift[2], bool *reached, const dem_model *model, const double gravity[2], double clearance);
 
 /* A point of an obstacle in the material of a body. */
 typedef struct clearance_spike {

@@ -13,6 +13,7 @@
 
 #include "deck.h"
 #include "output.h"
+#include "preview.h"
 #include "relaxation.h"
 #include "report.h"
 #include "schema.h"
@@ -88,7 +89,7 @@ static dem_status write_provenance(dem_trajectory *trajectory, const deck *d, de
     char versions[256], problem[OUTPUT_HASH], hash[OUTPUT_HASH], start[32];
     const time_t now = time(NULL);
     struct tm utc;
-    report_versions(versions, sizeof versions);
+    preview_versions(versions, sizeof versions);
     output_print_hash(problem, d->hash);
     output_print_hash(hash, d->run_hash);
     (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
@@ -196,7 +197,7 @@ static int run(const deck *d, dem_simulation *simulation, const char *path)
         dismiss(&a);
         return complain(code_of(status), path);
     }
-    report_header(stdout, d, simulation, path);
+    preview_print(stdout, d, simulation, path);
     report_start(&a.log, stdout, isatty(STDOUT_FILENO) == 1, d);
     a.log.peaks = a.peaks;
     a.rest = relaxation_start(d->residual, &d->options);
@@ -245,7 +246,7 @@ static int build_and_run(const command *c, const deck *d)
     } else if (!ends(d, simulation)) {
         code = EXIT_INVALID;
     } else if (c->action == ACTION_CHECK) {
-        report_header(stdout, d, simulation, NULL);
+        preview_print(stdout, d, simulation, NULL);
         code = EXIT_DONE;
     } else {
         code = run_where_free(d, simulation, c->outdir);
@@ -365,7 +366,7 @@ static int act(const command *c)
         (void)fputs(usage, stdout);
         break;
     case ACTION_VERSION:
-        report_versions(versions, sizeof versions);
+        preview_versions(versions, sizeof versions);
         (void)puts(versions);
         break;
     case ACTION_RUN:

@@ -8,6 +8,7 @@
 
 #include "area.h"
 #include "crack.h"
+#include "material.h"
 #include "msh.h"
 #include "shape.h"
 #include "uses.h"
@@ -46,6 +47,7 @@ static const uses_key pores_keys[] = {{"mean", "lognormal, normal", true}, {"dev
 static const uses body_uses = {"body", "shape", COUNT(body_keys), body_keys};
 static const uses lattice_uses = {"body", "lattice", COUNT(lattice_keys), lattice_keys};
 static const uses void_uses = {"void", "shape", COUNT(void_keys), void_keys};
+static const uses inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
 static const uses pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
 
 void form_drop_unused(schema_deck *groups)
@@ -53,6 +55,7 @@ void form_drop_unused(schema_deck *groups)
     uses_drop(groups, &body_uses);
     uses_drop(groups, &lattice_uses);
     uses_drop(groups, &void_uses);
+    uses_drop(groups, &inclusion_uses);
     uses_drop(groups, &pores_uses);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
@@ -177,7 +180,8 @@ static void check_file(const schema_instance *body, namelist_errors *errors)
         namelist_errors_add(errors, schema_place(body, "file"), "'file' in &body must name %s, got ''", what);
 }
 
-/* The body that a group is for, from 1 in the deck; only cracks are for meshes, and nothing for lattice files. */
+/* The body that a group is for, from 1 in the deck; only cracks and inclusions are for meshes, and nothing for lattice
+ * files. */
 static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "body");
@@ -190,8 +194,9 @@ static void check_owner(const schema_deck *groups, const schema_instance *group,
         return;
     }
     const schema_instance *body = schema_get(groups, "body", (size_t)number - 1);
-    const bool crack = strcmp(group->group->name, "crack") == 0;
-    if (has_shape(body, "file") || (has_shape(body, "mesh") && !crack))
+    const char *name = group->group->name;
+    const bool of_mesh = strcmp(name, "crack") == 0 || strcmp(name, "inclusion") == 0;
+    if (has_shape(body, "file") || (has_shape(body, "mesh") && !of_mesh))
         namelist_errors_add(errors, place, "&%s is for body %.0f, which is of shape '%s'", group->group->name, number,
                             schema_text(body, "shape"));
 }
@@ -232,16 +237,23 @@ static void check_body(const schema_instance *body, namelist_errors *errors)
     check_file(body, errors);
 }
 
-void form_check_all(const schema_deck *groups, namelist_errors *errors)
+/* Voids or inclusions. */
+static void check_holes(const schema_deck *groups, const uses *table, namelist_errors *errors)
 {
-    for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
-    for (size_t k = 0; k < schema_count(groups, "void"); k++) {
-        const schema_instance *group = schema_get(groups, "void", k);
-        uses_check(group, &void_uses, errors);
+    for (size_t k = 0; k < schema_count(groups, table->group); k++) {
+        const schema_instance *group = schema_get(groups, table->group, k);
+        uses_check(group, table, errors);
         check_owner(groups, group, errors);
         check_ring(group, errors);
         (void)check_polygon(group, errors);
     }
+}
+
+void form_check_all(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
+    check_holes(groups, &void_uses, errors);
+    check_holes(groups, &inclusion_uses, errors);
     for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
         const schema_instance *group = schema_get(groups, "pores", k);
         uses_check(group, &pores_uses, errors);
@@ -274,7 +286,7 @@ static const schema_instance *own(const former *f, const char *name, size_t k)
     return (size_t)schema_real(group, "body") == f->number ? group : NULL;
 }
 
-/* Of a body or a void, about its own origin. False when memory runs out. */
+/* Of a body, a void or an inclusion, about its own origin. False when memory runs out. */
 static bool read_outline(outline *out, const schema_instance *group)
 {
     const double *size = schema_reals(group, "size");
@@ -289,21 +301,26 @@ static bool read_outline(outline *out, const schema_instance *group)
     return points != NULL;
 }
 
-static dem_status add_void(shape *s, const schema_instance *group)
+/* Of a void or an inclusion, in its place. False when memory runs out. */
+static bool read_hole(outline *hole, const schema_instance *group)
 {
     const double *centre = schema_reals(group, "centre"), angle = degree * schema_real(group, "angle");
     const double turn[2] = {cos(angle), sin(angle)};
-    outline hole;
-    bool good = read_outline(&hole, group);
-    if (hole.kind == OUTLINE_POLYGON || angle != 0.0) {
-        good = good && outline_place(&hole, turn, centre);
+    bool good = read_outline(hole, group);
+    if (hole->kind == OUTLINE_POLYGON || angle != 0.0) {
+        good = good && outline_place(hole, turn, centre);
     } else {
-        hole.centre[0] = centre[0];
-        hole.centre[1] = centre[1];
+        hole->centre[0] = centre[0];
+        hole->centre[1] = centre[1];
     }
-    if (good) return shape_add_void(s, &hole) ? DEM_OK : DEM_ERROR_MEMORY;
-    outline_free(&hole);
-    return DEM_ERROR_MEMORY;
+    if (!good) outline_free(hole);
+    return good;
+}
+
+static dem_status add_void(shape *s, const schema_instance *group)
+{
+    outline hole;
+    return read_hole(&hole, group) && shape_add_void(s, &hole) ? DEM_OK : DEM_ERROR_MEMORY;
 }
 
 static dem_status report_pores(const former *f, const schema_instance *group, const pores_recipe *recipe,
@@ -459,6 +476,106 @@ static dem_status read_mesh(former *f)
     return DEM_OK;
 }
 
+bool form_has_squares(const schema_instance *body)
+{
+    return schema_is(body, "lattice", "square");
+}
+
+/* ---- inclusions ---- */
+
+void form_materials(dem_material *out, const schema_deck *groups, size_t k)
+{
+    const former f = {.groups = groups, .number = k + 1};
+    size_t n = 1;
+    out[0] = material_of(groups, schema_get(groups, "body", k));
+    for (size_t i = 0; i < schema_count(groups, "inclusion"); i++)
+        if (own(&f, "inclusion", i) != NULL) out[n++] = material_of(groups, own(&f, "inclusion", i));
+}
+
+/* Gives the triangles in an outline a material, `step` of them at a time.  \return how many */
+static dem_index include(dem_index *of, const dem_lattice *lattice, const outline *o, dem_index material,
+                         dem_index step)
+{
+    dem_index n = 0;
+    for (dem_index t = 0; t < lattice->n_triangles; t += step) {
+        double centre[2] = {0.0, 0.0};
+        for (dem_index c = 0; c < 6 * step; c++)
+            centre[c % 2] += lattice->x[2 * lattice->triangles[3 * t + c / 2] + c % 2] / (double)(3 * step);
+        if (outline_distance(o, centre[0], centre[1]) > 0.0) continue;
+        for (dem_index i = t; i < t + step; i++) of[i] = material;
+        n += step;
+    }
+    return n;
+}
+
+dem_status form_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
+                     namelist_errors *errors)
+{
+    const former f = {.groups = groups, .body = schema_get(groups, "body", k), .number = k + 1};
+    dem_index material = 0;
+    for (dem_index t = 0; t < lattice->n_triangles; t++) of[t] = 0;
+    for (size_t i = 0; i < schema_count(groups, "inclusion"); i++) {
+        const schema_instance *group = own(&f, "inclusion", i);
+        outline o;
+        if (group == NULL) continue;
+        if (!read_hole(&o, group)) return DEM_ERROR_MEMORY;
+        const dem_index n = include(of, lattice, &o, ++material, form_has_squares(f.body) ? 2 : 1);
+        outline_free(&o);
+        if (n > 0) continue;
+        namelist_errors_add(errors, schema_place(group, "centre"),
+                            "inclusion has no triangle of body %zu: its centre is in the body's own coordinates",
+                            f.number);
+        return DEM_ERROR_MODEL;
+    }
+    return DEM_OK;
+}
+
+static double weight_of(const dem_material *m)
+{
+    return m->density * m->thickness;
+}
+
+/* The area of an inclusion is what is missing when it is a void; the last one goes before the others. */
+static dem_status weigh_shape(former *f, shape *s, const dem_material *materials)
+{
+    const double body = weight_of(&materials[0]);
+    double area = f->form.n_inclusions > 0 ? area_of(s) : 0.0;
+    size_t material = f->form.n_inclusions;
+    f->form.mass = body * f->form.area;
+    for (size_t i = schema_count(f->groups, "inclusion"); area >= 0.0 && i-- > 0;) {
+        if (own(f, "inclusion", i) == NULL) continue;
+        if (add_void(s, own(f, "inclusion", i)) != DEM_OK) return DEM_ERROR_MEMORY;
+        const double without = area_of(s);
+        if (without >= 0.0) f->form.mass += (weight_of(&materials[material--]) - body) * (area - without);
+        area = without;
+    }
+    return area < 0.0 ? DEM_ERROR_MEMORY : DEM_OK;
+}
+
+static dem_status weigh_mesh(former *f, const dem_material *materials)
+{
+    dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
+    if (of == NULL) return DEM_ERROR_MEMORY;
+    const dem_status status = form_mark(of, &f->lattice, f->groups, f->number - 1, f->errors);
+    for (dem_index t = 0; status == DEM_OK && t < f->lattice.n_triangles; t++)
+        f->form.mass += weight_of(&materials[of[t]]) * area_of_triangle(&f->lattice, t);
+    free(of);
+    return status;
+}
+
+/* The true mass; the shape is not to be used after that. */
+static dem_status weigh(former *f, shape *s)
+{
+    for (size_t i = 0; i < schema_count(f->groups, "inclusion"); i++)
+        f->form.n_inclusions += own(f, "inclusion", i) != NULL;
+    dem_material *materials = calloc(f->form.n_inclusions + 1, sizeof *materials);
+    if (materials == NULL) return DEM_ERROR_MEMORY;
+    form_materials(materials, f->groups, f->number - 1);
+    const dem_status status = has_shape(f->body, "mesh") ? weigh_mesh(f, materials) : weigh_shape(f, s, materials);
+    free(materials);
+    return status;
+}
+
 /* ---- cracks ---- */
 
 static dem_status mark_crack(const former *f, unsigned char *keep, const schema_instance *group, double shift)
@@ -471,11 +588,6 @@ static dem_status mark_crack(const former *f, unsigned char *keep, const schema_
                         "crack crosses no triangle of body %zu: its points are in the body's own coordinates",
                         f->number);
     return DEM_ERROR_MODEL;
-}
-
-bool form_has_squares(const schema_instance *body)
-{
-    return schema_is(body, "lattice", "square");
 }
 
 static bool has_cracks(const former *f)
@@ -513,7 +625,12 @@ static dem_status jitter(former *f)
 {
     const double share = schema_real(f->body, "jitter");
     if (share == 0.0) return DEM_OK;
-    return dem_lattice_jitter(&f->lattice, share * f->form.spacing, (uint64_t)schema_real(f->body, "seed"));
+    const dem_status status =
+        dem_lattice_jitter(&f->lattice, share * f->form.spacing, (uint64_t)schema_real(f->body, "seed"));
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(f->errors, schema_place(f->body, "jitter"), "body %zu: %s", f->number,
+                            dem_status_message());
+    return status;
 }
 
 char *form_file(const char *folder, const schema_instance *body)
@@ -539,6 +656,7 @@ dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *
         status = make_shape(&f, &s);
         if (status == DEM_OK) status = cut_lattice(&f, &s);
     }
+    if (status == DEM_OK) status = weigh(&f, &s);
     if (status == DEM_OK && has_cracks(&f)) status = crack(&f);
     if (status == DEM_OK) status = jitter(&f);
     if (status != DEM_OK) dem_lattice_free(&f.lattice);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the keys of &body, &void, &pores and &crack say of a body's form: from the groups to a triangulation. */
+/* What the keys of &body, &void, &pores, &crack and &inclusion say of a body's form: from the groups to a
+ * triangulation, and to the materials of its triangles. */
 #ifndef DEM_FORM_H
 #define DEM_FORM_H
 
@@ -9,10 +10,12 @@
 
 /* What came out beside the triangulation. */
 typedef struct form {
-    double spacing;      /* m, of its lattice; of a mesh the side of an equilateral triangle as large as its smallest */
-    double area;         /* m^2, true one of the shape, which the lattice's comes near to; cracks have none */
-    double pore_area;    /* m^2, of its random pores */
-    size_t n_pores;      /* random ones */
+    double spacing;   /* m, of its lattice; of a mesh the side of an equilateral triangle as large as its smallest */
+    double area;      /* m^2, true one of the shape, which the lattice's comes near to; cracks have none */
+    double pore_area; /* m^2, of its random pores */
+    double mass;      /* kg, of that area: by the material of the body, and of its inclusions where they are */
+    size_t n_pores;   /* random ones */
+    size_t n_inclusions;
     dem_index n_cracked; /* triangles that cracks took */
 } form;
 
@@ -29,6 +32,14 @@ dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *
 
 /* Whether a body's lattice is of squares: its triangles 2 k and 2 k + 1 are then a cell. */
 bool form_has_squares(const schema_instance *body);
+
+/* Materials of body k and of its inclusions, [1 + n_inclusions]. */
+void form_materials(dem_material *out, const schema_deck *groups, size_t k);
+
+/* Which of these each triangle of its lattice has: that of the last inclusion that its centre is in; whole cells of
+ * squares. An inclusion without a triangle is a fault.  \param[out] of  [n_triangles] */
+dem_status form_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
+                     namelist_errors *errors);
 
 /* Path of the file that a body is made from, malloc'ed; NULL when memory runs out. `folder` is that of the deck, with
  * its last '/', or "". */

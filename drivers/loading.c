@@ -174,21 +174,11 @@ static bool take_nodes(const target *t, dem_index *nodes, dem_index *n, namelist
 
 /* ---- what is done to them ---- */
 
-/* m; a body has one. */
-static double thickness_of(const target *t)
-{
-    const dem_lattice *l = t->lattice;
-    for (dem_index k = 0; k < l->n_triangles && l->thickness != NULL; k++)
-        if (l->triangles[3 * k] >= t->body->first && l->triangles[3 * k] < t->body->first + t->body->n_nodes)
-            return l->thickness[k];
-    return 1.0;
-}
-
 /* Shares of a traction, m^2: by the edges' lengths, of a side by what they have along it. */
 static bool share_traction(const target *t, const dem_boundary *b, double *share, namelist_errors *errors)
 {
     const double angle = t->body->angle, along[2] = {cos(angle), sin(angle)}, across[2] = {-sin(angle), cos(angle)};
-    const double *direction = NULL, thickness = thickness_of(t);
+    const double *direction = NULL;
     int axis = 0;
     double sense, sum = 0.0;
     if (is(t->group, "where", "side")) {
@@ -196,10 +186,7 @@ static bool share_traction(const target *t, const dem_boundary *b, double *share
         direction = axis == 1 ? along : across;
     }
     if (dem_lattice_edge_shares(t->lattice, b->nodes, b->n_nodes, direction, share) != DEM_OK) return false;
-    for (dem_index k = 0; k < b->n_nodes; k++) {
-        share[k] *= thickness;
-        sum += share[k];
-    }
+    for (dem_index k = 0; k < b->n_nodes; k++) sum += share[k];
     if (!(sum > 0.0))
         namelist_errors_add(errors, place_of(t->group, "where"),
                             "&boundary chooses no edge of body %.0f for its traction: both nodes of one must be chosen",
@@ -251,6 +238,38 @@ static double reach_of(const dem_lattice *lattice, const placement *body)
     return isfinite(shortest) ? 0.5 * shortest : 0.0;
 }
 
+/* The boundary, from 1, that a component of one of b's nodes has already, and that node; or 0, and b has them now. */
+static size_t take_components(const dem_boundary *b, size_t number, size_t *owner, dem_index *node)
+{
+    for (dem_index p = 0; p < b->n_nodes; p++)
+        for (int c = 0; c < 2; c++) {
+            size_t *const mine = &owner[2 * b->nodes[p] + c];
+            if (!(b->components & (DEM_COMPONENT_X << c))) continue;
+            *node = b->nodes[p];
+            if (*mine != 0) return *mine;
+            *mine = number;
+        }
+    return 0;
+}
+
+/* No component has two motions. */
+static bool check_motions(const dem_boundary *list, size_t n, const dem_lattice *lattice, const schema_deck *groups,
+                          namelist_errors *errors)
+{
+    size_t *owner = calloc(2 * (size_t)lattice->n_nodes + 1, sizeof *owner);
+    for (size_t k = 0; k < n && owner != NULL; k++) {
+        dem_index i = 0;
+        const size_t other = list[k].kind == DEM_BOUNDARY_FORCE ? 0 : take_components(&list[k], k + 1, owner, &i);
+        if (other == 0) continue;
+        namelist_errors_add(errors, schema_get(groups, "boundary", k)->place,
+                            "&boundary prescribes the motion of node %lld at (%g, %g) m, as the one in line %d does",
+                            (long long)i, lattice->x[2 * i], lattice->x[2 * i + 1],
+                            schema_get(groups, "boundary", other - 1)->place.line);
+    }
+    free(owner);
+    return owner != NULL;
+}
+
 bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const placement *bodies,
                    const schema_deck *groups, namelist_errors *errors)
 {
@@ -264,7 +283,7 @@ bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, cons
         const bool good = build_one(&(*list)[(*n)++], &t, lattice, errors);
         if (!good) return false;
     }
-    return *list != NULL;
+    return *list != NULL && check_motions(*list, count, lattice, groups, errors);
 }
 
 void loading_free(dem_boundary *list, dem_index n)

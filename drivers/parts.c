@@ -21,8 +21,8 @@ typedef struct members {
 
 static dem_index lowest_node(const members *m, dem_index i)
 {
-    const dem_index *corner = m->lattice->triangles + 3 * i;
     if (!m->triangles) return i;
+    const dem_index *corner = m->lattice->triangles + 3 * i;
     const dem_index lower = corner[0] < corner[1] ? corner[0] : corner[1];
     return lower < corner[2] ? lower : corner[2];
 }

@@ -19,18 +19,36 @@ static double extent_of(const dem_lattice *l)
     return hypot(high[0] - low[0], high[1] - low[1]);
 }
 
+/* How long waves take along the fastest spring over how long along the mean one, for the same way: sqrt(m/(E_ij d)). */
+static double share_of_fastest(const dem_lattice *l)
+{
+    double least = (double)INFINITY, sum = 0.0;
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const double mass = l->mass[l->ends[2 * k]] + l->mass[l->ends[2 * k + 1]];
+        const double slowness = sqrt(0.5 * mass / (l->stiffness[k] * l->rest_length[k]));
+        least = fmin(least, slowness);
+        sum += slowness;
+    }
+    return l->n_springs > 0 ? least * (double)l->n_springs / sum : 1.0;
+}
+
 double relaxation_damping(const dem_model *model)
 {
-    const double c = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model);
-    const double extent = extent_of(dem_model_lattice(model));
-    return extent > 0.0 ? pi * c / extent : 0.0;
+    const dem_lattice *l = dem_model_lattice(model);
+    const double fastest = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), extent = extent_of(l);
+    return extent > 0.0 ? pi * fastest * share_of_fastest(l) / extent : 0.0;
+}
+
+double relaxation_settled(const dem_options *options)
+{
+    double last = 0.0;
+    for (dem_index k = 0; k < options->n_boundaries; k++) last = fmax(last, options->boundaries[k].ramp);
+    return last;
 }
 
 relaxation relaxation_start(double residual, const dem_options *options)
 {
-    relaxation r = {.residual = residual, .reached = (double)INFINITY};
-    for (dem_index k = 0; k < options->n_boundaries; k++) r.settled = fmax(r.settled, options->boundaries[k].ramp);
-    return r;
+    return (relaxation){.residual = residual, .reached = (double)INFINITY, .settled = relaxation_settled(options)};
 }
 
 static dem_status look(void *context, const dem_simulation *simulation)
@@ -39,8 +57,9 @@ static dem_status look(void *context, const dem_simulation *simulation)
     dem_state state = {.struct_size = sizeof state};
     if (++r->steps < between_looks) return DEM_OK;
     dem_simulation_state(simulation, &state);
+    if (state.t < r->settled) return DEM_OK;
     const double residual = dem_simulation_residual(simulation);
-    if (state.t < r->settled || isinf(residual)) return DEM_OK;
+    if (isinf(residual)) return DEM_OK;
     r->steps = 0;
     r->reached = residual;
     r->t = state.t;

@@ -16,8 +16,12 @@ typedef struct relaxation {
 } relaxation;
 
 /* Damping of the masses, 1/s, that is critical for the slowest stretch of a body held at one end: twice
- * pi c/(2 L), L the extent of all nodes, c = omega_max spacing/2 the speed of sound of a chain. */
+ * pi c/(2 L), L the extent of all nodes; c = omega_max spacing/2, the speed of sound of a chain, in the fastest spring,
+ * slower in all as their mean slowness is. */
 double relaxation_damping(const dem_model *model);
+
+/* When the last ramp ends, s. */
+double relaxation_settled(const dem_options *options);
 
 /* A run that is to end at this residual. */
 relaxation relaxation_start(double residual, const dem_options *options);

@@ -3,25 +3,16 @@
 #include "report.h"
 
 #include <gsl/gsl_math.h> /* M_PI */
-#include <gsl/gsl_version.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <dem/trajectory.h>
 
-#include "commit.h"
+#include "relaxation.h"
+#include "wall.h"
 
-enum { most_listed = 16 };            /* obstacles, bodies */
-enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
-
-static double wall_clock(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+enum { most_listed = 16 }; /* obstacles, boundaries */
 
 /* Velocity of the centre of mass of all bodies against gravity, m/s: upwards. */
 static double rising_speed(const dem_simulation *simulation)
@@ -90,12 +81,16 @@ static double closure_of(const report *r, dem_energy e)
     return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
 }
 
-static void watch_ledger(report *r, const dem_state *state)
+/* While a load grows from nothing the largest energy so far is no measure yet: the first steps of a ramp may be off by
+ * all of the 1e-20 J that there are. */
+static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
-    if (r->warned || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
+    const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
+    if (r->warned || state->t < r->settled || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
     r->warned = true;
-    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a smaller 'rtol' closes it\n",
-                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t);
+    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
+                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t,
+                  fixed ? "shorter step" : "smaller 'rtol'");
 }
 
 static void watch_overlap(report *r, const dem_simulation *simulation)
@@ -133,8 +128,9 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     dem_simulation_state(simulation, &state);
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
+    pace_follow(&r->pace, simulation, &state);
     follow_contact(r, simulation, &state);
-    watch_ledger(r, &state);
+    watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;
@@ -142,284 +138,10 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 /* ---- before and after ---- */
 
-/* Of a simulation that exists, so that the method is known. */
-static dem_method_traits method_of(const dem_simulation *simulation)
-{
-    dem_method_traits traits = {0};
-    (void)dem_method_describe(&traits, dem_simulation_options(simulation).method);
-    return traits;
-}
-
-static bool has_friction(const dem_obstacle *o)
-{
-    return o->friction_law == DEM_FRICTION_PAPER ? o->friction < 1.0 : o->friction > 0.0;
-}
-
-static void print_friction(FILE *out, const dem_model *model)
-{
-    dem_index n = 0, n_rough = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
-    for (dem_index o = 0; o < n; o++) {
-        if (!has_friction(&obstacles[o]) || ++n_rough > most_listed) continue;
-        (void)fprintf(out, "friction   obstacle %lld: %g (%s)\n", (long long)o + 1, obstacles[o].friction,
-                      obstacles[o].friction_law == DEM_FRICTION_PAPER ? "paper" : "Coulomb");
-    }
-    if (n_rough > most_listed) (void)fprintf(out, "friction   on %lld obstacles in all\n", (long long)n_rough);
-}
-
-/* The longest damping time of the springs, s. */
-static double damping_time(const dem_lattice *lattice)
-{
-    double longest = 0.0;
-    for (dem_index k = 0; k < lattice->n_springs && lattice->viscosity != NULL; k++)
-        longest = fmax(longest, lattice->viscosity[k] / lattice->stiffness[k]);
-    return longest;
-}
-
-static void print_damping(FILE *out, double of_masses, double of_springs)
-{
-    if (of_masses > 0.0) (void)fprintf(out, "damping    of masses: %g 1/s\n", of_masses);
-    if (of_springs > 0.0) (void)fprintf(out, "damping    of springs: %g s\n", of_springs);
-}
-
-static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
-{
-    const dem_model_size size = dem_model_sizes(model);
-    (void)fprintf(out, "impacts    window %.4g s%s, vertices ", fmax(o->window, 0.0),
-                  o->window > 0.0 ? "" : " (each by itself)");
-    if (o->vertices)
-        (void)fprintf(out, "on: %lld may touch %lld edges\n", (long long)size.n_vertices,
-                      (long long)size.n_contact_edges);
-    else
-        (void)fprintf(out, "off\n");
-    print_friction(out, model);
-    print_damping(out, o->mass_damping, damping_time(dem_model_lattice(model)));
-}
-
-static void print_sizes(FILE *out, const dem_model *model)
-{
-    const dem_model_size size = dem_model_sizes(model);
-    (void)fprintf(out, "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg\n",
-                  (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
-                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model));
-    (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments\n",
-                  (long long)size.n_contact_nodes, (long long)size.n_obstacles, size.n_obstacles == 1 ? "" : "s",
-                  (long long)size.n_segments);
-}
-
-static double frame_bytes(const deck *d, const dem_model_size *size)
-{
-    static const struct {
-        uint32_t field;
-        double of_node, of_spring; /* numbers */
-    } fields[] = {{DEM_FIELD_DISPLACEMENT, 3.0, 0.0}, {DEM_FIELD_VELOCITY, 3.0, 0.0},  {DEM_FIELD_STRESS, 6.0, 0.0},
-                  {DEM_FIELD_VON_MISES, 1.0, 0.0},    {DEM_FIELD_PRINCIPAL, 2.0, 0.0}, {DEM_FIELD_STRAIN, 0.0, 1.0},
-                  {DEM_FIELD_FORCE, 0.0, 1.0}};
-    const double width = d->double_precision ? 8.0 : 4.0;
-    double of_node = 24.0, of_spring = 1.0;
-    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {
-        if ((d->fields & fields[k].field) == 0) continue;
-        of_node += width * fields[k].of_node;
-        of_spring += width * fields[k].of_spring;
-    }
-    return of_node * (double)size->n_nodes + of_spring * (double)size->n_springs;
-}
-
-/* What is probed, where at rest. */
-static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
-{
-    static const char *const kinds[] = {
-        [DEM_PROBE_NODE] = "node", [DEM_PROBE_SPRING] = "spring", [DEM_PROBE_GAUGE] = "gauge from node"};
-    for (dem_index k = 0; k < d->n_probes; k++) {
-        const dem_probe *p = &d->probes[k];
-        const dem_index a = p->kind == DEM_PROBE_SPRING ? l->ends[2 * p->number[0]] : p->number[0];
-        const dem_index b = p->kind == DEM_PROBE_SPRING  ? l->ends[2 * p->number[0] + 1]
-                            : p->kind == DEM_PROBE_GAUGE ? p->number[1]
-                                                         : a;
-        (void)fprintf(out, "probe      %s: %s %lld", p->name, kinds[p->kind], (long long)p->number[0]);
-        if (p->kind == DEM_PROBE_GAUGE) (void)fprintf(out, " to %lld", (long long)p->number[1]);
-        (void)fprintf(out, " at (%.6g, %.6g) m\n", 0.5 * (l->x[2 * a] + l->x[2 * b]),
-                      0.5 * (l->x[2 * a + 1] + l->x[2 * b + 1]));
-    }
-}
-
-/* As the library measures them, by loading the model. */
-static void print_constants(FILE *out, const dem_model *model)
-{
-    const dem_index n_bodies = dem_model_sizes(model).n_bodies;
-    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
-        dem_constants c;
-        (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
-        if (dem_model_constants(model, b, &c) != DEM_OK)
-            (void)fprintf(out, "not measured: %s\n", dem_status_message());
-        else
-            (void)fprintf(out, "E %.6g Pa, nu %.5g, anisotropy %.4f, waves %.5g and %.5g m/s\n", c.youngs_modulus,
-                          c.poissons_ratio, c.anisotropy, c.longitudinal_speed, c.transverse_speed);
-    }
-    if (n_bodies > most_listed)
-        (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
-}
-
-static void print_frequency(FILE *out, const dem_model *model)
-{
-    double omega;
-    if (dem_model_omega(model, &omega) != DEM_OK)
-        (void)fprintf(out, "frequency  not measured: %s\n", dem_status_message());
-    else if (omega > 0.0)
-        (void)fprintf(out, "frequency  highest %.6g rad/s, the bound is %.3f times that\n", omega,
-                      dem_model_omega_max(model) / omega);
-}
-
-static void print_measured(FILE *out, const dem_model *model)
-{
-    const double start = wall_clock();
-    const dem_index n = dem_model_sizes(model).n_nodes;
-    if (n > most_measured) {
-        (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
-        return;
-    }
-    print_constants(out, model);
-    print_frequency(out, model);
-    if (wall_clock() - start > 1.0)
-        (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
-}
-
-/* Numbered from 1, as decks are. */
-static void print_body(FILE *out, size_t number, const body_facts *b)
-{
-    char list[PARTS_LIST];
-    if (b->true_mass > 0.0)
-        (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
-                      b->true_mass, b->mass / b->true_mass);
-    if (b->form.n_pores > 0)
-        (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->form.n_pores,
-                      b->form.pore_area / (b->form.area + b->form.pore_area));
-    if (b->form.n_cracked > 0)
-        (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
-                      (long long)b->form.n_cracked);
-    parts_print(list, &b->loose, b->true_mass > 0.0 ? "triangle" : "node");
-    if (b->loose.n > 0)
-        (void)fprintf(out, "parts      body %zu: %lld %s, of %s m in its own coordinates\n", number,
-                      (long long)b->loose.n, b->removed ? "removed" : "apart from the largest", list);
-    if (b->hinges.n > 0)
-        (void)fprintf(out, "hinges     body %zu: %lld node%s between triangles that share no edge, one at (%g, %g) m\n",
-                      number, (long long)b->hinges.n, b->hinges.n == 1 ? "" : "s", b->hinges.x[0], b->hinges.x[1]);
-}
-
-static void print_bodies(FILE *out, const deck *d)
-{
-    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) print_body(out, k + 1, &d->bodies[k]);
-    if (d->n_bodies > most_listed)
-        (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
-}
-
-/* Tables grow by whole chunks. */
-static double table_bytes(double rows, double width)
-{
-    return 8.0 * width * 1024.0 * ceil(rows / 1024.0);
-}
-
-/* Of the history and the probes, in numbers a row. */
-static double tables_bytes(const deck *d, const dem_model_size *size, double steps)
-{
-    static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
-    const double bytes = table_bytes(steps, 35.0 + 5.0 * (double)size->n_bodies + 9.0 * (double)size->n_obstacles +
-                                                4.0 * (double)d->n_boundaries);
-    double of_probes = 0.0;
-    for (dem_index k = 0; k < d->n_probes; k++)
-        of_probes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
-    return bytes + of_probes;
-}
-
-static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
-{
-    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
-    const dem_options o = dem_simulation_options(simulation);
-    const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
-    const double state_bytes = (double)size.n_nodes * (4.0 * 8.0 * 24.0 + 300.0) + (double)size.n_springs * 2.0 * 44.0;
-    (void)fprintf(
-        out,
-        "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output, %.3g MB of memory\n",
-        steps, (int)method_of(simulation).evaluations, frames,
-        1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)), 1e-6 * state_bytes);
-}
-
-/* What the step is in units of the fastest oscillation, and what the method makes of that. */
-static void print_stability(FILE *out, const dem_method_traits *method, const dem_options *o, double omega)
-{
-    const double z = omega * o->max_step, growth = dem_method_growth(o->method, z) - 1.0;
-    const bool fixed = o->fixed_step > 0.0;
-    if (!(omega > 0.0)) return;
-    (void)fprintf(out, "stability  omega_max h = %.3g; ", z);
-    if (method->stable > 0.0)
-        (void)fprintf(out, "%s is stable up to %.3g, h = %.4g s", method->name, method->stable, method->stable / omega);
-    else
-        (void)fprintf(out, "with %s undamped oscillations grow at any step, here by %.1e a step", method->name,
-                      fmax(growth, 0.0));
-    (void)fprintf(out, "%s\n", fixed && z > method->usable ? "; WARNING: longer than that, the run may blow up" : "");
-}
-
-static void print_time(FILE *out, double t_end, const dem_simulation *simulation)
-{
-    const dem_options o = dem_simulation_options(simulation);
-    const dem_method_traits method = method_of(simulation);
-    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
-                  (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
-    print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
-    (void)fprintf(out, "kernel     %s, %d thread%s\n", dem_kernel_name(o.kernel), (int)o.threads,
-                  o.threads > 1 ? "s" : "");
-    (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing = %.3g at v_scale along x; it does not bound the step\n",
-                  o.v_scale * o.max_step / o.spacing);
-}
-
-static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
-{
-    static const char *const kinds[] = {[DEM_BOUNDARY_VELOCITY] = "velocity",
-                                        [DEM_BOUNDARY_DISPLACEMENT] = "displacement",
-                                        [DEM_BOUNDARY_FORCE] = "force"};
-    static const char *const units[] = {"m/s", "m", "N"};
-    static const char *const axes[] = {"", " x", " y", " x and y"};
-    double share = b->share == NULL;
-    for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
-    (void)fprintf(out, "boundary   %lld: %lld nodes, %s%s (%g, %g) %s", (long long)number, (long long)b->n_nodes,
-                  kinds[b->kind], b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
-                  share * b->value[1], units[b->kind]);
-    if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
-    (void)fprintf(out, "\n");
-}
-
-void report_versions(char *text, size_t size)
-{
-    (void)snprintf(text, size, "dem %s (%s), compiler %s, SUNDIALS %s, HDF5 %s, GSL %s", dem_version(), DEM_COMMIT,
-                   __VERSION__, dem_version_sundials(), dem_version_hdf5(), GSL_VERSION);
-}
-
-void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output)
-{
-    char versions[256];
-    const dem_model *model = dem_simulation_model(simulation);
-    const dem_options o = dem_simulation_options(simulation);
-    report_versions(versions, sizeof versions);
-    (void)fprintf(out, "%s\n", versions);
-    (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
-                  (unsigned long long)d->hash);
-    print_sizes(out, model);
-    print_bodies(out, d);
-    print_probes(out, d, dem_model_lattice(model));
-    print_rules(out, &o, model);
-    (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
-                  o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
-    print_time(out, d->t_end, simulation);
-    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
-    print_measured(out, model);
-    print_estimates(out, d, simulation);
-    if (output != NULL) (void)fprintf(out, "output     %s\n", output);
-    (void)fflush(out);
-}
-
 void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
     *r = (report){.out = out, .terminal = terminal, .t_end = d->t_end, .closure = d->closure, .area_min = 1.0};
+    r->settled = relaxation_settled(&d->options);
     r->most_stressed = d->most_stressed;
     r->strain_min.spring_min = r->strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
@@ -448,10 +170,10 @@ static void print_contact(const report *r, const dem_simulation *simulation)
 static void print_strain(const report *r)
 {
     if (r->strain_min.spring_min >= 0)
-        (void)fprintf(r->out, "strain     smallest %+.4f in spring %lld at %.4e s\n", r->strain_min.min,
+        (void)fprintf(r->out, "strain     smallest %+.4g in spring %lld at %.4e s\n", r->strain_min.min,
                       (long long)r->strain_min.spring_min, r->strain_min_t);
     if (r->strain_max.spring_max >= 0)
-        (void)fprintf(r->out, "strain     largest %+.4f in spring %lld at %.4e s\n", r->strain_max.max,
+        (void)fprintf(r->out, "strain     largest %+.4g in spring %lld at %.4e s\n", r->strain_max.max,
                       (long long)r->strain_max.spring_max, r->strain_max_t);
     if (r->area_min < 1.0)
         (void)fprintf(
@@ -474,7 +196,7 @@ static void print_node_peak(FILE *out, dem_index node, const dem_node_peak *peak
 static void print_spring_peak(FILE *out, dem_index spring, const dem_spring_peak *peak, const dem_lattice *l)
 {
     const double *a = l->x + 2 * l->ends[2 * spring], *b = l->x + 2 * l->ends[2 * spring + 1];
-    (void)fprintf(out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4f, force %+.4g N at %.4e s\n",
+    (void)fprintf(out, "strained   spring %lld at (%.6g, %.6g) m: strain %+.4g, force %+.4g N at %.4e s\n",
                   (long long)spring, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), peak->strain,
                   l->stiffness[spring] * peak->strain, peak->t);
 }
@@ -585,6 +307,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_boundaries(r->out, simulation);
     print_overlap(r->out, simulation);
     print_events(r->out, &c);
+    pace_print_largest(r->out, &r->pace);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
                   wall_clock() - r->wall_start);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The log of a run: what is about to run, a progress line, and what came out. */
+/* The log of a run from its start on: a progress line, and what came out. */
 #ifndef DEM_REPORT_H
 #define DEM_REPORT_H
 
@@ -7,12 +7,14 @@
 #include <stdio.h>
 
 #include "deck.h"
+#include "pace.h"
 
 typedef struct report {
     FILE *out;
     bool terminal;  /* progress is rewritten in place */
     double t_end;   /* s */
     double closure; /* from which on the ledger is warned of */
+    double settled; /* s, when the last ramp ends */
     bool warned, overlapped;
     double wall_start, wall_shown; /* s */
     double t_shown;                /* s */
@@ -22,6 +24,7 @@ typedef struct report {
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max, inverted_max;
+    pace pace;
     bool touched;                       /* there was a contact */
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
@@ -33,17 +36,11 @@ typedef struct report {
 /** Starts the log of a run. */
 void report_start(report *r, FILE *out, bool terminal, const deck *d);
 
-/** Versions, sizes, rules of contact, scales, estimates. `output`: the file that will be written, NULL: none. */
-void report_header(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);
-
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
 /** First and last contact, rebound, strains, what was stressed most, energy ledger and its closure, obstacles,
  *  counts, wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
-
-/** The versions of program, compiler and libraries in one line. */
-void report_versions(char *text, size_t size);
 
 #endif

@@ -67,8 +67,7 @@ static const schema_key body_keys[] = {
     {"angle", SCHEMA_REAL, 1, 1, "degrees", "0", ANY, NULL, PHYSICS,
      "Turn of the body about its own origin, counter-clockwise.", NULL},
     {"clearance", SCHEMA_REAL, 1, 1, "m", NONE, ">= 0", NULL, PHYSICS,
-     "If given, the body is then moved along gravity until the smallest gap of its nodes to an obstacle is this.",
-     "2e-4"},
+     "If given, the body is then moved along gravity until its smallest gap to an obstacle is this.", "2e-4"},
     {"velocity", SCHEMA_REAL, 2, 2, "m/s", "0, 0", ANY, NULL, PHYSICS, "Initial velocity, x and y.", "0, -10"},
     {"spin", SCHEMA_REAL, 1, 1, "rad/s", "0", ANY, NULL, PHYSICS,
      "Initial rotation about the centre of mass, counter-clockwise.", NULL},
@@ -124,6 +123,24 @@ static const schema_key crack_keys[] = {
     {"points", SCHEMA_REAL, 4, 0, "m", REQUIRED, ANY, NULL, PHYSICS,
      "x and y of its points in the body's own coordinates; along a row of nodes it takes what is on its left.",
      "-0.04, 0.085, -0.01, 0.085"},
+};
+
+static const schema_key inclusion_keys[] = {
+    {"body", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 1", NULL, PHYSICS,
+     "Number of the body that has the inclusion, in the order of the deck.", NULL},
+    {"material", SCHEMA_STRING, 1, 1, "-", REQUIRED, ANY, NULL, PHYSICS, "Name of its material.", "'rubber'"},
+    {"shape", SCHEMA_CHOICE, 1, 1, "-", "'disc'", ANY, "disc|rectangle|ring|polygon", PHYSICS,
+     "Shape of the inclusion: the triangles that have their centres in it; of two that overlap the later one counts.",
+     NULL},
+    {"centre", SCHEMA_REAL, 2, 2, "m", REQUIRED, ANY, NULL, PHYSICS,
+     "Its centre, x and y in the body's own coordinates; a polygon's points are counted from it.", "0.02, 0.11"},
+    {"radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Radius of a disc, outer radius of a ring.", "0.01"},
+    {"inner_radius", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS, "Inner radius of a ring.", NULL},
+    {"size", SCHEMA_REAL, 2, 2, "m", NONE, "> 0", NULL, PHYSICS, "Width and height of a rectangle.", NULL},
+    {"points", SCHEMA_REAL, 6, 0, "m", NONE, ANY, NULL, PHYSICS,
+     "x and y of each corner of a polygon, counted from its centre, either way round.", NULL},
+    {"angle", SCHEMA_REAL, 1, 1, "degrees", "0", ANY, NULL, PHYSICS,
+     "Turn of a rectangle or a polygon about its centre, counter-clockwise.", NONE},
 };
 
 static const schema_key boundary_keys[] = {
@@ -267,6 +284,8 @@ static const schema_group groups[] = {
     {"pores", false, true, "Round pores at random places in a body.", KEYS(pores_keys)},
     {"crack", false, true, "A crack: a polyline that takes away every triangle which it crosses, with its springs.",
      KEYS(crack_keys)},
+    {"inclusion", false, true, "Another material in a part of a body, to which it holds; one group for each.",
+     KEYS(inclusion_keys)},
     {"boundary", false, true, "Nodes that are held, moved or loaded; prescribed ones touch no obstacle.",
      KEYS(boundary_keys)},
     {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},

@@ -279,7 +279,8 @@ static dem_status retry(integrator *I, double *h)
 static dem_status fail_step(integrator *I, int flag)
 {
     char *name = ARKodeGetReturnFlagName(flag);
-    (void)status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails, rtol may be out of reach: %s %s", I->t,
+    (void)status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails, %s: %s %s", I->t,
+                      I->problem.fixed_step > 0.0 ? "it may be too long" : "rtol may be out of reach",
                       name != NULL ? name : "", I->message);
     free(name);
     return DEM_ERROR_INTEGRATOR;

@@ -452,36 +452,37 @@ static dem_status check_list(const dem_lattice *lattice, const dem_index *nodes,
     return DEM_OK;
 }
 
-/* Half of every boundary edge between nodes that have a place in the list, to both. */
+/* Half of every boundary edge between nodes that have a place in the list, to both, as thick as its triangle. */
 static void share_edges(const dem_lattice *l, const sides *s, const dem_index *place, const double *direction,
-                        double *length)
+                        double *area)
 {
     for (dem_index i = 0; i < l->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const dem_index j = s->list[p].upper;
             if (!sides_edge_is_boundary(s, i, p) || place[i] < 0 || place[j] < 0) continue;
             const double way[2] = {l->x[2 * j] - l->x[2 * i], l->x[2 * j + 1] - l->x[2 * i + 1]};
-            const double half =
-                0.5 * (direction == NULL ? hypot(way[0], way[1]) : fabs(way[0] * direction[0] + way[1] * direction[1]));
-            length[place[i]] += half;
-            length[place[j]] += half;
+            const double length =
+                direction == NULL ? hypot(way[0], way[1]) : fabs(way[0] * direction[0] + way[1] * direction[1]);
+            const double half = 0.5 * length * (l->thickness != NULL ? l->thickness[s->list[p].triangle] : 1.0);
+            area[place[i]] += half;
+            area[place[j]] += half;
         }
 }
 
 dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
-                                   const double *direction, double *length)
+                                   const double *direction, double *area)
 {
     sides s;
     TRY(check_list(lattice, nodes, n));
-    CHECK(length != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_edge_shares: length is NULL");
+    CHECK(area != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_edge_shares: area is NULL");
     dem_index *place = malloc((size_t)lattice->n_nodes * sizeof *place);
     CHECK_MEMORY(place);
     const dem_status status = sides_create(&s, lattice);
     if (status == DEM_OK) {
         for (dem_index i = 0; i < lattice->n_nodes; i++) place[i] = -1;
         for (dem_index k = 0; k < n; k++) place[nodes[k]] = k;
-        for (dem_index k = 0; k < n; k++) length[k] = 0.0;
-        share_edges(lattice, &s, place, direction, length);
+        for (dem_index k = 0; k < n; k++) area[k] = 0.0;
+        share_edges(lattice, &s, place, direction, area);
         sides_free(&s);
     }
     free(place);

@@ -28,9 +28,10 @@ typedef struct motion {
  *  than about the rest shape. */
 static inline double motion_fixed_step(const motion *p, const double *y)
 {
+    enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are told */
     double h = p->fixed_step;
     const double stiffening = p->stiffening != NULL ? p->stiffening(y, p->context) : 1.0;
-    while (h * stiffening > p->fixed_step) h *= 0.5;
+    for (int k = 0; k < most_halvings && h * stiffening > p->fixed_step; k++) h *= 0.5;
     return h;
 }
 

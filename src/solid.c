@@ -87,18 +87,23 @@ static dem_status check_diagonal(plate p, double diagonal)
 /* What a triangle or a cell gives to the spring of two nodes, N. */
 typedef struct share {
     dem_index lower, upper;
-    double stiffness;
+    double stiffness, viscosity; /* N, N s */
 } share;
 
 typedef struct draft {
     const dem_lattice *lattice;
-    const dem_material *material;
-    plate plate;
-    bool cells;      /* of two triangles each, 2 k and 2 k + 1 */
-    double diagonal; /* stiffness of a diagonal over a side's, both in N/m; 1/2 is isotropic, as triangles are */
-    share *shares;   /* [3 n_triangles] */
+    const dem_material *materials;
+    const dem_index *of; /* [n_triangles] number of each triangle's material; NULL: the first */
+    bool cells;          /* of two triangles each, 2 k and 2 k + 1 */
+    double diagonal;     /* stiffness of a diagonal over a side's, both in N/m; 1/2 is isotropic, as triangles are */
+    share *shares;       /* [3 n_triangles] */
     dem_lattice solid;
 } draft;
+
+static const dem_material *material_of(const draft *d, dem_index t)
+{
+    return &d->materials[d->of != NULL ? d->of[t] : 0];
+}
 
 static double area_of(const dem_lattice *l, dem_index a, dem_index b, dem_index c)
 {
@@ -110,15 +115,16 @@ static double distance(const dem_lattice *l, dem_index i, dem_index j)
     return vec2_norm(vec2_sub(vec2_at(l->x, j), vec2_at(l->x, i)));
 }
 
-static share share_of(dem_index i, dem_index j, double stiffness)
+/* Kelvin-Voigt: a strain rate e' acts like the strain damping_time e'. */
+static share share_of(dem_index i, dem_index j, double stiffness, const dem_material *m)
 {
-    return (share){i < j ? i : j, i < j ? j : i, stiffness};
+    return (share){i < j ? i : j, i < j ? j : i, stiffness, m->damping_time * stiffness};
 }
 
-static void give_mass(const draft *d, double weight, const dem_index corner[3])
+static void give_mass(const draft *d, double weight, const dem_material *m, const dem_index corner[3])
 {
     const double area = area_of(d->lattice, corner[0], corner[1], corner[2]);
-    const double mass = weight * d->material->density * d->material->thickness * area / 3.0;
+    const double mass = weight * m->density * m->thickness * area / 3.0;
     for (int c = 0; c < 3; c++) d->solid.mass[corner[c]] += mass;
 }
 
@@ -126,12 +132,13 @@ static void give_mass(const draft *d, double weight, const dem_index corner[3])
 static void share_triangle(const draft *d, dem_index t)
 {
     const dem_index *corner = d->lattice->triangles + 3 * t;
-    const double modulus = spring_modulus(d->plate), area = area_of(d->lattice, corner[0], corner[1], corner[2]);
+    const dem_material *m = material_of(d, t);
+    const double modulus = spring_modulus(plate_of(m)), area = area_of(d->lattice, corner[0], corner[1], corner[2]);
     for (int c = 0; c < 3; c++) {
         const dem_index i = corner[c], j = corner[(c + 1) % 3];
-        d->shares[3 * t + c] = share_of(i, j, modulus * area / distance(d->lattice, i, j));
+        d->shares[3 * t + c] = share_of(i, j, modulus * area / distance(d->lattice, i, j), m);
     }
-    give_mass(d, 1.0, corner);
+    give_mass(d, 1.0, m, corner);
 }
 
 /* The corners of cell k counter-clockwise, the first and third where its triangles do not meet.
@@ -156,8 +163,12 @@ static bool find_corners(const dem_lattice *l, dem_index k, dem_index corner[4])
 static dem_status share_cell(const draft *d, dem_index k)
 {
     const dem_lattice *l = d->lattice;
-    const double side = d->plate.modulus / (1.0 + d->plate.ratio), diagonal = d->diagonal * side;
+    const dem_material *m = material_of(d, 2 * k);
+    const plate p = plate_of(m);
+    const double side = p.modulus / (1.0 + p.ratio), diagonal = d->diagonal * side;
     dem_index q[4];
+    CHECK(m == material_of(d, 2 * k + 1), DEM_ERROR_MODEL, "triangles %lld and %lld, of a cell, have two materials",
+          (long long)(2 * k), (long long)(2 * k + 1));
     CHECK(find_corners(l, k, q), DEM_ERROR_MODEL, "triangles %lld and %lld, which are to be a cell, share no edge",
           (long long)(2 * k), (long long)(2 * k + 1));
     for (int c = 0; c < 4; c++) {
@@ -165,11 +176,11 @@ static dem_status share_cell(const draft *d, dem_index k)
         CHECK(area_of(l, corner[0], corner[1], corner[2]) > 0.0, DEM_ERROR_MODEL,
               "the cell of nodes %lld, %lld, %lld and %lld is not convex", (long long)q[0], (long long)q[1],
               (long long)q[2], (long long)q[3]);
-        d->shares[6 * k + c] = share_of(i, j, 0.5 * side * distance(l, i, j));
-        give_mass(d, 0.5, corner);
+        d->shares[6 * k + c] = share_of(i, j, 0.5 * side * distance(l, i, j), m);
+        give_mass(d, 0.5, m, corner);
     }
     for (int c = 0; c < 2; c++)
-        d->shares[6 * k + 4 + c] = share_of(q[c], q[c + 2], diagonal * distance(l, q[c], q[c + 2]));
+        d->shares[6 * k + 4 + c] = share_of(q[c], q[c + 2], diagonal * distance(l, q[c], q[c + 2]), m);
     return DEM_OK;
 }
 
@@ -215,10 +226,32 @@ static dem_status sort_shares(draft *d)
         sorted[p] = current;
     }
     free(row);
+    if (complete) {
+        free(d->shares);
+        d->shares = sorted;
+    } else {
+        free(sorted);
+    }
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)m / 2);
-    free(d->shares);
-    d->shares = sorted;
     return DEM_OK;
+}
+
+/* Of one stiffness, whatever their triangles gave. */
+static void make_equal(dem_lattice *solid, const dem_material *m)
+{
+    for (dem_index k = 0; k < solid->n_springs && m->bond_stiffness > 0.0; k++) {
+        solid->stiffness[k] = m->bond_stiffness;
+        solid->viscosity[k] = m->damping_time * m->bond_stiffness;
+    }
+}
+
+/* NULL instead of zeros: nothing is damped. */
+static void drop_zeros(double **array, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++)
+        if ((*array)[k] != 0.0) return;
+    free(*array);
+    *array = NULL;
 }
 
 static dem_status fill_springs(draft *d)
@@ -230,7 +263,8 @@ static dem_status fill_springs(draft *d)
     s->ends = lattice_zeros(s->n_springs, 2 * sizeof *s->ends);
     s->rest_length = lattice_zeros(s->n_springs, sizeof *s->rest_length);
     s->stiffness = lattice_zeros(s->n_springs, sizeof *s->stiffness);
-    CHECK(s->ends && s->rest_length && s->stiffness, DEM_ERROR_MEMORY, "out of memory for %lld springs",
+    s->viscosity = lattice_zeros(s->n_springs, sizeof *s->viscosity);
+    CHECK(s->ends && s->rest_length && s->stiffness && s->viscosity, DEM_ERROR_MEMORY, "out of memory for %lld springs",
           (long long)s->n_springs);
     for (dem_index p = 0, k = -1; p < m; p++) {
         const share *here = &d->shares[p];
@@ -240,62 +274,57 @@ static dem_status fill_springs(draft *d)
             s->rest_length[k] = distance(d->lattice, here->lower, here->upper);
         }
         s->stiffness[k] += here->stiffness;
+        s->viscosity[k] += here->viscosity;
     }
-    for (dem_index k = 0; k < s->n_springs && d->material->bond_stiffness > 0.0; k++)
-        s->stiffness[k] = d->material->bond_stiffness;
-    return DEM_OK;
-}
-
-/* Kelvin-Voigt: a strain rate e' acts like the strain damping_time e'. */
-static dem_status fill_viscosity(dem_lattice *solid, double damping_time)
-{
-    if (damping_time == 0.0) return DEM_OK;
-    solid->viscosity = lattice_zeros(solid->n_springs, sizeof *solid->viscosity);
-    CHECK_MEMORY(solid->viscosity);
-    for (dem_index k = 0; k < solid->n_springs; k++) solid->viscosity[k] = damping_time * solid->stiffness[k];
+    make_equal(s, d->materials);
+    drop_zeros(&s->viscosity, s->n_springs);
     return DEM_OK;
 }
 
 /* ---- triangles ---- */
 
-/* An array of one value for all triangles; none where that is 0. */
-static dem_status fill_triangles(double **array, dem_index n_triangles, double value)
-{
-    if (value == 0.0) return DEM_OK;
-    *array = lattice_zeros(n_triangles, sizeof **array);
-    CHECK_MEMORY(*array);
-    for (dem_index t = 0; t < n_triangles; t++) (*array)[t] = value;
-    return DEM_OK;
-}
-
 /* E h of a triangle inside a lattice of equal springs: what the rule of triangles would need on its mean edge. */
 static double modulus_of(const draft *d, dem_index t)
 {
     const dem_index *c = d->lattice->triangles + 3 * t;
+    const dem_material *m = material_of(d, t);
     double perimeter = 0.0;
-    if (d->material->bond_stiffness == 0.0) return d->material->youngs_modulus * d->material->thickness;
+    if (m->bond_stiffness == 0.0) return m->youngs_modulus * m->thickness;
     for (int k = 0; k < 3; k++) perimeter += distance(d->lattice, c[k], c[(k + 1) % 3]);
-    return d->material->bond_stiffness * perimeter / (6.0 * area_of(d->lattice, c[0], c[1], c[2]));
+    return m->bond_stiffness * perimeter / (6.0 * area_of(d->lattice, c[0], c[1], c[2]));
 }
 
 /* What springs leave of C12 h = nu E h/(1 - nu^2), of which diagonals of stiffness r E h/(1 + nu) give as much as that;
  * at r = 1/2, isotropic, (lambda - G) h, which is 0 at nu = 1/3, to the bit. */
-static double area_modulus(const draft *d)
+static double area_modulus(const draft *d, const dem_material *m)
 {
-    const double nu = d->plate.ratio, r = d->diagonal;
-    if (d->material->bond_stiffness > 0.0) return 0.0;
-    return d->plate.modulus * ((1.0 + r) * nu - r) / (1.0 - nu * nu);
+    const plate p = plate_of(m);
+    const double nu = p.ratio, r = d->diagonal;
+    return m->bond_stiffness > 0.0 ? 0.0 : p.modulus * ((1.0 + r) * nu - r) / (1.0 - nu * nu);
 }
 
-static dem_status fill_all_triangles(draft *d)
+/* Arrays of nothing but zeros are none. */
+static dem_status fill_triangles(draft *d)
 {
     const dem_index n = d->lattice->n_triangles;
-    const double h = d->material->thickness;
-    TRY(fill_triangles(&d->solid.guard, n, d->material->guard));
-    for (dem_index t = 0; t < n && d->solid.guard != NULL; t++) d->solid.guard[t] *= modulus_of(d, t);
-    TRY(fill_triangles(&d->solid.area_stiffness, n, area_modulus(d)));
-    TRY(fill_triangles(&d->solid.thickness, n, h));
-    return fill_triangles(&d->solid.modulus, n, spring_modulus(d->plate) / h);
+    dem_lattice *s = &d->solid;
+    s->guard = lattice_zeros(n, sizeof *s->guard);
+    s->area_stiffness = lattice_zeros(n, sizeof *s->area_stiffness);
+    s->thickness = lattice_zeros(n, sizeof *s->thickness);
+    s->modulus = lattice_zeros(n, sizeof *s->modulus);
+    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus, DEM_ERROR_MEMORY,
+          "out of memory for %lld triangles", (long long)n);
+    for (dem_index t = 0; t < n; t++) {
+        const dem_material *m = material_of(d, t);
+        s->guard[t] = m->guard * modulus_of(d, t);
+        s->area_stiffness[t] = area_modulus(d, m);
+        s->thickness[t] = m->thickness;
+        s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
+    }
+    drop_zeros(&s->guard, n);
+    drop_zeros(&s->area_stiffness, n);
+    drop_zeros(&s->modulus, n);
+    return DEM_OK;
 }
 
 /* ---- all of it ---- */
@@ -331,20 +360,47 @@ static dem_status draw(draft *d)
     CHECK(d->shares && d->solid.mass, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)d->lattice->n_nodes);
     TRY(share_all(d));
     TRY(fill_springs(d));
-    TRY(fill_viscosity(&d->solid, d->material->damping_time));
-    return fill_all_triangles(d);
+    return fill_triangles(d);
 }
 
-static dem_status assemble(dem_lattice *lattice, const dem_material *material, bool cells, double diagonal)
+static dem_status check_materials(const draft *d, dem_index n_materials)
+{
+    CHECK(n_materials > 0, DEM_ERROR_ARGUMENT, "the number of materials must be > 0: %lld", (long long)n_materials);
+    for (dem_index k = 0; k < n_materials; k++) {
+        const dem_material *m = d->materials != NULL ? d->materials + k : NULL;
+        TRY(check_material(m));
+        CHECK(n_materials == 1 || m->bond_stiffness == 0.0, DEM_ERROR_ARGUMENT,
+              "a bond stiffness, %g N, is for bodies of one material", m->bond_stiffness);
+        if (d->cells && m->bond_stiffness == 0.0) TRY(check_diagonal(plate_of(m), d->diagonal));
+    }
+    for (dem_index t = 0; d->of != NULL && t < d->lattice->n_triangles; t++)
+        CHECK(d->of[t] >= 0 && d->of[t] < n_materials, DEM_ERROR_ARGUMENT,
+              "triangle %lld has material %lld, but there are %lld", (long long)t, (long long)d->of[t],
+              (long long)n_materials);
+    return DEM_OK;
+}
+
+static dem_status check_lattice(const dem_lattice *lattice, bool cells)
 {
     TRY(lattice_check(lattice));
-    TRY(check_material(material));
     CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "the lattice already has %lld springs",
           (long long)lattice->n_springs);
     CHECK(lattice->n_triangles > 0, DEM_ERROR_MODEL, "a lattice without triangles cannot be assembled");
-    const plate p = plate_of(material);
-    if (cells && p.modulus > 0.0) TRY(check_diagonal(p, diagonal));
-    draft d = {.lattice = lattice, .material = material, .plate = p, .cells = cells, .diagonal = diagonal};
+    CHECK(!cells || lattice->n_triangles % 2 == 0, DEM_ERROR_MODEL, "%lld triangles do not pair up to cells",
+          (long long)lattice->n_triangles);
+    return DEM_OK;
+}
+
+dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials, dem_index n_materials,
+                                      const dem_index *of, double diagonal)
+{
+    const bool cells = diagonal != 0.0;
+    draft d = {
+        .lattice = lattice, .materials = materials, .of = of, .cells = cells, .diagonal = cells ? diagonal : 0.5};
+    CHECK(!cells || is_positive(diagonal), DEM_ERROR_ARGUMENT,
+          "the stiffness of a diagonal over a side's must be > 0: %g", diagonal);
+    TRY(check_lattice(lattice, cells));
+    TRY(check_materials(&d, n_materials));
     dem_lattice_init(&d.solid);
     const dem_status status = draw(&d);
     if (status == DEM_OK) give(lattice, &d.solid);
@@ -355,14 +411,12 @@ static dem_status assemble(dem_lattice *lattice, const dem_material *material, b
 
 dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material)
 {
-    return assemble(lattice, material, false, 0.5);
+    return dem_lattice_assemble_mixed(lattice, material, 1, NULL, 0.0);
 }
 
 dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal)
 {
     CHECK(is_positive(diagonal), DEM_ERROR_ARGUMENT, "the stiffness of a diagonal over a side's must be > 0: %g",
           diagonal);
-    CHECK(lattice == NULL || lattice->n_triangles % 2 == 0, DEM_ERROR_MODEL, "%lld triangles do not pair up to cells",
-          (long long)lattice->n_triangles);
-    return assemble(lattice, material, true, diagonal);
+    return dem_lattice_assemble_mixed(lattice, material, 1, NULL, diagonal);
 }

@@ -124,6 +124,15 @@ DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material
  *                   or cells warp; usual: 0.5, for nu > 0. Not used with a bond stiffness */
 DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal);
 
+/** The same of several materials. Every triangle gives stiffness, mass and damping by its own; so a spring between two
+ *  materials is half of one and half of the other, and they hold together. A bond stiffness is for one material only.
+ *  \param materials  [n_materials]
+ *  \param of         [n_triangles] number of each triangle's material, from 0, the same for both triangles of a cell;
+ *                    NULL: the first
+ *  \param diagonal   of cells, as in dem_lattice_assemble_squares(); 0: triangles */
+DEM_API dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials,
+                                              dem_index n_materials, const dem_index *of, double diagonal);
+
 /** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
  *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For
  *  triangulations not yet assembled; a lattice that has springs is refused. */
@@ -152,12 +161,13 @@ DEM_API dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocit
 DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
 
 /** What each of some nodes has of the boundary edges between them, half of each edge: by its length in the rest shape,
- *  or, along a unit `direction` [2], by the length of its projection on that. For tractions: dem_boundary's share.
- *  \param nodes        [n] distinct
- *  \param direction    may be NULL
- *  \param[out] length  [n] m, sum over the nodes: length of the edges */
+ *  or, along a unit `direction` [2], by the length of its projection on that, times the thickness of its triangle. For
+ *  tractions: dem_boundary's share.
+ *  \param nodes      [n] distinct
+ *  \param direction  may be NULL
+ *  \param[out] area  [n] m^2, sum over the nodes: area of the edges */
 DEM_API dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
-                                           const double *direction, double *length);
+                                           const double *direction, double *area);
 
 /** Appends a copy of `other`; its bodies are numbered after those of `lattice`. */
 DEM_API dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other);

@@ -57,6 +57,15 @@ contains
     read (unit, nml=pores, iostat=status, iomsg=message)
   end subroutine
 
+  subroutine read_inclusion()
+    integer :: body
+    character(4096) :: material, shape
+    real(dp), save :: points(20000)
+    real(dp) :: centre(2), radius, inner_radius, size(2), angle
+    namelist /inclusion/ body, material, shape, centre, radius, inner_radius, size, points, angle
+    read (unit, nml=inclusion, iostat=status, iomsg=message)
+  end subroutine
+
   subroutine read_crack()
     integer :: body
     real(dp), save :: points(20000)
@@ -167,6 +176,7 @@ program gfortran_reads
   call read_all('void', read_void)
   call read_all('pores', read_pores)
   call read_all('crack', read_crack)
+  call read_all('inclusion', read_inclusion)
   call read_all('boundary', read_boundary)
   call read_all('obstacle', read_obstacle)
   call read_all('contact', read_contact)

@@ -197,7 +197,7 @@ class Check(Case):
         self.assertEqual((t_end, order, rtol), (8e-3, 5, 1e-6))
         self.assertAlmostEqual(step * omega_max, 0.5, places=3)
         share, growth = numbers("stability  omega_max h = #; with fehlberg45 undamped oscillations grow at any step, "
-                                "here by # a step", out)
+                                "here by up to # in one", out)
         self.assertEqual((share, growth), (0.5, 1.3e-5))
         speed, = numbers("formula 6  (|v_x| + |v_y|) h/spacing = # at v_scale along x; it does "
                          "not bound the step", out)
@@ -352,6 +352,21 @@ class Run(Case):
         self.assertEqual({path.name for path in (self.folder / "out").iterdir()},
                          {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
 
+    def test_methods_agree(self):
+        """Rebound of a body, to the 1e-3 that steps of an eighth of the bound are good for."""
+        rebounds = {}
+        for method in ("fehlberg45", "rk4", "verlet"):
+            self.put(coarse(name="disc_friction").replace("name           = 'disc_friction'", f"name = '{method}'") +
+                     f"&solver method = '{method}' /\n")
+            log = self.call(0, "deck.nml")
+            rebounds[method], _ = numbers("rebound    vertical velocity of the centre of mass # m/s at the last contact, "
+                                          "# m/s at t_end", log)
+            closure = float(re.search(f"closure ({NUMBER})", log)[1])
+            self.assertLess(abs(closure), 3e-4)
+        self.assertGreater(rebounds["fehlberg45"], 3)
+        for method in ("rk4", "verlet"):
+            self.assertAlmostEqual(rebounds[method] / rebounds["fehlberg45"], 1, delta=1e-3)
+
     def test_the_summary(self):
         log = self.call(0, "deck.nml")
         first, last, apart = numbers("contact    first at # s, last at # s, # s apart", log)
@@ -361,6 +376,8 @@ class Run(Case):
                                   "# m/s at t_end", log)
         self.assertTrue(5 < at_end < at_last < 10)
         self.assertAlmostEqual(at_last - at_end, 9.81 * (8e-3 - last), delta=1e-3)
+        fastest, when_fastest = numbers("formula 6  (|v_x| + |v_y|) h/spacing was # at most, at # s", log)
+        self.assertTrue(0 < fastest < 0.2 and 0 < when_fastest < 8e-3)
         smallest, _, when_smallest = numbers("strain     smallest # in spring # at # s", log)
         largest, _, when_largest = numbers("strain     largest # in spring # at # s", log)
         self.assertTrue(-1 < smallest < -0.05 < 0.05 < largest < 1)

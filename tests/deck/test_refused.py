@@ -225,6 +225,8 @@ DECKS = [
      ["27:11 &boundary chooses no node of body 1: places are in the body's own coordinates"]),
     ("boundary of a node too far", BASE + "&boundary where = 'list', nodes = 3, 999 /\n",
      ["27:27 'nodes' in &boundary has node 999; the body has nodes 0 to 31"]),
+    ("two motions of a corner", BASE + "&boundary where = 'side', side = 'left' /\n&boundary where = 'side', side = 'bottom', components = 'y' /\n",
+     ["28:1 &boundary prescribes the motion of node 0 at (-0.02, 0.001) m, as the one in line 27 does"]),
     ("boundary of a node twice", BASE + "&boundary where = 'list', nodes = 3, 3 /\n",
      ["27:27 'nodes' in &boundary has node 3 twice"]),
     ("traction on a node", BASE + "&boundary where = 'box', box = -0.001, -0.001, 0.001, 0.001, kind = 'traction', "
@@ -538,6 +540,16 @@ DECKS = [
     ("radii that hardly ever come", BASE + "&pores number = 1, radius = 5e-3, 6e-3, distribution = 'normal',\n"
      "mean = 1, deviation = 1e-3 /\n",
      ["28:1 'mean' and 'deviation' in &pores, 1 m and 0.001 m, give next to no radius from 0.005 m to 0.006 m"]),
+    # inclusions
+    ("inclusion without a material", BASE + "&inclusion centre = 0, 0.02, radius = 0.01 /\n",
+     ["27:1 'material' in &inclusion must be given"]),
+    ("inclusion of an unknown material", BASE + "&inclusion material = 'ruber', centre = 0, 0.02, radius = 0.01 /\n",
+     ["27:12 there is no material 'ruber' (did you mean 'rubber'?)"]),
+    ("inclusion that misses its body", BASE + "&inclusion material = 'rubber', centre = 1, 0.02, radius = 0.01 /\n",
+     ["27:33 inclusion has no triangle of body 1: its centre is in the body's own coordinates"]),
+    ("inclusion of equal springs", BASE + "&material name = 'raw', bond_stiffness = 1, density = 1 /\n"
+     "&inclusion material = 'raw', centre = 0, 0.02, radius = 0.01 /\n",
+     ["15:5 body 1: a bond stiffness, 1 N, is for bodies of one material"]),
     # cracks
     ("crack of an odd number of coordinates", BASE + "&crack points = 0, 0, 1, 1, 2 /\n",
      ["27:8 'points' in &crack must be pairs of x and y, got 5 values"]),
@@ -651,10 +663,10 @@ DECKS = [
     ("body deeper than the skin given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact skin = 1e-4 /\n",
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 0.0001 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> clearance = 1e-4") +
+    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> position = 0, 1e-4") +
      "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n",
      ["11:1 body 1 starts with point 2 of obstacle 2, at (0.002, 0.004) m, 0.0039 m inside it between its nodes, "
-      "deeper than the skin of 1e-08 m; 'position' or a larger 'clearance' can put it in front"]),
+      "deeper than the skin of 1e-08 m; 'position' or 'clearance' can put it in front"]),
     ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
      ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the skin of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),

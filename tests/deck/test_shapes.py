@@ -74,6 +74,10 @@ SHAPES = [
      2700 * math.pi, 0.65, 1),
     ("cracked squares", BODY + "'rectangle', size = 0.1, 0.08, lattice = 'square', diagonal = 0.4, jitter = 0.1 /\n"
      "&crack points = -0.03, 0.03, 0, 0.05, 0.03, 0.05 /\n", 0, 8000, 0.85, 1),
+    ("inclusions", "&material name = 'steel', youngs_modulus = 1e9, density = 4000, poissons_ratio = 0.2 /\n"
+     + BODY + "'rectangle', size = 0.1, 0.08, lattice = 'square' /\n"
+     "&inclusion material = 'steel', shape = 'ring', centre = 0, 0.04, radius = 0.03, inner_radius = 0.015 /\n"
+     "&void centre = 0, 0.04, radius = 0.01 /\n", 0, 8000 + 3 * 675 * math.pi - 100 * math.pi, 0.9, 1.05),
     ("jitter", BODY + "'disc', radius = 0.06, jitter = 0.3, seed = 5 /\n", 1, 3600 * math.pi, 0.85, 1),
     ("voids", BODY + "'rectangle', size = 0.1, 0.08 /\n"
      "&void shape = 'rectangle', centre = -0.02, 0.04, size = 0.02, 0.03, angle = 45 /\n"

@@ -10,15 +10,15 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "random", "commit", "aligned", "threads"},
+    {"vec2", "status", "random", "commit", "wall", "aligned", "threads"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "hdf5_file",
-     "scan", "namelist", "placement", "pores", "profile", "file", "words", "image", "outline"},
-    {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema", "parts",
-     "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
+     "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "file", "words", "image", "outline"},
+    {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
+     "parts", "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
     {"layout"},
     {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
     {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
-     "schema_table", "schema_print", "uses", "mask"},
+     "schema_table", "schema_print", "uses", "material", "mask"},
     {"touch", "diagnostics", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
      "sweep_avx512", "peaks_file", "shape", "loading", "probes"},
     {"reaction", "books", "engine", "spectrum", "constants", "area"},
@@ -26,17 +26,19 @@ LAYERS = [
     {"sites", "search", "body"},
     {"strike", "watch"},
     {"contact", "trajectory", "deck"},
-    {"simulation", "output", "relaxation", "report"},
+    {"simulation", "output", "preview", "report"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
-    (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c", "src/vector.c", "src/vector.h"}),
+    (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c", "src/vector.c",
+                                                 "src/vector.h"}),
     (r"#include <immintrin", {"src/lanes_avx2.h", "src/lanes_avx512.h"}),
     (r"_Pragma|#pragma|_OPENMP", {"src/threads.h"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
-    (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c"}),
+    (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c",
+                          "drivers/preview.c"}),
     (r"#include [<\"]cairo", {"drivers/png.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),

@@ -166,6 +166,22 @@ static void a_bond_stiffness_is_that_of_every_spring(void **state)
     drop_built(&b);
 }
 
+/* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as are told. */
+static void an_inclusion_has_its_own_material(void **state)
+{
+    (void)state;
+    built b;
+    const double triangle = 0.25 * 0.43301270189221932;
+    build_good(&b,
+               RUN "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n" RUBBER BLOCK
+                   " /\n&inclusion material = 'heavy', centre = 0, 1, radius = 0.7 /",
+               NULL, 0);
+    assert_true(b.facts.n_included > 8);
+    assert_close(mass_of(&b.lattice), (500.0 * 75.0 + 1000.0 * (double)b.facts.n_included) * triangle, 1e-9);
+    assert_close(b.facts.true_mass, 500.0 * 8.0 + 1000.0 * 0.49 * 2.0 * quarter, 0.1);
+    drop_built(&b);
+}
+
 static void all_nodes_have_the_velocity(void **state)
 {
     (void)state;
@@ -366,6 +382,7 @@ int main(void)
         cmocka_unit_test(the_material_is_found_by_its_name),
         cmocka_unit_test(squares_have_the_springs_of_their_diagonal),
         cmocka_unit_test(a_bond_stiffness_is_that_of_every_spring),
+        cmocka_unit_test(an_inclusion_has_its_own_material),
         cmocka_unit_test(all_nodes_have_the_velocity),
         cmocka_unit_test(a_void_turns_with_its_body),
         cmocka_unit_test(voids_and_pores_of_other_bodies_do_nothing),

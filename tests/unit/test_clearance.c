@@ -32,14 +32,55 @@ static void free_scene(scene *s)
     dem_lattice_free(&s->lattice);
 }
 
+static double distance_to(const double x[2], const double *a, const double *b)
+{
+    const double e[2] = {b[0] - a[0], b[1] - a[1]}, r[2] = {x[0] - a[0], x[1] - a[1]};
+    const double place = fmin(fmax((e[0] * r[0] + e[1] * r[1]) / (e[0] * e[0] + e[1] * e[1]), 0.0), 1.0);
+    return hypot(r[0] - place * e[0], r[1] - place * e[1]);
+}
+
+/* Of nodes to the obstacle, and of its points to the sides of all triangles. */
 static double gap_after(const scene *s, const double shift[2])
 {
+    const dem_lattice *l = &s->lattice;
+    dem_index n;
+    const dem_obstacle *obstacle = dem_model_obstacles(s->model, &n);
     double least = (double)INFINITY;
-    for (dem_index i = 0; i < s->lattice.n_nodes; i++) {
-        const double x[2] = {s->lattice.x[2 * i] + shift[0], s->lattice.x[2 * i + 1] + shift[1]};
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const double x[2] = {l->x[2 * i] + shift[0], l->x[2 * i + 1] + shift[1]};
         least = fmin(least, dem_model_gap(s->model, x));
     }
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
+        const dem_index a = l->triangles[k], b = l->triangles[k % 3 == 2 ? k - 2 : k + 1];
+        for (dem_index i = 0; i < obstacle->n_points; i++) {
+            const double *x = obstacle->points + 2 * i, seen[2] = {x[0] - shift[0], x[1] - shift[1]};
+            least = fmin(least, distance_to(seen, l->x + 2 * a, l->x + 2 * b));
+        }
+    }
     return least;
+}
+
+static bool shift_to(double shift[2], const dem_model *model, const double gravity[2], double clearance)
+{
+    bool reached;
+    assert_true(clearance_shift(shift, &reached, model, gravity, clearance));
+    return reached;
+}
+
+/* An apex under the middle of the lower side: from far above, with the apex inside, and nearer than some clearances. */
+static void an_apex_between_nodes_is_met_at_the_clearance(void **state)
+{
+    (void)state;
+    const double apex[] = {-9.0, -9.0, 0.49, -1.0, 0.5, 0.2, 0.51, -1.0, 9.0, -9.0};
+    const double clearances[] = {0.0, 1e-3, 0.1};
+    for (int k = 0; k < 9; k++) {
+        double shift[2];
+        const double y = k < 3 ? 2.0 : k < 6 ? 0.1 : 0.2 + 5e-4;
+        scene s = make_scene(0.0, y, apex, 5);
+        assert_true(shift_to(shift, s.model, down, clearances[k % 3]));
+        assert_close(y + shift[1], 0.2 + clearances[k % 3], 1e-12);
+        free_scene(&s);
+    }
 }
 
 static void a_body_above_a_floor_goes_down_to_it(void **state)
@@ -48,10 +89,10 @@ static void a_body_above_a_floor_goes_down_to_it(void **state)
     const double floor[] = {-9.0, 0.5, 9.0, 0.5};
     double shift[2];
     scene s = make_scene(0.0, 3.0, floor, 2);
-    assert_true(clearance_shift(shift, s.model, down, 0.125));
+    assert_true(shift_to(shift, s.model, down, 0.125));
     assert_close(shift[0], 0.0, 0.0);
     assert_close(shift[1], -2.375, 1e-12);
-    assert_true(clearance_shift(shift, s.model, down, 0.0));
+    assert_true(shift_to(shift, s.model, down, 0.0));
     assert_close(shift[1], -2.5, 1e-12);
     free_scene(&s);
 }
@@ -63,7 +104,7 @@ static void a_body_in_or_under_a_floor_goes_up_to_it(void **state)
     double shift[2];
     for (int k = 0; k < 2; k++) {
         scene s = make_scene(0.0, k == 0 ? 0.0 : -7.0, floor, 2);
-        assert_true(clearance_shift(shift, s.model, down, 1e-3));
+        assert_true(shift_to(shift, s.model, down, 1e-3));
         assert_close(shift[1], (k == 0 ? 0.5 : 7.5) + 1e-3, 1e-12);
         free_scene(&s);
     }
@@ -80,7 +121,7 @@ static void slopes_and_vertices_are_met_at_the_clearance_exactly(void **state)
         for (int g = 0; g < 3; g++)
             for (int c = 0; c < 3; c++) {
                 double shift[2];
-                assert_true(clearance_shift(shift, s.model, gravities[g], clearances[c]));
+                assert_true(shift_to(shift, s.model, gravities[g], clearances[c]));
                 assert_close(gap_after(&s, shift), clearances[c], 1e-12);
                 assert_close(shift[0] * gravities[g][1], shift[1] * gravities[g][0], 1e-12);
             }
@@ -94,7 +135,7 @@ static void a_body_inside_a_closed_obstacle_stays_inside(void **state)
     const double box[] = {-5.0, 0.0, 5.0, 0.0, 5.0, 8.0, -5.0, 8.0, -5.0, 0.0};
     double shift[2];
     scene s = make_scene(0.0, 4.0, box, 5);
-    assert_true(clearance_shift(shift, s.model, down, 0.25));
+    assert_true(shift_to(shift, s.model, down, 0.25));
     assert_close(shift[1], -3.75, 1e-12);
     free_scene(&s);
 }
@@ -105,9 +146,9 @@ static void a_vertex_exactly_below_a_node_is_not_missed(void **state)
     const double peak[] = {-9.0, -9.0, 0.1, 0.3, 9.0, -9.0};
     double shift[2];
     scene s = make_scene(0.1, 5.0, peak, 3);
-    assert_true(clearance_shift(shift, s.model, down, 0.0));
+    assert_true(shift_to(shift, s.model, down, 0.0));
     assert_close(shift[1], -4.7, 1e-12);
-    assert_true(clearance_shift(shift, s.model, down, 2e-4));
+    assert_true(shift_to(shift, s.model, down, 2e-4));
     assert_close(shift[1], -4.7 + 2e-4, 1e-12);
     free_scene(&s);
 }
@@ -127,7 +168,7 @@ static void a_body_that_touches_already_stays(void **state)
         double shift[2];
         scene s = make_scene(cases[k].x, cases[k].y, cases[k].points, cases[k].n);
         assert_true(fabs(gap_after(&s, (double[2]){0.0, 0.0})) < 1e-15);
-        assert_true(clearance_shift(shift, s.model, down, 0.0));
+        assert_true(shift_to(shift, s.model, down, 0.0));
         assert_close(shift[1], 0.0, 1e-12);
         free_scene(&s);
     }
@@ -200,17 +241,18 @@ static void without_an_obstacle_below_there_is_no_place(void **state)
     const double up[2] = {0.0, 9.81};
     double shift[2];
     scene s = make_scene(0.0, 1.0, aside, 2);
-    assert_false(clearance_shift(shift, s.model, down, 0.1));
+    assert_false(shift_to(shift, s.model, down, 0.1));
     free_scene(&s);
     s = make_scene(4.0, 1.0, aside, 2);
-    assert_true(clearance_shift(shift, s.model, down, 0.1));
-    assert_false(clearance_shift(shift, s.model, up, 0.1));
+    assert_true(shift_to(shift, s.model, down, 0.1));
+    assert_false(shift_to(shift, s.model, up, 0.1));
     free_scene(&s);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_apex_between_nodes_is_met_at_the_clearance),
         cmocka_unit_test(a_body_above_a_floor_goes_down_to_it),
         cmocka_unit_test(a_body_in_or_under_a_floor_goes_up_to_it),
         cmocka_unit_test(slopes_and_vertices_are_met_at_the_clearance_exactly),

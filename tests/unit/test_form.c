@@ -262,6 +262,103 @@ static void jitter_moves_nodes_that_are_not_on_the_boundary(void **state)
     dem_lattice_free(&other.lattice);
 }
 
+/* ---- inclusions ---- */
+
+#define HEAVY "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n"
+
+/* Which material each triangle of the first body has. Caller frees. */
+static dem_index *mark(formed *f, const char *text, size_t n)
+{
+    char all[4096];
+    namelist_errors errors = {0};
+    dem_material materials[4];
+    (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
+    resolved r = resolve_clean(all);
+    *f = build_good(text);
+    dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
+    assert_non_null(of);
+    assert_int_equal(form_mark(of, &f->lattice, &r.deck, 0, &errors), DEM_OK);
+    assert_int_equal(f->form.n_inclusions, n);
+    form_materials(materials, &r.deck, 0);
+    assert_close(materials[0].density, 1000.0, 0.0);
+    for (size_t k = 1; k <= n; k++) assert_true(materials[k].density == 1000.0 || materials[k].density == 3000.0);
+    drop_resolved(&r);
+    return of;
+}
+
+static void triangles_with_their_centres_in_an_inclusion_are_of_it(void **state)
+{
+    (void)state;
+    formed f;
+    dem_index *of = mark(&f,
+                         HEAVY BLOCK DISC "&inclusion material = 'heavy', centre = 0, 1, radius = 0.6 /\n"
+                                          "&inclusion body = 2, material = 'heavy', centre = 0, 0, radius = 9 /\n"
+                                          "&inclusion material = 'rubber', shape = 'rectangle', centre = 0, 1, size = "
+                                          "0.5, 0.28, angle = 90 /",
+                         2);
+    for (dem_index t = 0; t < f.lattice.n_triangles; t++) {
+        double x[2] = {0.0, 0.0};
+        for (int c = 0; c < 6; c++) x[c % 2] += f.lattice.x[2 * f.lattice.triangles[3 * t + c / 2] + c % 2] / 3.0;
+        const bool inner = fabs(x[0]) < 0.14 && fabs(x[1] - 1.0) < 0.25, outer = hypot(x[0], x[1] - 1.0) < 0.6;
+        assert_int_equal(of[t], inner ? 2 : (outer ? 1 : 0));
+    }
+    free(of);
+    dem_lattice_free(&f.lattice);
+}
+
+static void of_squares_whole_cells_are_of_an_inclusion(void **state)
+{
+    (void)state;
+    formed f;
+    dem_index n = 0,
+              *of =
+                  mark(&f, HEAVY SQUARES " /\n&inclusion material = 'heavy', centre = 0.35, 1.05, radius = 0.12 /", 1);
+    for (dem_index t = 0; t < f.lattice.n_triangles; t++) {
+        assert_int_equal(of[t], of[t ^ 1]);
+        n += of[t];
+    }
+    assert_int_equal(n, 2 * 5); /* the cell about its centre and its neighbours */
+    free(of);
+    dem_lattice_free(&f.lattice);
+}
+
+/* Ring of 3000 * 0.5 in 1000, a quarter of which a void takes; overlaps count once, what is outside does not. */
+static void the_true_mass_is_that_of_all_materials(void **state)
+{
+    (void)state;
+    formed f = build_good(BLOCK);
+    assert_close(f.form.mass, 8000.0, 1e-9);
+    dem_lattice_free(&f.lattice);
+    f = build_good(HEAVY BLOCK "&inclusion material = 'heavy', centre = 0, 1, radius = 0.8 /\n"
+                               "&inclusion material = 'rubber', centre = 0, 1, radius = 0.4 /\n"
+                               "&inclusion material = 'heavy', shape = 'rectangle', centre = 2, 1, size = 1, 1 /\n"
+                               "&void shape = 'rectangle', centre = -0.5, 1.5, size = 1, 1 /");
+    assert_close(f.form.mass, 7000.0 + 500.0 * (0.48 * pi * 0.75 + 0.5), 1e-2);
+    dem_lattice_free(&f.lattice);
+    f = build_good(
+        with_file(HEAVY MESH, SQUARE,
+                  " /\n&inclusion material = 'heavy', shape = 'rectangle', centre = 1, 0, size = 0.8, 0.8 /"));
+    assert_close(f.form.mass, 0.5 * 1000.0 + 0.5 * 1500.0, 1e-9);
+    dem_lattice_free(&f.lattice);
+}
+
+static void an_inclusion_without_a_triangle_is_told(void **state)
+{
+    (void)state;
+    namelist_errors errors = {0};
+    formed f = build_good(BLOCK);
+    resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
+    dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
+    assert_non_null(of);
+    assert_int_equal(form_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
+    assert_int_equal(errors.n, 1);
+    assert_non_null(strstr(errors.list[0].text, "inclusion has no triangle of body 1"));
+    namelist_errors_free(&errors);
+    drop_resolved(&r);
+    free(of);
+    dem_lattice_free(&f.lattice);
+}
+
 /* ---- checks ---- */
 
 static void assert_checked(const char *text, int line, const char *word)
@@ -321,6 +418,9 @@ static void groups_name_a_body_that_can_have_them(void **state)
     assert_checked(MESH "'a' /\n&void centre = 0,0, radius = 1 /", 2, "which is of shape 'mesh'");
     assert_checked("&body shape = 'file', file = 'a' /\n&crack points = 0,0, 1,1 /", 2, "which is of shape 'file'");
     assert_checked(MASK "'a' /\n&pores number = 1, radius = 1, 1 /", 0, NULL);
+    assert_checked(MESH "'a' /\n&inclusion material = 'rubber', centre = 0,0, radius = 1 /", 0, NULL);
+    assert_checked(BLOCK "&inclusion material = 'rubber', centre = 0,0, radius = 1, body = 2 /", 2, "2");
+    assert_checked(BLOCK "&inclusion material = 'rubber', centre = 0,0 /", 2, "'radius' in &inclusion must be given");
     assert_checked(MASK "'' /", 1, "an image");
     assert_checked(MESH "'' /", 1, "a mesh");
 }
@@ -374,6 +474,10 @@ int main(void)
         cmocka_unit_test(every_shape_may_be_of_squares),
         cmocka_unit_test(cracks_take_whole_cells),
         cmocka_unit_test(jitter_moves_nodes_that_are_not_on_the_boundary),
+        cmocka_unit_test(triangles_with_their_centres_in_an_inclusion_are_of_it),
+        cmocka_unit_test(of_squares_whole_cells_are_of_an_inclusion),
+        cmocka_unit_test(the_true_mass_is_that_of_all_materials),
+        cmocka_unit_test(an_inclusion_without_a_triangle_is_told),
         cmocka_unit_test(sizes_at_the_limit_pass),
         cmocka_unit_test(groups_name_a_body_that_can_have_them),
         cmocka_unit_test(pores_have_a_number_or_a_porosity),

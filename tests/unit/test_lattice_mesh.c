@@ -236,7 +236,8 @@ static void squares_are_two_triangles_each_that_meet_along_turning_diagonals(voi
     for (dem_index i = 0; i < 12; i++) {
         assert_close(lattice.x[2 * i], 0.01 * (double)(i % 4) - 0.015, 1e-18);
         assert_close(lattice.x[2 * i], -lattice.x[2 * (4 * (i / 4) + 3 - i % 4)], 0.0);
-        assert_close(lattice.x[2 * i + 1], 0.01 * (double)(i / 4), 1e-18);
+        const dem_index row = i / 4;
+        assert_close(lattice.x[2 * i + 1], 0.01 * (double)row, 1e-18);
     }
     for (dem_index k = 0; k < 6; k++) {
         const dem_index *t = lattice.triangles + 6 * k, corner = k / 3 * 4 + k % 3;

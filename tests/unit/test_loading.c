@@ -38,7 +38,7 @@ static void make_block(dem_lattice *l, const placement *place)
             const dem_index a = first + j * columns + i, b = a + 1, u = a + columns, v = u + 1;
             const dem_index both[6] = {a, b, v, a, v, u};
             for (int q = 0; q < 6; q++) l->triangles[3 * l->n_triangles + q] = both[q];
-            l->thickness[l->n_triangles] = l->thickness[l->n_triangles + 1] = 0.25;
+            l->thickness[l->n_triangles] = l->thickness[l->n_triangles + 1] = i < 2 ? 0.25 : 0.5;
             l->n_triangles += 2;
         }
 }
@@ -53,13 +53,18 @@ typedef struct loaded {
 
 static const placement place = {.first = 3, .n_nodes = n_nodes, .angle = 1.5707963267948966, .offset = {7.0, -2.0}};
 
-static void load(loaded *l, const char *text)
+static void build(loaded *l, const char *text)
 {
     *l = (loaded){.from = resolve_clean(text)};
     loading_drop_unused(&l->from.deck);
     loading_check_all(&l->from.deck, &l->errors);
     make_block(&l->lattice, &place);
     assert_true(loading_build(&l->list, &l->n, &l->lattice, &place, &l->from.deck, &l->errors));
+}
+
+static void load(loaded *l, const char *text)
+{
+    build(l, text);
     if (l->errors.n > 0) fail_msg("'%s' gives '%s'", text, l->errors.list[0].text);
 }
 
@@ -121,16 +126,16 @@ static void places_are_in_own_coordinates(void **unused)
     drop_loaded(&l);
 }
 
-/* 100 Pa on the top, 2 m long and 0.25 m thick: half a spacing's share at the ends. A box takes the edges as they
- * are. */
+/* 100 Pa on the top, 2 m long, half of it 0.25 m, half 0.5 m thick: half an edge to each of its ends. A box takes the
+ * edges as they are. */
 static void a_traction_is_shared_by_the_lengths_of_edges(void **unused)
 {
+    static const double thick[columns] = {0.25, 0.25 + 0.25, 0.25 + 0.5, 0.5 + 0.5, 0.5}; /* of both edges of a node */
     loaded l;
     (void)unused;
     load(&l, BASE "&boundary where = 'side', side = 'top', kind = 'traction', traction = 100, 0 /\n"
                   "&boundary where = 'box', box = -1, -1, 0.1, 9, kind = 'traction', traction = 0, 7 /\n");
-    for (int k = 0; k < columns; k++)
-        assert_close(l.list[0].share[k], (k == 0 || k == columns - 1 ? 0.5 : 1.0) * spacing * 0.25, 1e-14);
+    for (int k = 0; k < columns; k++) assert_close(l.list[0].share[k], 0.5 * spacing * thick[k], 1e-14);
     for (int k = 0; k < rows; k++)
         assert_close(l.list[1].share[k], (k == 0 || k == rows - 1 ? 0.5 : 1.0) * spacing * 0.25, 1e-14);
     drop_loaded(&l);
@@ -150,9 +155,30 @@ static void what_is_prescribed_touches_nothing(void **unused)
     drop_loaded(&l);
 }
 
+/* A corner may be held in x by one side and in y by the other, not twice in y. */
+static void a_component_has_one_motion(void **unused)
+{
+    static const char both[] = BASE "&boundary where = 'side', side = 'left', components = 'x' /\n"
+                                    "&boundary where = 'side', side = 'bottom', components = 'y' /\n";
+    static const char twice[] = BASE "&boundary where = 'side', side = 'left' /\n"
+                                     "&boundary where = 'side', side = 'top', kind = 'force', force = 1, 1 /\n"
+                                     "&boundary where = 'side', side = 'bottom', components = 'y' /\n";
+    loaded l;
+    (void)unused;
+    load(&l, both);
+    drop_loaded(&l);
+    build(&l, twice);
+    assert_int_equal(l.errors.n, 1);
+    assert_int_equal(l.errors.list[0].place.line, 5);
+    assert_string_equal(l.errors.list[0].text,
+                        "&boundary prescribes the motion of node 3 at (7, -2) m, as the one in line 3 does");
+    drop_loaded(&l);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_component_has_one_motion),
         cmocka_unit_test(sides_are_those_of_the_body_itself),
         cmocka_unit_test(places_are_in_own_coordinates),
         cmocka_unit_test(a_traction_is_shared_by_the_lengths_of_edges),

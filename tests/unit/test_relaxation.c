@@ -91,6 +91,24 @@ static void damping_is_critical_for_the_slowest_stretch(void **unused)
     support_close(&run);
 }
 
+/* Of two springs, one of four times the other's slowness, waves run in the mean at 2/(1 + 4) of the faster one's. */
+static void soft_parts_make_the_slowest_stretch_slower(void **unused)
+{
+    const double x[] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0}, equal[] = {1.0, 1.0, 1.0};
+    const dem_index both[] = {0, 1, 1, 2};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    support_run run;
+    (void)unused;
+    support_lattice(&lattice, 3, x, equal, 2, both, 1.0, 100.0, NULL);
+    lattice.stiffness[1] /= 16.0;
+    options.v_scale = 1.0;
+    support_open(&run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    assert_close(relaxation_damping(run.model), 0.4 * M_PI / 2.0 * 0.5 * dem_model_omega_max(run.model), 1e-12);
+    support_close(&run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -98,6 +116,7 @@ int main(void)
         cmocka_unit_test(what_is_not_at_rest_goes_on),
         cmocka_unit_test(ramps_are_waited_for),
         cmocka_unit_test(damping_is_critical_for_the_slowest_stretch),
+        cmocka_unit_test(soft_parts_make_the_slowest_stretch_slower),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

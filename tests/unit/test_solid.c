@@ -327,6 +327,99 @@ static void squares_refuse_what_is_no_cell(void **state)
 
 /* ---- refusals ---- */
 
+/* ---- several materials ---- */
+
+static const dem_material steel = {.youngs_modulus = 2e8,
+                                   .poissons_ratio = 0.2,
+                                   .plane = DEM_PLANE_STRAIN,
+                                   .density = 7800.0,
+                                   .thickness = 0.25,
+                                   .guard = 0.03,
+                                   .damping_time = 2e-6};
+
+static bool is_right(const dem_lattice *l, dem_index t)
+{
+    const dem_index *c = l->triangles + 3 * t;
+    return l->x[2 * c[0]] + l->x[2 * c[1]] + l->x[2 * c[2]] > 0.0;
+}
+
+/* Halves of an assembled lattice and what two materials make of it: each half as it is alone, the nodes and springs of
+ * the seam x = 0 the mean. */
+static void expect_mean_on_the_seam(const dem_lattice *mixed, const dem_lattice *left, const dem_lattice *right)
+{
+    dem_index n_seam = 0;
+    for (dem_index k = 0; k < mixed->n_springs; k++) {
+        const dem_index i = mixed->ends[2 * k], j = mixed->ends[2 * k + 1];
+        const double x = mixed->x[2 * i] + mixed->x[2 * j], low = left->stiffness[k], high = right->stiffness[k];
+        const double expected = fabs(x) < 1e-9 ? 0.5 * (low + high) : (x < 0.0 ? low : high);
+        assert_close(mixed->stiffness[k], expected, 1e-12 * expected);
+        const double damped = fabs(x) < 1e-9 ? 0.5 * 2e-6 * high : (x < 0.0 ? 0.0 : 2e-6 * high);
+        assert_close(mixed->viscosity[k], damped, 1e-12 * high);
+        n_seam += fabs(x) < 1e-9 && fabs(mixed->x[2 * i]) < 1e-9;
+    }
+    assert_int_equal(n_seam, 4);
+    for (dem_index i = 0; i < mixed->n_nodes; i++) {
+        const double x = mixed->x[2 * i], low = left->mass[i], high = right->mass[i];
+        assert_close(mixed->mass[i], fabs(x) < 1e-9 ? 0.5 * (low + high) : (x < 0.0 ? low : high), 1e-15);
+    }
+    for (dem_index t = 0; t < mixed->n_triangles; t++) {
+        const dem_lattice *own = is_right(mixed, t) ? right : left;
+        assert_close(mixed->guard[t], own->guard[t], 0.0);
+        assert_close(mixed->thickness[t], own->thickness[t], 0.0);
+        assert_close(mixed->modulus[t], own->modulus[t], 0.0);
+        assert_close(mixed->area_stiffness[t], own->area_stiffness == NULL ? 0.0 : own->area_stiffness[t], 0.0);
+    }
+}
+
+static void a_spring_between_two_materials_is_half_of_each(void **state)
+{
+    (void)state;
+    const dem_material both[2] = {rubber, steel};
+    dem_lattice mixed = make_squares(6.0 * spacing, 4.0 * spacing), left = make_squares(6.0 * spacing, 4.0 * spacing),
+                right = make_squares(6.0 * spacing, 4.0 * spacing);
+    dem_index of[48];
+    assert_int_equal(mixed.n_triangles, 48);
+    for (dem_index t = 0; t < 48; t++) of[t] = is_right(&mixed, t);
+    assert_int_equal(dem_lattice_assemble_mixed(&mixed, both, 2, of, 0.4), DEM_OK);
+    assert_int_equal(dem_lattice_assemble_squares(&left, &rubber, 0.4), DEM_OK);
+    assert_int_equal(dem_lattice_assemble_squares(&right, &steel, 0.4), DEM_OK);
+    expect_mean_on_the_seam(&mixed, &left, &right);
+    dem_lattice_free(&mixed);
+    dem_lattice_free(&left);
+    dem_lattice_free(&right);
+}
+
+static void a_mixture_refuses_what_cannot_be_mixed(void **state)
+{
+    (void)state;
+    dem_material both[2] = {rubber, steel};
+    dem_lattice lattice = make_squares(spacing, spacing);
+    dem_index of[2] = {0, 1};
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.4), DEM_ERROR_MODEL,
+                   "triangles 0 and 1, of a cell, have two materials");
+    of[1] = 2;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "triangle 1 has material 2, but there are 2");
+    of[1] = -1;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "triangle 1 has material -1, but there are 2");
+    of[1] = 1, both[1].youngs_modulus = 0.0, both[1].bond_stiffness = 7.0;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "a bond stiffness, 7 N, is for bodies of one material");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 0, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "the number of materials must be > 0: 0");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, NULL, 2, of, 0.0), DEM_ERROR_ARGUMENT, "material is NULL");
+    both[1] = steel, both[1].density = 0.0;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "density must be > 0: 0 kg/m^3");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, -1.0), DEM_ERROR_ARGUMENT,
+                   "the stiffness of a diagonal over a side's must be > 0: -1");
+    assert_null(lattice.mass);
+    dem_lattice_free(&lattice);
+}
+
+/* ---- faults ---- */
+
 static void assembling_refuses_what_is_not_a_triangulation(void **state)
 {
     (void)state;
@@ -404,6 +497,8 @@ int main(void)
         cmocka_unit_test(squares_need_no_area_term_at_the_ratio_of_their_diagonals),
         cmocka_unit_test(cells_may_be_any_convex_quadrilaterals),
         cmocka_unit_test(squares_refuse_what_is_no_cell),
+        cmocka_unit_test(a_spring_between_two_materials_is_half_of_each),
+        cmocka_unit_test(a_mixture_refuses_what_cannot_be_mixed),
         cmocka_unit_test(assembling_refuses_what_is_not_a_triangulation),
         cmocka_unit_test(assembling_refuses_impossible_materials),
     };

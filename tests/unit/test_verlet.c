@@ -178,6 +178,20 @@ static void stiffening_halves_the_step(void **state)
     verlet_destroy(V);
 }
 
+static double endless(const double *y, void *context)
+{
+    (void)y;
+    (void)context;
+    return (double)INFINITY;
+}
+
+static void no_stiffening_stops_the_time(void **state)
+{
+    const motion problem = {.fixed_step = 0.1, .stiffening = endless};
+    (void)state;
+    assert_true(motion_fixed_step(&problem, NULL) > 1e-12);
+}
+
 /* What the derivative gives in place of a velocity is taken over, at rest or not. */
 static void prescribed_velocities_are_taken_over(void **state)
 {
@@ -363,6 +377,7 @@ int main(void)
         cmocka_unit_test(it_runs_backwards),
         cmocka_unit_test(the_stability_bound_is_that_of_the_characteristic_equation),
         cmocka_unit_test(stiffening_halves_the_step),
+        cmocka_unit_test(no_stiffening_stops_the_time),
         cmocka_unit_test(prescribed_velocities_are_taken_over),
         cmocka_unit_test(the_path_of_a_step_is_that_of_shorter_steps),
         cmocka_unit_test(a_path_starts_where_the_last_one_ended),

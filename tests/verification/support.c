@@ -43,6 +43,26 @@ void support_start(dem_lattice *lattice, const double *position, const double *v
     if (velocity != NULL) lattice->velocity = copy(velocity, size);
 }
 
+/* e(s) = (1 - s^2)^2 and its first and second integral over y = half s. */
+void support_block(dem_lattice *out)
+{
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
+    const double stretch = 0.04, curvature = 1.4, spacing = 5e-3, half = 3.0 * sqrt(3.0) * spacing;
+    assert_ok(dem_lattice_rectangle(out, 0.05, 2.0 * half, spacing));
+    assert_ok(dem_lattice_assemble(out, &rubber));
+    assert_int_equal(out->n_nodes, 137);
+    out->position = malloc(2 * (size_t)out->n_nodes * sizeof(double));
+    assert_non_null(out->position);
+    for (dem_index i = 0; i < out->n_nodes; i++) {
+        const double x = out->x[2 * i], y = out->x[2 * i + 1] - half, s2 = y * y / (half * half);
+        const double e = (1.0 - s2) * (1.0 - s2), once = y * (1.0 - s2 * (2.0 / 3.0 - s2 / 5.0));
+        const double twice = y * y * (0.5 - s2 * (1.0 / 6.0 - s2 / 30.0));
+        out->position[2 * i] = x - stretch * e * x / 3.0 + curvature * (twice + e * x * x / 6.0);
+        out->position[2 * i + 1] = y + stretch * once - curvature * once * x;
+    }
+}
+
 static dem_status record(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     support_run *run = context;

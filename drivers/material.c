@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "material.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MATERIALS_LISTED = 5 };
+
+const schema_instance *material_find(const schema_deck *groups, const char *name)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const schema_instance *material = schema_get(groups, "material", k);
+        if (schema_is(material, "name", name)) return material;
+    }
+    return NULL;
+}
+
+dem_material material_of(const schema_deck *groups, const schema_instance *user)
+{
+    const schema_instance *m = material_find(groups, schema_text(user, "material"));
+    return (dem_material){.youngs_modulus = schema_real(m, "youngs_modulus"),
+                          .bond_stiffness = schema_real(m, "bond_stiffness"),
+                          .poissons_ratio = schema_real(m, "poissons_ratio"),
+                          .plane = schema_is(m, "plane", "strain") ? DEM_PLANE_STRAIN : DEM_PLANE_STRESS,
+                          .density = schema_real(m, "density"),
+                          .thickness = schema_real(m, "thickness"),
+                          .guard = schema_real(m, "guard"),
+                          .damping_time = schema_real(m, "damping_time")};
+}
+
+/* ---- checks ---- */
+
+static bool has_faulty_name(const schema_deck *groups)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++)
+        if (schema_value_of(schema_get(groups, "material", k), "name")->faulty) return true;
+    return false;
+}
+
+/* Writes " (did you mean 'x'?)" or what names there are. */
+static void hint(char *out, size_t size, const schema_deck *groups, const char *name)
+{
+    const char *names[64];
+    size_t n = 0, nearest, length = 0;
+    const size_t count = schema_count(groups, "material");
+    for (; n < count && n < sizeof names / sizeof *names; n++)
+        names[n] = schema_text(schema_get(groups, "material", n), "name");
+    if (schema_nearest(name, names, n, &nearest)) {
+        (void)snprintf(out, size, " (did you mean '%s'?)", names[nearest]);
+        return;
+    }
+    for (size_t k = 0; k < n && k < MATERIALS_LISTED; k++)
+        length += (size_t)snprintf(out + length, size - length, "%s'%.40s'", k == 0 ? "; known: " : ", ", names[k]);
+    if (count > MATERIALS_LISTED) (void)snprintf(out + length, size - length, ", ...");
+}
+
+void material_check_user(const schema_deck *groups, const schema_instance *user, namelist_errors *errors)
+{
+    const schema_value *value = schema_value_of(user, "material");
+    const char *name = schema_text(user, "material");
+    char known[64 * (MATERIALS_LISTED + 1)];
+    if (value->faulty || value->count == 0 || groups->misspelt || has_faulty_name(groups)) return;
+    if (schema_count(groups, "material") == 0 || material_find(groups, name) != NULL) return;
+    hint(known, sizeof known, groups, name);
+    namelist_errors_add(errors, value->place, "there is no material '%.40s'%s%s", name,
+                        value->given ? "" : ", the default of 'material' in &body", known);
+}
+
+/* E or E_ij; with that no nu. */
+static void check_stiffness(const schema_instance *material, namelist_errors *errors)
+{
+    static const char *const unused[] = {"youngs_modulus", "poissons_ratio", "plane"};
+    const schema_value *modulus = schema_value_of(material, "youngs_modulus"),
+                       *bond = schema_value_of(material, "bond_stiffness");
+    if (!bond->given && !modulus->given && !modulus->faulty && !bond->faulty)
+        namelist_errors_add(errors, material->place, "'youngs_modulus' or 'bond_stiffness' in &material must be given");
+    for (size_t k = 0; bond->given && k < sizeof unused / sizeof *unused; k++)
+        if (schema_given(material, unused[k]))
+            namelist_errors_add(errors, schema_place(material, unused[k]),
+                                "'%s' in &material does not go with 'bond_stiffness'", unused[k]);
+}
+
+static void check_name(const schema_deck *groups, const schema_instance *material, namelist_errors *errors)
+{
+    const schema_instance *first = material_find(groups, schema_text(material, "name"));
+    if (first != material && !has_faulty_name(groups))
+        namelist_errors_add(errors, schema_place(material, "name"), "material '%.40s' is given twice, first in line %d",
+                            schema_text(material, "name"), first->place.line);
+}
+
+/* The table's range is that of plane stress. */
+static void check_ratio(const schema_instance *material, namelist_errors *errors)
+{
+    const double ratio = schema_real(material, "poissons_ratio");
+    if (schema_is(material, "plane", "strain") && ratio >= 0.5)
+        namelist_errors_add(errors, schema_place(material, "poissons_ratio"),
+                            "'poissons_ratio' in &material must be < 0.5 in plane strain, got %g", ratio);
+}
+
+void material_check_all(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const schema_instance *material = schema_get(groups, "material", k);
+        check_name(groups, material, errors);
+        check_stiffness(material, errors);
+        check_ratio(material, errors);
+    }
+}
+
+void material_drop_unused(schema_deck *groups)
+{
+    for (size_t i = 0; i < groups->n_instances; i++) {
+        schema_instance *material = &groups->instances[i];
+        if (strcmp(material->group->name, "material") != 0 || !schema_given(material, "bond_stiffness")) continue;
+        schema_drop(material, "poissons_ratio");
+        schema_drop(material, "plane");
+    }
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* See pace.h. */
+#include "pace.h"
+
+#include <math.h>
+
+dem_method_traits pace_method(const dem_simulation *simulation)
+{
+    dem_method_traits traits = {0};
+    (void)dem_method_describe(&traits, dem_simulation_options(simulation).method);
+    return traits;
+}
+
+/* |R| - 1 of the oscillation that grows most, of those up to omega h. */
+static double largest_growth(dem_method method, double omega_h)
+{
+    enum { samples = 100 };
+    double largest = 0.0;
+    for (int k = 1; k <= samples; k++) largest = fmax(largest, dem_method_growth(method, omega_h * k / samples) - 1.0);
+    return largest;
+}
+
+/* What the step is in units of the fastest oscillation, and what the method makes of that. */
+static void print_stability(FILE *out, const dem_method_traits *method, const dem_options *o, double omega)
+{
+    const double z = omega * o->max_step;
+    if (!(omega > 0.0)) return;
+    (void)fprintf(out, "stability  omega_max h = %.3g; ", z);
+    if (method->stable > 0.0)
+        (void)fprintf(out, "%s is stable up to %.3g, h = %.4g s", method->name, method->stable, method->stable / omega);
+    else
+        (void)fprintf(out, "with %s undamped oscillations grow at any step, here by up to %.1e in one", method->name,
+                      largest_growth(o->method, z));
+    if (o->fixed_step > 0.0 && z > method->usable)
+        (void)fprintf(out, "; WARNING: from %.3g on the run may blow up", method->usable);
+    (void)fprintf(out, "\n");
+}
+
+void pace_print(FILE *out, double t_end, const dem_simulation *simulation)
+{
+    const dem_options o = dem_simulation_options(simulation);
+    const dem_method_traits method = pace_method(simulation);
+    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
+                  (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
+    print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
+    (void)fprintf(out, "kernel     %s, %d thread%s\n", dem_kernel_name(o.kernel), (int)o.threads,
+                  o.threads > 1 ? "s" : "");
+    (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing = %.3g at v_scale along x; it does not bound the step\n",
+                  o.v_scale * o.max_step / o.spacing);
+}
+
+void pace_follow(pace *p, const dem_simulation *simulation, const dem_state *state)
+{
+    const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
+    double fastest = 0.0;
+    for (dem_index i = 0; i < n; i++) fastest = fmax(fastest, fabs(state->v[2 * i]) + fabs(state->v[2 * i + 1]));
+    const double value = fastest * state->step / dem_simulation_options(simulation).spacing; /* (6) */
+    if (value <= p->largest) return;
+    p->largest = value;
+    p->t = state->t;
+}
+
+void pace_print_largest(FILE *out, const pace *p)
+{
+    (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing was %.3g at most, at %.4e s\n", p->largest, p->t);
+}

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "preview.h"
+
+#include <gsl/gsl_version.h>
+#include <math.h>
+
+#include "commit.h"
+#include "pace.h"
+#include "wall.h"
+
+enum { most_listed = 16 };            /* obstacles, bodies */
+enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
+
+static bool has_friction(const dem_obstacle *o)
+{
+    return o->friction_law == DEM_FRICTION_PAPER ? o->friction < 1.0 : o->friction > 0.0;
+}
+
+static void print_friction(FILE *out, const dem_model *model)
+{
+    dem_index n = 0, n_rough = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    for (dem_index o = 0; o < n; o++) {
+        if (!has_friction(&obstacles[o]) || ++n_rough > most_listed) continue;
+        (void)fprintf(out, "friction   obstacle %lld: %g (%s)\n", (long long)o + 1, obstacles[o].friction,
+                      obstacles[o].friction_law == DEM_FRICTION_PAPER ? "paper" : "Coulomb");
+    }
+    if (n_rough > most_listed) (void)fprintf(out, "friction   on %lld obstacles in all\n", (long long)n_rough);
+}
+
+/* The longest damping time of the springs, s. */
+static double damping_time(const dem_lattice *lattice)
+{
+    double longest = 0.0;
+    for (dem_index k = 0; k < lattice->n_springs && lattice->viscosity != NULL; k++)
+        longest = fmax(longest, lattice->viscosity[k] / lattice->stiffness[k]);
+    return longest;
+}
+
+static void print_damping(FILE *out, double of_masses, double of_springs)
+{
+    if (of_masses > 0.0) (void)fprintf(out, "damping    of masses: %g 1/s\n", of_masses);
+    if (of_springs > 0.0) (void)fprintf(out, "damping    of springs: %g s\n", of_springs);
+}
+
+static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    (void)fprintf(out, "impacts    window %.4g s%s, vertices ", fmax(o->window, 0.0),
+                  o->window > 0.0 ? "" : " (each by itself)");
+    if (o->vertices)
+        (void)fprintf(out, "on: %lld may touch %lld edges\n", (long long)size.n_vertices,
+                      (long long)size.n_contact_edges);
+    else
+        (void)fprintf(out, "off\n");
+    print_friction(out, model);
+    print_damping(out, o->mass_damping, damping_time(dem_model_lattice(model)));
+}
+
+static void print_sizes(FILE *out, const dem_model *model)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    (void)fprintf(out, "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg\n",
+                  (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
+                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model));
+    (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments\n",
+                  (long long)size.n_contact_nodes, (long long)size.n_obstacles, size.n_obstacles == 1 ? "" : "s",
+                  (long long)size.n_segments);
+}
+
+static double frame_bytes(const deck *d, const dem_model_size *size)
+{
+    static const struct {
+        uint32_t field;
+        double of_node, of_spring; /* numbers */
+    } fields[] = {{DEM_FIELD_DISPLACEMENT, 3.0, 0.0}, {DEM_FIELD_VELOCITY, 3.0, 0.0},  {DEM_FIELD_STRESS, 6.0, 0.0},
+                  {DEM_FIELD_VON_MISES, 1.0, 0.0},    {DEM_FIELD_PRINCIPAL, 2.0, 0.0}, {DEM_FIELD_STRAIN, 0.0, 1.0},
+                  {DEM_FIELD_FORCE, 0.0, 1.0}};
+    const double width = d->double_precision ? 8.0 : 4.0;
+    double of_node = 24.0, of_spring = 1.0;
+    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {
+        if ((d->fields & fields[k].field) == 0) continue;
+        of_node += width * fields[k].of_node;
+        of_spring += width * fields[k].of_spring;
+    }
+    return of_node * (double)size->n_nodes + of_spring * (double)size->n_springs;
+}
+
+/* What is probed, where at rest. */
+static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
+{
+    static const char *const kinds[] = {
+        [DEM_PROBE_NODE] = "node", [DEM_PROBE_SPRING] = "spring", [DEM_PROBE_GAUGE] = "gauge from node"};
+    for (dem_index k = 0; k < d->n_probes; k++) {
+        const dem_probe *p = &d->probes[k];
+        const dem_index a = p->kind == DEM_PROBE_SPRING ? l->ends[2 * p->number[0]] : p->number[0];
+        const dem_index b = p->kind == DEM_PROBE_SPRING  ? l->ends[2 * p->number[0] + 1]
+                            : p->kind == DEM_PROBE_GAUGE ? p->number[1]
+                                                         : a;
+        (void)fprintf(out, "probe      %s: %s %lld", p->name, kinds[p->kind], (long long)p->number[0]);
+        if (p->kind == DEM_PROBE_GAUGE) (void)fprintf(out, " to %lld", (long long)p->number[1]);
+        (void)fprintf(out, " at (%.6g, %.6g) m\n", 0.5 * (l->x[2 * a] + l->x[2 * b]),
+                      0.5 * (l->x[2 * a + 1] + l->x[2 * b + 1]));
+    }
+}
+
+/* Whether body b of the model is that of one group and of a slice of a long body. */
+static bool is_slice(const deck *d, dem_index n_bodies, dem_index b)
+{
+    return (dem_index)d->n_bodies == n_bodies && d->bodies[b].plane == DEM_PLANE_STRAIN;
+}
+
+/* The library tells those of the plate in plane stress that moves alike: E/(1 - nu^2) and nu/(1 - nu) of a slice. */
+static void print_modulus(FILE *out, const dem_constants *c, bool slice)
+{
+    const double plate = c->poissons_ratio, nu = slice ? plate / (1.0 + plate) : plate;
+    const double modulus = slice ? c->youngs_modulus * (1.0 - nu * nu) : c->youngs_modulus;
+    (void)fprintf(out, "E %.6g Pa, nu %.5g%s, anisotropy %.4f, waves %.5g and %.5g m/s\n", modulus, nu,
+                  slice ? " in plane strain" : "", c->anisotropy, c->longitudinal_speed, c->transverse_speed);
+}
+
+/* As the library measures them, by loading the model. */
+static void print_constants(FILE *out, const deck *d, const dem_model *model)
+{
+    const dem_index n_bodies = dem_model_sizes(model).n_bodies;
+    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
+        dem_constants c;
+        (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
+        if (dem_model_constants(model, b, &c) == DEM_OK)
+            print_modulus(out, &c, is_slice(d, n_bodies, b));
+        else
+            (void)fprintf(out, "not measured: %s\n", dem_status_message());
+    }
+    if (n_bodies > most_listed)
+        (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
+}
+
+static void print_frequency(FILE *out, const dem_model *model)
+{
+    double omega;
+    if (dem_model_omega(model, &omega) != DEM_OK)
+        (void)fprintf(out, "frequency  not measured: %s\n", dem_status_message());
+    else if (omega > 0.0)
+        (void)fprintf(out, "frequency  highest %.6g rad/s, the bound is %.3f times that\n", omega,
+                      dem_model_omega_max(model) / omega);
+}
+
+static void print_measured(FILE *out, const deck *d, const dem_model *model)
+{
+    const double start = wall_clock();
+    const dem_index n = dem_model_sizes(model).n_nodes;
+    if (n > most_measured) {
+        (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
+        return;
+    }
+    print_constants(out, d, model);
+    print_frequency(out, model);
+    if (wall_clock() - start > 1.0)
+        (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
+}
+
+/* Numbered from 1, as decks are. */
+static void print_body(FILE *out, size_t number, const body_facts *b)
+{
+    char list[PARTS_LIST];
+    if (b->true_mass > 0.0)
+        (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
+                      b->true_mass, b->mass / b->true_mass);
+    if (b->form.n_pores > 0)
+        (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->form.n_pores,
+                      b->form.pore_area / (b->form.area + b->form.pore_area));
+    if (b->form.n_inclusions > 0)
+        (void)fprintf(out, "inclusions body %zu: %zu, of %lld triangles\n", number, b->form.n_inclusions,
+                      (long long)b->n_included);
+    if (b->form.n_cracked > 0)
+        (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
+                      (long long)b->form.n_cracked);
+    parts_print(list, &b->loose, b->true_mass > 0.0 ? "triangle" : "node");
+    if (b->loose.n > 0)
+        (void)fprintf(out, "parts      body %zu: %lld %s, of %s m in its own coordinates\n", number,
+                      (long long)b->loose.n, b->removed ? "removed" : "apart from the largest", list);
+    if (b->hinges.n > 0)
+        (void)fprintf(out, "hinges     body %zu: %lld node%s between triangles that share no edge, one at (%g, %g) m\n",
+                      number, (long long)b->hinges.n, b->hinges.n == 1 ? "" : "s", b->hinges.x[0], b->hinges.x[1]);
+}
+
+static void print_bodies(FILE *out, const deck *d)
+{
+    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) print_body(out, k + 1, &d->bodies[k]);
+    if (d->n_bodies > most_listed)
+        (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
+}
+
+/* Tables grow by whole chunks. */
+static double table_bytes(double rows, double width)
+{
+    return 8.0 * width * 1024.0 * ceil(rows / 1024.0);
+}
+
+/* Of the history and the probes, in numbers a row. */
+static double tables_bytes(const deck *d, const dem_model_size *size, double steps)
+{
+    static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
+    const double bytes = table_bytes(steps, 35.0 + 5.0 * (double)size->n_bodies + 9.0 * (double)size->n_obstacles +
+                                                4.0 * (double)d->n_boundaries);
+    double of_probes = 0.0;
+    for (dem_index k = 0; k < d->n_probes; k++)
+        of_probes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
+    return bytes + of_probes;
+}
+
+static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_options o = dem_simulation_options(simulation);
+    const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
+    const double state_bytes = (double)size.n_nodes * (4.0 * 8.0 * 24.0 + 300.0) + (double)size.n_springs * 2.0 * 44.0;
+    (void)fprintf(
+        out,
+        "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output, %.3g MB of memory\n",
+        steps, (int)pace_method(simulation).evaluations, frames,
+        1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)), 1e-6 * state_bytes);
+}
+
+static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
+{
+    static const char *const kinds[] = {[DEM_BOUNDARY_VELOCITY] = "velocity",
+                                        [DEM_BOUNDARY_DISPLACEMENT] = "displacement",
+                                        [DEM_BOUNDARY_FORCE] = "force"};
+    static const char *const units[] = {"m/s", "m", "N"};
+    static const char *const axes[] = {"", " x", " y", " x and y"};
+    double share = b->share == NULL;
+    for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
+    (void)fprintf(out, "boundary   %lld: %lld nodes, %s%s (%g, %g) %s", (long long)number, (long long)b->n_nodes,
+                  kinds[b->kind], b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
+                  share * b->value[1], units[b->kind]);
+    if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
+    (void)fprintf(out, "\n");
+}
+
+void preview_versions(char *text, size_t size)
+{
+    (void)snprintf(text, size, "dem %s (%s), compiler %s, SUNDIALS %s, HDF5 %s, GSL %s", dem_version(), DEM_COMMIT,
+                   __VERSION__, dem_version_sundials(), dem_version_hdf5(), GSL_VERSION);
+}
+
+void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, const char *output)
+{
+    char versions[256];
+    const dem_model *model = dem_simulation_model(simulation);
+    const dem_options o = dem_simulation_options(simulation);
+    preview_versions(versions, sizeof versions);
+    (void)fprintf(out, "%s\n", versions);
+    (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
+                  (unsigned long long)d->hash);
+    print_sizes(out, model);
+    print_bodies(out, d);
+    print_probes(out, d, dem_model_lattice(model));
+    print_rules(out, &o, model);
+    (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
+                  o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
+    pace_print(out, d->t_end, simulation);
+    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
+    print_measured(out, d, model);
+    print_estimates(out, d, simulation);
+    if (output != NULL) (void)fprintf(out, "output     %s\n", output);
+    (void)fflush(out);
+}
