@@ -123,6 +123,13 @@ void boundaries_begin(const boundaries *b, double *v)
                     put_component(v, b->list[k].nodes[p], c, boundary_velocity(&b->list[k], 0.0));
 }
 
+bool boundaries_move(const boundaries *b)
+{
+    for (dem_index k = 0; k < b->n; k++)
+        if (b->list[k].kind != DEM_BOUNDARY_FORCE) return true;
+    return false;
+}
+
 double boundaries_speed(const boundaries *b)
 {
     double fastest = 0.0;

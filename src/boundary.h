@@ -4,6 +4,8 @@
 #ifndef DEM_BOUNDARY_H
 #define DEM_BOUNDARY_H
 
+#include <stdbool.h>
+
 #include "vec2.h"
 
 /** A boundary as the caller gave it, with arrays of its own. */
@@ -56,6 +58,9 @@ double boundaries_prescribe(const boundaries *b, const double *mass, double t, c
 
 /** Puts the prescribed components at t = 0 into the velocities v [n_nodes][2]. */
 void boundaries_begin(const boundaries *b, double *v);
+
+/** Whether one of them prescribes motions. */
+bool boundaries_move(const boundaries *b);
 
 /** The fastest that a boundary moves a component, m/s. */
 double boundaries_speed(const boundaries *b);

@@ -48,7 +48,8 @@ static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     integrator *I = user;
     I->counts.evaluations++;
-    return I->problem.derivative(t, vector_values(y), vector_fresh(f), I->problem.context) == 0 ? 0 : -1;
+    double *u = vector_fresh(f), *a = u + 2 * I->problem.n_nodes;
+    return I->problem.derivative(t, vector_values(y), u, a, I->problem.context) == 0 ? 0 : -1;
 }
 
 /* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation they are the stored ones: no

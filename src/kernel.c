@@ -14,24 +14,27 @@
 #ifdef DEM_X86_KERNELS
 #define HAS(feature) (__builtin_cpu_supports(feature) != 0)
 #else
-#define HAS(feature) false
-#define sweep_avx2   sweep_portable
-#define sweep_avx512 sweep_portable
-#define bulk_avx2    bulk_portable
-#define bulk_avx512  bulk_portable
+#define HAS(feature)       false
+#define sweep_avx2         sweep_portable
+#define sweep_avx512       sweep_portable
+#define sweep_guard_avx2   sweep_guard_portable
+#define sweep_guard_avx512 sweep_guard_portable
+#define bulk_avx2          bulk_portable
+#define bulk_avx512        bulk_portable
 #endif
 
 typedef struct kernel_row {
     const char *name;
     sweep_function *sweep;
+    sweep_guard_function *sweep_guard;
     const bulk *bulk;
 } kernel_row;
 
 static const kernel_row rows[] = {
-    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL},
-    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, &bulk_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, &bulk_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, &bulk_avx512},
+    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL},
+    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, &bulk_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, &bulk_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, &bulk_avx512},
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
@@ -94,8 +97,12 @@ dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, i
 {
     TRY(dem_kernel_check(kind));
     if (kind == DEM_KERNEL_AUTO) kind = fastest();
-    kernel k = {
-        .model = model, .kind = kind, .n_threads = n_threads, .sweep = rows[kind].sweep, .bulk = rows[kind].bulk};
+    kernel k = {.model = model,
+                .kind = kind,
+                .n_threads = n_threads,
+                .sweep = rows[kind].sweep,
+                .sweep_guard = rows[kind].sweep_guard,
+                .bulk = rows[kind].bulk};
     const dem_status status = allocate(&k);
     if (status == DEM_OK)
         *out = k;
@@ -158,6 +165,15 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
     return sum;
 }
 
+/* The first place from q on whose node the guard acts on; that of the first node in no block if there is none. */
+static dem_index next_guarded(const kernel *k, dem_index q)
+{
+    const dem_index end = LAYOUT_LANES * k->model->layout.n_blocks;
+    while (q < end && !(k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES & 1))
+        q += k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES ? 1 : LAYOUT_LANES - q % LAYOUT_LANES;
+    return q < end ? q : end;
+}
+
 /* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
 static double accelerate_rest(const kernel *k, const model_load *load, const kernel_state *y)
 {
@@ -165,9 +181,8 @@ static double accelerate_rest(const kernel *k, const model_load *load, const ker
     double sum = 0.0;
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
         sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
-    for (dem_index b = 0; b < l->n_blocks; b++)
-        for (dem_index q = LAYOUT_LANES * b, left = k->guarded[b]; left != 0; q++, left >>= 1)
-            if (left & 1) sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
+        sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
     for (dem_index p = 0; load->boundaries != NULL && p < load->boundaries->n; p++) {
         const boundary *push = &load->boundaries->list[p];
         for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
@@ -202,4 +217,29 @@ double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *
     if (k->packed != NULL) unpack(k, s.a, y->a);
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     return sum + accelerate_rest(k, load, y);
+}
+
+static double guard_bound(const kernel *k, const double *x, dem_index q)
+{
+    const layout *l = &k->model->layout;
+    const dem_index i = l->order != NULL ? l->order[q] : q;
+    return triangles_guard_bound(&k->model->triangles, i, x) * k->model->inverse_mass[i];
+}
+
+double kernel_stiffening(kernel *k, const double *x)
+{
+    const layout *l = &k->model->layout;
+    const double omega = k->model->omega_max;
+    double added = 0.0;
+    if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
+    if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
+    const sweep s = {.layout = l, .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
+    THREADS_EACH(k->n_threads)
+    for (int t = 0; t < k->n_threads; t++)
+        k->sweep_guard(&s, threads_share(l->n_blocks, k->n_threads, t),
+                       threads_share(l->n_blocks, k->n_threads, t + 1));
+    for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
+        added = fmax(added, guard_bound(k, x, q));
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, x, q));
+    return sqrt(1.0 + added / (omega * omega));
 }

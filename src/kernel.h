@@ -11,6 +11,7 @@
 typedef struct kernel {
     const dem_model *model;
     sweep_function *sweep;
+    sweep_guard_function *sweep_guard;
     const bulk *bulk;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     int n_threads;
@@ -35,5 +36,9 @@ typedef struct kernel_state {
 
 /** Fills u and a.  \return a sum over them that is not finite if one of them is not */
 double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y);
+
+/** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
+ *  >= 1: omega_max^2 and what the guard adds to it at most. */
+double kernel_stiffening(kernel *k, const double *x);
 
 #endif

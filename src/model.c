@@ -186,15 +186,6 @@ double model_node_energy(const dem_model *model, const double gravity[2], dem_in
     return springs_node_energy(&model->springs, i, x) + triangles_node_energy(&model->triangles, i, x) - weight;
 }
 
-double model_stiffening(const dem_model *m, const double *x)
-{
-    double added = 0.0;
-    if (!(m->omega_max > 0.0)) return 1.0;
-    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
-        added = fmax(added, triangles_guard_bound(&m->triangles, i, x) * m->inverse_mass[i]);
-    return sqrt(1.0 + added / (m->omega_max * m->omega_max));
-}
-
 /* ---- public ---- */
 
 dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,

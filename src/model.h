@@ -61,8 +61,4 @@ static inline vec2 model_acceleration(const dem_model *model, const model_load *
 /** Energy that hangs on the position of node i, J: its springs, its triangles and its weight. */
 double model_node_energy(const dem_model *model, const double gravity[2], dem_index i, const double *x);
 
-/** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
- *  >= 1: omega_max^2 and what the guard adds to it at most. */
-double model_stiffening(const dem_model *model, const double *x);
-
 #endif

@@ -10,8 +10,10 @@ typedef struct motion {
     dem_index n_nodes;  /* y has 4 n_nodes entries */
     dem_index n_books;  /* the last of these nodes are integrated along, and have no part in the error */
     dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
-    /** Derivative f of y at t; returns 0, or 1 if it is not finite. */
-    int (*derivative)(double t, const double *y, double *f, void *context);
+    bool prescribes;    /* whether some x' are given, so that they are not v */
+    /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An engine that knows v may leave
+     *  u out if nothing is prescribed. Returns 0, or 1 if something is not finite. */
+    int (*derivative)(double t, const double *y, double *u, double *a, void *context);
     void (*guards)(double t, const double *y, double *g, void *context);
     /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */
     double (*stiffening)(const double *y, void *context);

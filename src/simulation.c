@@ -90,14 +90,14 @@ static const double *totals_of(const dem_simulation *s, const double *y)
 
 /* ---- what the integrator asks ---- */
 
-static dem_status name_culprit(const dem_simulation *s, double t, const double *x, const double *f)
+static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
-    const double *a = f + unknowns(s->model);
+    const double *v = y + unknowns(s->model);
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
-        if (!isfinite(f[2 * i]) || !isfinite(f[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
+        if (!isfinite(v[2 * i]) || !isfinite(v[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
             return status_fail(DEM_ERROR_INTEGRATOR,
                                "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i,
-                               x[2 * i], x[2 * i + 1], t);
+                               y[2 * i], y[2 * i + 1], t);
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
@@ -117,21 +117,19 @@ static void fill_rates(dem_simulation *s, const double *y, double *rate, double 
 
 /* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
  *                                                                                                        (3), (4) */
-static int derivative(double t, const double *y, double *f, void *context)
+static int derivative(double t, const double *y, double *u, double *a, void *context)
 {
     dem_simulation *s = context;
-    const dem_index n = unknowns(s->model);
-    const model_load *load = &s->contact.sites.scene.rule.load;
-    const dem_index n_real = 2 * s->model->lattice.n_nodes;
-    double *a = f + n;
-    const kernel_state nodes = {.x = y, .v = y + n, .u = f, .a = a};
-    double sum = kernel_accelerate(&s->kernel, load, &nodes);
-    for (dem_index k = n_real; k < n; k++) sum += f[k] = y[n + k];
+    const dem_index n = unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const double *v = y + n;
+    const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
+    const double sum = kernel_accelerate(&s->kernel, &s->contact.sites.scene.rule.load, &nodes);
+    for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     contact_constrain(&s->contact, y, a);
-    const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, y + n, f, a);
+    const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
     fill_rates(s, y, a + n_real, work);
     if (isfinite(sum)) return 0;
-    (void)name_culprit(s, t, y, f);
+    (void)name_culprit(s, t, y, a);
     return 1;
 }
 
@@ -143,8 +141,8 @@ static void guards(double t, const double *y, double *g, void *context)
 
 static double stiffening(const double *y, void *context)
 {
-    const dem_simulation *s = context;
-    return model_stiffening(s->model, y);
+    dem_simulation *s = context;
+    return kernel_stiffening(&s->kernel, y);
 }
 
 /* ---- what observers see ---- */
@@ -408,6 +406,7 @@ static dem_status set_up(dem_simulation *s)
     const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
                             .n_books = n_books(model),
                             .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * s->contact.sites.n : 0,
+                            .prescribes = boundaries_move(&s->boundaries),
                             .derivative = derivative,
                             .guards = guards,
                             .stiffening = stiffening,

@@ -26,4 +26,9 @@ typedef double sweep_function(const sweep *s, dem_index first, dem_index last, d
 
 sweep_function sweep_portable, sweep_avx2, sweep_avx512;
 
+/** Fills `guarded` alone. */
+typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index last);
+
+sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;
+
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "lanes_avx2.h"
 
-#define SWEEP sweep_avx2
+#define SWEEP       sweep_avx2
+#define SWEEP_GUARD sweep_guard_avx2
 #include "sweep_body.h"

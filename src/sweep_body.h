@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The sweep, in terms of `pairs`, the two components of eight nodes, and `lanes`, a number for each of them. A file for
- * each instruction set defines these and SWEEP, and includes this. */
+ * each instruction set defines these and SWEEP, SWEEP_GUARD, and includes this. */
 #ifndef DEM_SWEEP_BODY_H
 #define DEM_SWEEP_BODY_H
 
@@ -136,6 +136,15 @@ INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, 
         sum = pairs_add(sum, v);
     }
     return pairs_total(sum);
+}
+
+void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
+{
+    for (dem_index block = first; block < last; block++) {
+        unsigned guarded = 0;
+        (void)sum_corners(s, block, &guarded);
+        s->guarded[block] = (uint8_t)guarded;
+    }
 }
 
 double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)

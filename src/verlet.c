@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "aligned.h"
 #include "status.h"
+#include "threads.h"
 
 struct verlet {
     motion problem;
@@ -24,7 +26,7 @@ struct verlet {
 static dem_status allocate(verlet *V)
 {
     const size_t n = 4 * (size_t)V->problem.n_nodes, n_guards = (size_t)V->problem.n_guards;
-    V->arrays = calloc(5 * n, sizeof *V->arrays);
+    V->arrays = aligned_zeros(5 * n);
     V->values = calloc(3 * n_guards + 1, sizeof *V->values);
     CHECK(V->arrays && V->values, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)V->problem.n_nodes);
@@ -90,28 +92,56 @@ static void go_on(verlet *V)
 
 static int evaluate(verlet *V, double t, const double *y, double *f)
 {
+    double *u = V->problem.prescribes ? f : NULL, *a = f + 2 * V->problem.n_nodes;
     V->counts.evaluations++;
-    return V->problem.derivative(t, y, f, V->problem.context);
+    return V->problem.derivative(t, y, u, a, V->problem.context);
 }
 
-/* A velocity that the derivative does not take over as it is, is prescribed. */
-static int kick_drift_kick(verlet *V, double h)
+static void drift(verlet *V, double h)
+{
+    const motion *p = &V->problem;
+    const dem_index n = 2 * p->n_nodes;
+    THREADS_EACH(p->n_threads)
+    for (int t = 0; t < p->n_threads; t++) {
+        const dem_index at = threads_share(n, p->n_threads, t), end = threads_share(n, p->n_threads, t + 1);
+        const double *const start[3] = {V->y0 + at, V->y0 + n + at, V->f0 + n + at};
+        p->bulk->drift(V->y1 + at, V->y1 + n + at, start, h, end - at);
+    }
+}
+
+static void kick(verlet *V, double h)
+{
+    const motion *p = &V->problem;
+    const dem_index n = 2 * p->n_nodes;
+    THREADS_EACH(p->n_threads)
+    for (int t = 0; t < p->n_threads; t++) {
+        const dem_index at = n + threads_share(n, p->n_threads, t), end = n + threads_share(n, p->n_threads, t + 1);
+        p->bulk->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, end - at);
+    }
+}
+
+/* A velocity that the derivative does not take over as it is, is prescribed; those are few, and kept over the kick. */
+static void kick_free(verlet *V, double h)
 {
     const dem_index n = 2 * V->problem.n_nodes;
-    const double *a0 = V->f0 + n, *a1 = V->f1 + n, *v0 = V->y0 + n;
     double *v1 = V->y1 + n;
+    for (dem_index k = 0; k < n; k++) V->f1[k] = V->f1[k] != v1[k] ? V->f1[k] : (double)NAN;
+    kick(V, h);
     for (dem_index k = 0; k < n; k++) {
-        const double half = v0[k] + 0.5 * h * a0[k];
-        V->y1[k] = V->y0[k] + h * half;
-        v1[k] = half + 0.5 * h * a0[k];
-    }
-    V->t1 = V->t + h;
-    if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
-    for (dem_index k = 0; k < n; k++) {
-        const bool prescribed = V->f1[k] != v1[k];
-        v1[k] = prescribed ? V->f1[k] : v1[k] + 0.5 * h * (a1[k] - a0[k]);
+        if (!isnan(V->f1[k])) v1[k] = V->f1[k];
         V->f1[k] = v1[k];
     }
+}
+
+static int kick_drift_kick(verlet *V, double h)
+{
+    drift(V, h);
+    V->t1 = V->t + h;
+    if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
+    if (V->problem.prescribes)
+        kick_free(V, h);
+    else
+        kick(V, h);
     return 0;
 }
 

@@ -6,15 +6,14 @@
 
 static const double g = 9.81, skin = 1e-10;
 
-static int fall(double t, const double *y, double *f, void *context)
+static int fall(double t, const double *y, double *u, double *a, void *context)
 {
     int *calls = context;
     (void)t;
     (*calls)++;
-    f[0] = y[2];
-    f[1] = y[3];
-    f[2] = 0.0;
-    f[3] = -g;
+    for (int c = 0; c < 2 && u != NULL; c++) u[c] = y[2 + c];
+    a[0] = 0.0;
+    a[1] = -g;
     return 0;
 }
 

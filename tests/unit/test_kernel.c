@@ -76,11 +76,32 @@ static void check_kernel(scene *s, const model_load *load, dem_kernel kind, int 
     kernel_destroy(&k);
 }
 
+/* sqrt(1 + largest bound/omega_max^2), node by node. */
+static double stiffening_of(const scene *s)
+{
+    const dem_model *m = s->model;
+    double added = 0.0;
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
+        added = fmax(added, triangles_guard_bound(&m->triangles, i, s->x) * m->inverse_mass[i]);
+    return sqrt(1.0 + added / (m->omega_max * m->omega_max));
+}
+
+static void check_stiffening(scene *s, dem_kernel kind, int n_threads)
+{
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    assert_close(kernel_stiffening(&k, s->x), stiffening_of(s), 0.0);
+    kernel_destroy(&k);
+}
+
 static void check_load(scene *s, const model_load *load)
 {
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++)
         for (int n_threads = 1; n_threads <= 3; n_threads++)
-            if (dem_kernel_check(kind) == DEM_OK) check_kernel(s, load, kind, n_threads);
+            if (dem_kernel_check(kind) == DEM_OK) {
+                check_kernel(s, load, kind, n_threads);
+                check_stiffening(s, kind, n_threads);
+            }
 }
 
 static void check_lattice(const dem_lattice *lattice, double share)
@@ -155,6 +176,9 @@ static void squeezed_triangles_agree(void **state)
         if (stiff) material.poissons_ratio = 0.2;
         dem_lattice lattice = make_holed(&material);
         check_lattice(&lattice, 0.6);
+        scene s = make_scene(&lattice, 0.6);
+        assert_true(stiffening_of(&s) > 2.0);
+        free_scene(&s);
         dem_lattice_free(&lattice);
     }
 }
@@ -339,6 +363,48 @@ static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
     dem_lattice_free(&lattice);
 }
 
+/* ---- what the guard stiffens ---- */
+
+/* A triangle squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Node 2 of 3 kg has the opposite side of 1 m, node
+ * 1 of 2 kg the diagonal, node 0 of 1 kg the side of 0.2 m. What the guard adds stands beside omega_max^2, which is
+ * 2 10 N/m over 1 kg: node 0 has one spring of 10 N and 1 m. */
+static void the_guard_stiffens_what_it_squeezes(void **state)
+{
+    double rest[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0}, mass[3] = {1.0, 2.0, 3.0}, length[2] = {1.0, 1.0};
+    double stiffness[2] = {10.0, 10.0}, guard[1] = {10.0};
+    dem_index ends[4] = {0, 1, 1, 2}, corners[3] = {0, 1, 2};
+    const double x[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.2}, L = log(2.0), J = 0.2, A0 = 0.5;
+    const double w1 = 3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
+    const double side[3] = {0.2 * 0.2, 1.0 + 0.2 * 0.2, 1.0};
+    const dem_lattice lattice = {.dim = 2,
+                                 .n_nodes = 3,
+                                 .n_springs = 2,
+                                 .n_triangles = 1,
+                                 .x = rest,
+                                 .mass = mass,
+                                 .ends = ends,
+                                 .rest_length = length,
+                                 .stiffness = stiffness,
+                                 .triangles = corners,
+                                 .guard = guard};
+    double added = 0.0;
+    (void)state;
+    for (int i = 0; i < 3; i++)
+        added = fmax(added, 10.0 * (3.0 * w2 * 0.25 * side[i] / A0 + 0.5 * sqrt(3.0) * w1) / mass[i]);
+    for (int guarded = 1; guarded >= 0; guarded--) {
+        guard[0] = 10.0 * guarded;
+        scene s = make_scene(&lattice, 0.0);
+        kernel k;
+        const double omega = dem_model_omega_max(s.model);
+        assert_close(omega * omega, 20.0, 1e-12);
+        assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
+        assert_close(kernel_stiffening(&k, rest), 1.0, 0.0);
+        assert_close(kernel_stiffening(&k, x), guarded ? sqrt(1.0 + added / 20.0) : 1.0, 1e-12);
+        kernel_destroy(&k);
+        free_scene(&s);
+    }
+}
+
 /* ---- names ---- */
 
 static void kernels_have_names(void **state)
@@ -385,6 +451,7 @@ int main(void)
         cmocka_unit_test(a_hub_of_many_springs_agrees),
         cmocka_unit_test(fixed_and_pushed_nodes_agree),
         cmocka_unit_test(a_number_that_is_not_finite_shows_in_the_sum),
+        cmocka_unit_test(the_guard_stiffens_what_it_squeezes),
         cmocka_unit_test(kernels_have_names),
         cmocka_unit_test(the_choice_left_open_is_the_last_that_runs),
     };

@@ -461,34 +461,6 @@ static void area_stiffness_raises_the_frequency_bound(void **state)
     dem_model_destroy(model);
 }
 
-/* The triangle 0 1 2 squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Node 2 of 3 kg has the opposite side of 1
- * m, node 1 of 2 kg the diagonal, node 0 of 1 kg the side of 0.2 m. What the guard adds stands beside omega_max^2. */
-static void the_guard_stiffens_what_it_squeezes(void **state)
-{
-    const double x[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.2}, L = log(2.0), J = 0.2, A0 = 0.5;
-    const double w1 = 3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
-    const double side[3] = {0.2 * 0.2, 1.0 + 0.2 * 0.2, 1.0}, mass[3] = {1.0, 2.0, 3.0};
-    square s;
-    double added = 0.0;
-    (void)state;
-    make_square(&s);
-    s.lattice.n_springs = 2;
-    s.lattice.n_nodes = 3;
-    s.lattice.n_triangles = 1;
-    s.lattice.guard = s.guard;
-    s.guard[0] = 10.0;
-    dem_model *model = compile(&s);
-    assert_close(model_stiffening(model, s.x), 1.0, 0.0);
-    for (int i = 0; i < 3; i++)
-        added = fmax(added, 10.0 * (3.0 * w2 * 0.25 * side[i] / A0 + 0.5 * sqrt(3.0) * w1) / mass[i]);
-    assert_close(model_stiffening(model, x), sqrt(1.0 + added / 20.0), 1e-12);
-    dem_model_destroy(model);
-    s.guard[0] = 0.0;
-    model = compile(&s);
-    assert_close(model_stiffening(model, x), 1.0, 0.0);
-    dem_model_destroy(model);
-}
-
 static void without_springs_spacing_and_frequency_are_zero(void **state)
 {
     const double anywhere[2] = {3.0, 4.0};
@@ -581,7 +553,6 @@ int main(void)
         cmocka_unit_test(sizes_and_csr_tell_what_is_there),
         cmocka_unit_test(spacing_mass_and_the_frequency_bound_are_those_of_the_springs),
         cmocka_unit_test(area_stiffness_raises_the_frequency_bound),
-        cmocka_unit_test(the_guard_stiffens_what_it_squeezes),
         cmocka_unit_test(without_springs_spacing_and_frequency_are_zero),
         cmocka_unit_test(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node),
         cmocka_unit_test(damping_of_springs_and_mass_slow_a_node),
