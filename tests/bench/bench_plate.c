@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A free plate of equilateral triangles that vibrates (W1): what an evaluation of the forces costs by itself, and a run
+ * with all that belongs to it, in ns of CPU time per spring and evaluation, the least of several turns.
+ *
+ *      bench_plate NODES                                      a table
+ *      bench_plate NODES METHOD KERNEL THREADS STEPS [FILE]   one run of fixed steps, its state at the end into FILE
+ *      bench_plate NODES lammps FILE                          the same plate as a data file of LAMMPS
+ *
+ * A run prints: nodes, springs, step in s, evaluations, CPU and wall time in s, total energy at start and end in J. */
+#define _XOPEN_SOURCE 700 /* M_PI */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "kernel.h"
+
+static const double spacing = 5e-3, youngs_modulus = 1e7, density = 1050.0, peak_strain = 0.03;
+
+static void must(bool good, const char *what)
+{
+    if (good) return;
+    (void)fprintf(stderr, "bench_plate: %s\n", what);
+    exit(1);
+}
+
+static void ask(dem_status status)
+{
+    must(status == DEM_OK, dem_status_message());
+}
+
+static void *numbers(dem_index n, size_t size)
+{
+    void *array = calloc((size_t)n, size);
+    must(array != NULL, "out of memory");
+    return array;
+}
+
+static double now(clockid_t clock)
+{
+    struct timespec t;
+    (void)clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- the plate ---- */
+
+static double bond(void) /* N/m */
+{
+    return youngs_modulus * sqrt(3.0) / 2.0;
+}
+
+static double mass(void)
+{
+    return density * spacing * spacing * sqrt(3.0) / 2.0;
+}
+
+static void join(dem_lattice *l, dem_index i, dem_index j)
+{
+    l->ends[2 * l->n_springs] = i;
+    l->ends[2 * l->n_springs + 1] = j;
+    l->n_springs++;
+}
+
+static void join_rows(dem_lattice *l, dem_index columns, dem_index rows)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const dem_index column = i % columns, row = i / columns, side = row % 2 ? column + 1 : column - 1;
+        if (column + 1 < columns) join(l, i, i + 1);
+        if (row + 1 == rows) continue;
+        if (side >= 0 && side < columns && side < column) join(l, i, i + columns - 1);
+        join(l, i, i + columns);
+        if (side >= 0 && side < columns && side > column) join(l, i, i + columns + 1);
+    }
+}
+
+/* A standing wave of twelve spacings. */
+static void launch(dem_lattice *l)
+{
+    const double w = 2.0 * M_PI / (12.0 * spacing);
+    const double speed = peak_strain * sqrt(9.0 * bond() * spacing * spacing / (8.0 * mass()));
+    double mean[2] = {0.0, 0.0};
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const double x = w * l->x[2 * i], y = w * l->x[2 * i + 1];
+        l->velocity[2 * i] = speed * cos(x) * cos(0.5 * y);
+        l->velocity[2 * i + 1] = speed * cos(y) * cos(0.5 * x);
+        for (int c = 0; c < 2; c++) mean[c] += l->velocity[2 * i + c] / (double)l->n_nodes;
+    }
+    for (dem_index k = 0; k < 2 * l->n_nodes; k++) l->velocity[k] -= mean[k % 2];
+}
+
+/* Rest lengths are `spacing`, or each its own: the distance of its nodes, which differs in the last digits. */
+static dem_lattice make_plate(dem_index nodes, bool own)
+{
+    const dem_index columns = (dem_index)fmax(4.0, round(sqrt((double)nodes * sqrt(3.0) / 2.0)));
+    const dem_index rows = (dem_index)fmax(4.0, round((double)nodes / (double)columns));
+    dem_lattice l;
+    dem_lattice_init(&l);
+    l.n_nodes = columns * rows;
+    l.x = numbers(2 * l.n_nodes, sizeof *l.x);
+    l.velocity = numbers(2 * l.n_nodes, sizeof *l.velocity);
+    l.mass = numbers(l.n_nodes, sizeof *l.mass);
+    l.flags = numbers(l.n_nodes, sizeof *l.flags); /* none may touch */
+    l.ends = numbers(6 * l.n_nodes, sizeof *l.ends);
+    l.rest_length = numbers(3 * l.n_nodes, sizeof *l.rest_length);
+    l.stiffness = numbers(3 * l.n_nodes, sizeof *l.stiffness);
+    for (dem_index i = 0; i < l.n_nodes; i++) {
+        const dem_index column = i % columns, row = i / columns;
+        l.x[2 * i] = ((double)column + 0.5 * (double)(row % 2)) * spacing;
+        l.x[2 * i + 1] = (double)row * spacing * sqrt(3.0) / 2.0;
+        l.mass[i] = mass();
+    }
+    join_rows(&l, columns, rows);
+    for (dem_index k = 0; k < l.n_springs; k++) {
+        const double *a = l.x + 2 * l.ends[2 * k], *b = l.x + 2 * l.ends[2 * k + 1];
+        l.rest_length[k] = own ? hypot(b[0] - a[0], b[1] - a[1]) : spacing;
+        l.stiffness[k] = bond() * spacing;
+    }
+    launch(&l);
+    return l;
+}
+
+static dem_model *compile(dem_index nodes, bool own)
+{
+    dem_lattice lattice = make_plate(nodes, own);
+    dem_model *model;
+    ask(dem_model_create(&model, &lattice, NULL, 0));
+    dem_lattice_free(&lattice);
+    return model;
+}
+
+/* ---- forces alone ---- */
+
+static double time_kernel(const dem_model *model, dem_kernel kind)
+{
+    const dem_index n = model->lattice.n_nodes;
+    const long rounds = (long)(2e7 / (double)model->lattice.n_springs) + 1;
+    const model_load load = {.gravity = {0.0, 0.0}};
+    double *a = aligned_alloc(64, ((size_t)n / 4 + 1) * 64), least = INFINITY;
+    must(a != NULL, "out of memory");
+    const kernel_state y = {model->lattice.position, model->lattice.velocity, NULL, a};
+    kernel k;
+    ask(kernel_create(&k, model, kind, 1));
+    for (int turn = 0; turn < 7; turn++) {
+        const double start = now(CLOCK_PROCESS_CPUTIME_ID);
+        for (long r = 0; r < rounds; r++) must(isfinite(kernel_accelerate(&k, &load, &y)), "not finite");
+        least = fmin(least, now(CLOCK_PROCESS_CPUTIME_ID) - start);
+    }
+    kernel_destroy(&k);
+    free(a);
+    return 1e9 * least / (double)rounds / (double)model->lattice.n_springs;
+}
+
+/* ---- runs ---- */
+
+typedef struct plan {
+    dem_method method;
+    dem_kernel kernel;
+    int threads;
+    dem_index steps;
+    const char *file; /* NULL: none */
+} plan;
+
+typedef struct result {
+    double step, cpu, wall, energy[2];
+    dem_index evaluations;
+} result;
+
+static double energy_of(const dem_simulation *simulation)
+{
+    return dem_energy_ledger(dem_simulation_energy(simulation));
+}
+
+static void write_state(const dem_simulation *simulation, const char *path)
+{
+    dem_state state;
+    dem_simulation_state(simulation, &state);
+    FILE *file = fopen(path, "w");
+    must(file != NULL, path);
+    for (dem_index i = 0; i < dem_model_sizes(dem_simulation_model(simulation)).n_nodes; i++)
+        (void)fprintf(file, "%.17g %.17g %.17g %.17g\n", state.x[2 * i], state.x[2 * i + 1], state.v[2 * i],
+                      state.v[2 * i + 1]);
+    must(fclose(file) == 0, path);
+}
+
+/* Fehlberg's pair as it comes; else steps of a tenth of sqrt(m/k), as LAMMPS takes. */
+static result take(const dem_model *model, const plan *p)
+{
+    const double tenth = 0.1 * sqrt(mass() / bond());
+    dem_options options = dem_options_default();
+    dem_simulation *simulation;
+    result r = {0};
+    options.gravity[1] = 0.0;
+    options.method = p->method;
+    options.kernel = p->kernel;
+    options.threads = p->threads;
+    if (p->method == DEM_METHOD_VERLET) options.fixed_step = tenth;
+    ask(dem_simulation_create(&simulation, model, &options));
+    r.step = dem_simulation_options(simulation).max_step;
+    r.energy[0] = energy_of(simulation);
+    const double cpu = now(CLOCK_PROCESS_CPUTIME_ID), wall = now(CLOCK_MONOTONIC);
+    ask(dem_simulation_advance(simulation, r.step * (double)p->steps));
+    r.cpu = now(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    r.wall = now(CLOCK_MONOTONIC) - wall;
+    r.energy[1] = energy_of(simulation);
+    r.evaluations = dem_simulation_counts(simulation).evaluations;
+    if (p->file != NULL) write_state(simulation, p->file);
+    dem_simulation_destroy(simulation);
+    return r;
+}
+
+static double time_run(const dem_model *model, dem_method method)
+{
+    const double n_springs = (double)model->lattice.n_springs;
+    dem_method_traits traits;
+    ask(dem_method_describe(&traits, method));
+    const plan p = {method, DEM_KERNEL_AUTO, 1, (dem_index)(3e7 / n_springs / traits.evaluations) + 2, NULL};
+    double least = INFINITY;
+    for (int turn = 0; turn < 5; turn++) {
+        const result r = take(model, &p);
+        least = fmin(least, 1e9 * r.cpu / (double)r.evaluations / n_springs);
+    }
+    return least;
+}
+
+static void print_table(dem_index nodes)
+{
+    for (int own = 0; own < 2; own++) {
+        dem_model *model = compile(nodes, own != 0);
+        (void)printf("%lld nodes, %lld springs, %s\n", (long long)model->lattice.n_nodes,
+                     (long long)model->lattice.n_springs, own ? "each of its own length" : "of one length");
+        for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++)
+            if (dem_kernel_check(kind) == DEM_OK)
+                (void)printf("    forces, %-10s %6.2f ns\n", dem_kernel_name(kind), time_kernel(model, kind));
+        (void)printf("    Fehlberg           %6.2f ns\n", time_run(model, DEM_METHOD_FEHLBERG45));
+        (void)printf("    Verlet             %6.2f ns\n", time_run(model, DEM_METHOD_VERLET));
+        dem_model_destroy(model);
+    }
+}
+
+/* ---- for LAMMPS ---- */
+
+static void write_lammps(dem_index nodes, const char *path)
+{
+    dem_lattice l = make_plate(nodes, false);
+    const double pad = 2.0 * spacing;
+    double high[2] = {0.0, 0.0};
+    FILE *file = fopen(path, "w");
+    must(file != NULL, path);
+    for (dem_index k = 0; k < 2 * l.n_nodes; k++) high[k % 2] = fmax(high[k % 2], l.x[k]);
+    (void)fprintf(file, "plate\n\n%lld atoms\n%lld bonds\n1 atom types\n1 bond types\n6 extra special per atom\n\n",
+                  (long long)l.n_nodes, (long long)l.n_springs);
+    (void)fprintf(file, "%.17g %.17g xlo xhi\n%.17g %.17g ylo yhi\n%.17g %.17g zlo zhi\n\n", -pad, high[0] + pad, -pad,
+                  high[1] + pad, -0.5 * spacing, 0.5 * spacing);
+    (void)fprintf(file, "Masses\n\n1 %.17g\n\nAtoms # bond\n\n", mass());
+    for (dem_index i = 0; i < l.n_nodes; i++)
+        (void)fprintf(file, "%lld 1 1 %.17g %.17g 0\n", (long long)i + 1, l.x[2 * i], l.x[2 * i + 1]);
+    (void)fprintf(file, "\nVelocities\n\n");
+    for (dem_index i = 0; i < l.n_nodes; i++)
+        (void)fprintf(file, "%lld %.17g %.17g 0\n", (long long)i + 1, l.velocity[2 * i], l.velocity[2 * i + 1]);
+    (void)fprintf(file, "\nBonds\n\n");
+    for (dem_index k = 0; k < l.n_springs; k++)
+        (void)fprintf(file, "%lld 1 %lld %lld\n", (long long)k + 1, (long long)l.ends[2 * k] + 1,
+                      (long long)l.ends[2 * k + 1] + 1);
+    must(fclose(file) == 0, path);
+    (void)printf("springs %lld\nconstant %.17g\nlength %.17g\nstep %.17g\n", (long long)l.n_springs, 0.5 * bond(),
+                 spacing, 0.1 * sqrt(mass() / bond()));
+    dem_lattice_free(&l);
+}
+
+int main(int argc, char **argv)
+{
+    must(argc == 2 || (argc == 4 && strcmp(argv[2], "lammps") == 0) || argc == 6 || argc == 7,
+         "NODES [METHOD KERNEL THREADS STEPS [FILE]] or NODES lammps FILE");
+    const dem_index nodes = (dem_index)atof(argv[1]);
+    if (argc == 2) print_table(nodes);
+    if (argc == 4) write_lammps(nodes, argv[3]);
+    if (argc < 6) return 0;
+    plan p = {.threads = atoi(argv[4]), .steps = atoll(argv[5]), .file = argc == 7 ? argv[6] : NULL};
+    ask(dem_method_find(&p.method, argv[2]));
+    ask(dem_kernel_find(&p.kernel, argv[3]));
+    dem_model *model = compile(nodes, false);
+    const result r = take(model, &p);
+    (void)printf("nodes %lld\nsprings %lld\nstep %.17g\nevaluations %lld\ncpu %.6f\nwall %.6f\nenergy %.17g %.17g\n",
+                 (long long)model->lattice.n_nodes, (long long)model->lattice.n_springs, r.step,
+                 (long long)r.evaluations, r.cpu, r.wall, r.energy[0], r.energy[1]);
+    dem_model_destroy(model);
+    return 0;
+}
