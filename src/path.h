@@ -13,7 +13,7 @@ typedef struct path {
     double t0, t1;    /* the accepted step, s */
     double end;       /* the motion holds up to here, t0 <= end <= t1: an event cuts it short */
     const double *y0; /* [4 n] state (x, v) at t0 */
-    const double *f0; /* [4 n] its derivative (v, a) */
+    const double *f0; /* [4 n] its derivative, of which the second half is read, accelerations */
     const double *y1, *f1;
     bool parabolic; /* positions through x0, v0, x1 and velocities through v0, a0, v1: the way of Verlet's method */
 } path;

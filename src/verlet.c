@@ -120,17 +120,13 @@ static void kick(verlet *V, double h)
     }
 }
 
-/* A velocity that the derivative does not take over as it is, is prescribed; those are few, and kept over the kick. */
+/* A velocity that the derivative does not take over as it is, is prescribed. */
 static void kick_free(verlet *V, double h)
 {
     const dem_index n = 2 * V->problem.n_nodes;
     double *v1 = V->y1 + n;
-    for (dem_index k = 0; k < n; k++) V->f1[k] = V->f1[k] != v1[k] ? V->f1[k] : (double)NAN;
-    kick(V, h);
-    for (dem_index k = 0; k < n; k++) {
-        if (!isnan(V->f1[k])) v1[k] = V->f1[k];
-        V->f1[k] = v1[k];
-    }
+    for (dem_index k = 0; k < n; k++)
+        v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
 }
 
 static int kick_drift_kick(verlet *V, double h)

@@ -255,6 +255,24 @@ static void a_path_starts_where_the_last_one_ended_and_holds_the_derivatives(voi
     integrator_destroy(i);
 }
 
+static void after_a_restart_the_path_has_the_derivatives_of_the_new_state(void **state)
+{
+    const double elsewhere[4] = {0.3, -0.7, 1.5, 2.5};
+    world w = {.fails_after = 1e9};
+    path p;
+    double f[4];
+    bool rooted;
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    for (int k = 0; k < 3; k++) assert_ok(integrator_step(i, &p, &rooted));
+    assert_ok(integrator_restart(i, p.t1, elsewhere));
+    assert_ok(integrator_step(i, &p, &rooted));
+    (void)swing(p.t0, elsewhere, f, f + 2, &w);
+    assert_memory_equal(p.y0, elsewhere, sizeof elsewhere);
+    for (int q = 0; q < 4; q++) assert_close(p.f0[q], f[q], 1e-13);
+    integrator_destroy(i);
+}
+
 static void evaluations_are_counted(void **state)
 {
     world w = {.fails_after = 1e9};
@@ -488,6 +506,7 @@ int main(void)
         cmocka_unit_test(errors_of_positions_and_of_velocities_both_count),
         cmocka_unit_test(an_unknown_method_is_refused),
         cmocka_unit_test(a_path_starts_where_the_last_one_ended_and_holds_the_derivatives),
+        cmocka_unit_test(after_a_restart_the_path_has_the_derivatives_of_the_new_state),
         cmocka_unit_test(evaluations_are_counted),
         cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
         cmocka_unit_test(a_guard_is_looked_for_only_as_it_falls),
