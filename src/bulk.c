@@ -3,6 +3,7 @@
 #include "bulk.h"
 
 #include <math.h>
+#include <string.h>
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -73,35 +74,36 @@ static void combine(double *out, int n, const double *c, const double *const *in
 
 /* ---- sums of squares ---- */
 
-/* What eight neighbours add to side by side. */
-typedef struct sums {
-    double high[8], low[8], largest[8];
-} sums;
+typedef double eight __attribute__((vector_size(64)));
+typedef int64_t eight_bits __attribute__((vector_size(64)));
 
 /* p = h + l + rest, h a multiple of 2^-20 and l of 2^-60, |rest| <= 2^-61: adding and taking away 1.5 2^(52 - 20)
- * rounds to the one, 1.5 2^(52 - 60) to the other. */
-INLINE void add_squares(sums *s, const double *x, const double *w, double scale, dem_index n)
-{
-    const double to_high = 0x1.8p32, to_low = 0x1.8p-8;
-    for (dem_index q = 0; q < n; q++) {
-        const double e = scale * x[q] * w[q], p = e * e, h = (p + to_high) - to_high;
-        s->high[q] += h;
-        s->low[q] += ((p - h) + to_low) - to_low;
-        s->largest[q] = p > s->largest[q] ? p : s->largest[q];
-    }
-}
-
-/* The sums of a piece are exact in any order: they have at most 53 bits. */
+ * rounds to the one, 1.5 2^(52 - 60) to the other. The sums of a piece are exact in any order: they have at most 53
+ * bits. Behind the end stand zeros. */
 static void square_piece(bulk_sum *sum, const double *x, const double *w, double scale, dem_index size)
 {
-    sums s = {0};
+    const double to_high = 0x1.8p32, to_low = 0x1.8p-8;
+    eight highs = {0.0}, lows = {0.0}, most = {0.0};
+    for (dem_index k = 0; k < size; k += 8) {
+        eight a = {0.0}, b = {0.0};
+        if (k + 8 <= size) {
+            memcpy(&a, x + k, sizeof a);
+            memcpy(&b, w + k, sizeof b);
+        } else {
+            memcpy(&a, x + k, (size_t)(size - k) * sizeof *x);
+            memcpy(&b, w + k, (size_t)(size - k) * sizeof *w);
+        }
+        const eight e = scale * a * b, p = e * e, h = (p + to_high) - to_high;
+        const eight_bits larger = p > most;
+        highs += h;
+        lows += ((p - h) + to_low) - to_low;
+        most = (eight)(((eight_bits)p & larger) | ((eight_bits)most & ~larger));
+    }
     double high = 0.0, low = 0.0, largest = 0.0;
-    for (dem_index k = 0; k + 8 <= size; k += 8) add_squares(&s, x + k, w + k, scale, 8);
-    add_squares(&s, x + size - size % 8, w + size - size % 8, scale, size % 8);
     for (int q = 0; q < 8; q++) {
-        high += s.high[q];
-        low += s.low[q];
-        largest = s.largest[q] > largest ? s.largest[q] : largest;
+        high += highs[q];
+        low += lows[q];
+        largest = most[q] > largest ? most[q] : largest;
     }
     bulk_sum here = {.largest = isnan(high) ? high : largest}; /* a square that is none shows in the sum */
     if (here.largest <= BULK_LARGEST) {

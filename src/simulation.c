@@ -64,10 +64,11 @@ struct dem_simulation {
 
 /* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
  * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
- * the energies that friction and damping take; then the work of the boundaries, and the time. */
+ * the energies that friction and damping take; then the work of the boundaries, and the time. A few more, so that velocities begin at a cache line as positions do. */
 static dem_index n_books(const dem_model *model)
 {
-    return 2 * model->obstacles.n + 2;
+    const dem_index n = model->lattice.n_nodes, pairs_of_line = 4;
+    return (n + 2 * model->obstacles.n + 2 + pairs_of_line - 1) / pairs_of_line * pairs_of_line - n;
 }
 
 enum { FRICTION, DAMPING, WORK, TIME }; /* places behind the impulses */

@@ -14,6 +14,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "aligned.h"
 #include "kernel.h"
 
 static const double spacing = 5e-3, youngs_modulus = 1e7, density = 1050.0, peak_strain = 0.03;
@@ -137,9 +138,10 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
     const dem_index n = model->lattice.n_nodes;
     const long rounds = (long)(2e7 / (double)model->lattice.n_springs) + 1;
     const model_load load = {.gravity = {0.0, 0.0}};
-    double *a = aligned_alloc(64, ((size_t)n / 4 + 1) * 64), least = INFINITY;
-    must(a != NULL, "out of memory");
-    const kernel_state y = {model->lattice.position, model->lattice.velocity, NULL, a};
+    double *state = aligned_zeros(2 * (size_t)n), *a = aligned_zeros(2 * (size_t)n), least = INFINITY;
+    must(state != NULL && a != NULL, "out of memory");
+    memcpy(state, model->lattice.position, 2 * (size_t)n * sizeof *state);
+    const kernel_state y = {state, state, NULL, a};
     kernel k;
     ask(kernel_create(&k, model, kind, 1));
     for (int turn = 0; turn < 7; turn++) {
@@ -148,6 +150,7 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
         least = fmin(least, now(CLOCK_PROCESS_CPUTIME_ID) - start);
     }
     kernel_destroy(&k);
+    free(state);
     free(a);
     return 1e9 * least / (double)rounds / (double)model->lattice.n_springs;
 }
