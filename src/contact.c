@@ -274,10 +274,13 @@ void contact_guards(contact *c, double t, const double *y, double *g)
     contact_sites *s = &c->sites;
     solve_all(s, y, velocities(c, y));
     c->solved = t;
+    c->quiet = true;
     for (dem_index k = 0; k < SITE_GUARDS * s->n; k++) g[k] = 1.0;
     for (dem_index a = 0; a < c->watch.n; a++) {
         const dem_index k = c->watch.awake[a];
-        site_guards(&s->scene, &s->list[k], s->reactions.force[k], y, velocities(c, y), &g[SITE_GUARDS * k]);
+        double *of_site = &g[SITE_GUARDS * k];
+        site_guards(&s->scene, &s->list[k], s->reactions.force[k], y, velocities(c, y), of_site);
+        for (int q = 0; q < SITE_GUARDS; q++) c->quiet = c->quiet && of_site[q] > 0.0;
     }
 }
 
@@ -320,7 +323,7 @@ dem_status contact_resolve(contact *c, double t, double *y, const contact_listen
     straighten_nodes(s, now.x);
     solve_all(s, now.x, now.v);
     store_all(s);
-    watch_look(&c->watch, s, now.x, watch_speed(s, now.v));
+    watch_look(&c->watch, s, now.x, now.v);
     return now.told;
 }
 
@@ -367,12 +370,10 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
     return now.told != DEM_OK ? now.told : status;
 }
 
-/* No node that may touch goes further in the step. */
+/* No node that may touch goes further in the step, which begins where the last look was. */
 static double furthest(const contact *c, const path *p)
 {
-    const double start = watch_speed(&c->sites, velocities(c, p->y0)),
-                 end = watch_speed(&c->sites, velocities(c, p->y1));
-    return 2.0 * (p->t1 - p->t0) * fmax(start, end);
+    return 2.0 * (p->t1 - p->t0) * fmax(c->watch.speed, watch_speed(&c->sites, velocities(c, p->y1)));
 }
 
 /* First time at which a closed contact has to change that has to at the end of the step; infinity if none has. */
@@ -383,6 +384,7 @@ static double first_due(contact *c, const path *p, double *state)
     const bool whole = p->end == p->t1, solved = whole && c->solved == p->t1;
     const double *y = whole ? p->y1 : state;
     double first = INFINITY;
+    if (solved && c->quiet) return first;
     for (dem_index g = 0; g < r->n_groups; g++) {
         if (!whole) search_state(r, g, p, p->end, state);
         if (!solved) reactions_solve(r, g, y, velocities(c, y));
@@ -394,7 +396,10 @@ static double first_due(contact *c, const path *p, double *state)
             reactions_solve(r, g, y, velocities(c, y));
         }
     }
-    if (whole) c->solved = p->t1;
+    if (whole) {
+        c->solved = p->t1;
+        c->quiet = false;
+    }
     return first;
 }
 
@@ -403,9 +408,11 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     contact_sites *s = &c->sites;
     const double last = rooted ? p->end - 4.0 * search_resolution(p) : INFINITY; /* later it is the root found */
     double first = INFINITY;
-    const double way = furthest(c, p);
-    for (dem_index k = 0; k < s->n; k++) {
-        if (!watch_wakes(&c->watch, &s->list[k], way)) continue;
+    c->way = furthest(c, p);
+    const bool all = watch_asks_all(&c->watch, c->way);
+    for (dem_index a = 0; a < (all ? s->n : c->watch.n); a++) {
+        const dem_index k = all ? a : c->watch.awake[a];
+        if (!watch_wakes(&c->watch, &s->list[k], c->way)) continue;
         s->list[k].asleep = false;
         if (s->list[k].n_closed == 2) continue;
         first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
@@ -448,10 +455,10 @@ bool contact_straighten(contact *c, double t, double *y)
 void contact_follow(contact *c, const path *p, const double *y)
 {
     contact_sites *s = &c->sites;
-    c->watch.travelled += furthest(c, p);
+    c->watch.travelled += c->way;
     if (c->solved != p->t1 || p->end < p->t1) solve_all(s, y, velocities(c, y));
     store_all(s);
-    watch_look(&c->watch, s, y, watch_speed(s, velocities(c, y)));
+    watch_look(&c->watch, s, y, velocities(c, y));
 }
 
 void contact_account(const contact *c, const double *y, double *rate)

@@ -12,6 +12,8 @@ typedef struct contact {
     contact_sites sites;
     contact_watch watch;
     double solved;  /* s, time of the state for which the reactions' forces are known; NAN: none */
+    bool quiet;     /* and all guards were > 0 in that state, so that nothing is due */
+    double way;     /* m, no site goes further in the step that was checked last */
     dem_index idle; /* events in a row that changed nothing */
 } contact;
 

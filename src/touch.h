@@ -31,13 +31,13 @@ typedef struct contact_site {
     dem_index previous, next; /* of an edge, the nodes before and after it on the boundary, or -1 */
     dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
     int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
+    bool asleep;              /* it is far from all that it could touch besides, */
+    double wake;              /* m, until the bodies may have gone this far since the start */
+    vec2 clear_at[2];         /* m, where its nodes were when all that it could touch besides */
+    double clear;             /* m, was this far away */
     contact_touch closed[2];
     bool stirred;       /* it takes part in the impact under way */
     int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
-    vec2 clear_at[2];   /* m, where its nodes were when all that it could touch besides */
-    double clear;       /* m, was this far away */
-    bool asleep;        /* it is far from all that it could touch besides, */
-    double wake;        /* m, until the bodies may have gone this far since the start */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
 } contact_site;

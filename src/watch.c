@@ -66,15 +66,20 @@ static bool worth_a_look(const contact_watch *w, const contact_site *site, const
     return site_moved(site, &spot) >= 0.5 * site->clear;
 }
 
-void watch_look(contact_watch *w, contact_sites *c, const double *x, double speed)
+void watch_look(contact_watch *w, contact_sites *c, const double *x, const double *v)
 {
-    const double reach = 1.25 * c->scene.rule.max_step * speed; /* further is found after the step */
+    w->speed = watch_speed(c, v);
+    const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* further is found after the step */
     w->n = 0;
+    w->earliest = (double)INFINITY;
     for (dem_index k = 0; k < c->scene.model->n_sites && c->books.counts.behind > 0; k++)
         if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(x, c->list[k].node));
     for (dem_index k = 0; k < c->n; k++) {
         const contact_site *site = &c->list[k];
         if (worth_a_look(w, site, x, reach)) look_at(w, c, k, x, reach);
-        if (site->n_closed > 0 || !site->asleep) w->awake[w->n++] = k;
+        if (site->n_closed > 0 || !site->asleep)
+            w->awake[w->n++] = k;
+        else
+            w->earliest = fmin(w->earliest, site->wake);
     }
 }

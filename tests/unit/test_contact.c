@@ -1186,6 +1186,24 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     scene_close(&s);
 }
 
+/* What the guards at the end of the step have told, the check does not ask again: that all is quiet, or not. */
+static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
+{
+    (void)state;
+    for (int ends = 0; ends <= 1; ends++) {
+        scene s;
+        scene_flight f;
+        double guards[SITE_GUARDS];
+        slide(&s, &half, 3.0, ends ? 2.0 : 0.5);
+        scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
+        contact_guards(&s.c, 1.0, f.y1, guards);
+        assert_int_equal(s.c.quiet, !ends);
+        assert_int_equal(contact_check(&s.c, &f.path, false, f.scratch), ends);
+        if (ends) assert_close(f.path.end, 0.5 * (1.0 + skin), 1e-13);
+        scene_close(&s);
+    }
+}
+
 /* The first may reach the floor in a step of 0.01 s, the third is asleep. */
 static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
 {
@@ -1275,6 +1293,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_contact_at_the_root_that_ends_a_step_is_no_other),
     cmocka_unit_test(a_step_without_contacts_is_left_as_it_is),
     cmocka_unit_test(a_closed_contact_that_should_have_ended_cuts_the_step),
+    cmocka_unit_test(the_check_goes_by_the_guards_at_the_end_of_the_step),
     cmocka_unit_test(the_guards_of_all_sites_stand_one_after_the_other),
     cmocka_unit_test(a_nearly_straight_concave_bend_moves_the_node_by_no_more_than_rounding),
 };

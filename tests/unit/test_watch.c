@@ -15,9 +15,12 @@ static void open_nodes(scene *s, dem_index n, const double *x)
     scene_open(s, n, x, masses, 0, NULL, &plane, 1);
 }
 
+/* With the first node, which may touch, at this speed. */
 static void look(scene *s, double speed)
 {
-    watch_look(&s->c.watch, &s->c.sites, s->y, speed);
+    double v[8] = {speed};
+    watch_look(&s->c.watch, &s->c.sites, s->y, v);
+    assert_close(s->c.watch.speed, speed, 0.0);
 }
 
 static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
@@ -103,7 +106,9 @@ static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
     (void)state;
     open_nodes(&s, 1, x);
     scene_put(&s, 0, 0.0, 3.0, 0.0, -1.0);
+    look(&s, 1.0);
     scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, 0.01, &f);
+    assert_false(contact_check(&s.c, &f.path, false, f.scratch));
     contact_follow(&s.c, &f.path, f.y1);
     assert_close(s.c.watch.travelled, 2.0 * 0.01 * 1.1, 1e-16);
     scene_close(&s);
