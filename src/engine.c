@@ -24,6 +24,19 @@ dem_status engine_step(engine *e, path *step, bool *rooted)
     return e->verlet != NULL ? verlet_step(e->verlet, step, rooted) : integrator_step(e->integrator, step, rooted);
 }
 
+void engine_settle(engine *e, const path *step)
+{
+    if (e->verlet != NULL)
+        verlet_settle(e->verlet, step);
+    else
+        integrator_settle(e->integrator, step);
+}
+
+double *engine_state(const engine *e)
+{
+    return e->verlet != NULL ? verlet_state(e->verlet) : integrator_state(e->integrator);
+}
+
 dem_status engine_restart(engine *e, double t, const double *y)
 {
     if (e->verlet == NULL) return integrator_restart(e->integrator, t, y);

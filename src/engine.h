@@ -20,7 +20,15 @@ void engine_destroy(engine *e);
  *  hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status engine_step(engine *e, path *step, bool *rooted);
 
-/** Goes on from another state. */
+/** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
+ *  path holds on until the next step or restart. */
+void engine_settle(engine *e, const path *step);
+
+/** The state from which the next step goes, [4 n]. Who changes it restarts the engine there: it is no copy, and the end
+ *  of the step that led to it changes with it. */
+double *engine_state(const engine *e);
+
+/** Goes on from another state, or from its own as it has been changed. */
 dem_status engine_restart(engine *e, double t, const double *y);
 
 /** Steps, rejections, evaluations and retries so far; the rest is 0. */

@@ -153,7 +153,7 @@ static void fill_weights(integrator *I)
 /* The state from which the next step goes. */
 static void start_from(integrator *I, double t, const double *y)
 {
-    memcpy(vector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    if (y != vector_values(I->y0)) memcpy(vector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
     vector_share(I->y0, I->y);
     I->t = t;
     I->at_end = I->holds_step = I->knows_f0 = false;
@@ -287,14 +287,36 @@ static dem_status fail_step(integrator *I, int flag)
     return DEM_ERROR_INTEGRATOR;
 }
 
+/* From the end of the path handed out. */
+static void go_on(integrator *I)
+{
+    if (!I->at_end) return;
+    vector_share(I->y1, I->y0);
+    vector_share(I->f1, I->f0);
+    I->t = I->t1;
+    I->at_end = false;
+}
+
+void integrator_settle(integrator *I, const path *step)
+{
+    if (step->end == step->t1) {
+        go_on(I);
+        return;
+    }
+    path_state(step, step->end, vector_fresh(I->y));
+    vector_share(I->y, I->y0);
+    I->t = step->end;
+    I->at_end = I->knows_f0 = false;
+}
+
+double *integrator_state(const integrator *I)
+{
+    return vector_shared(I->y0);
+}
+
 dem_status integrator_step(integrator *I, path *step, bool *rooted)
 {
-    if (I->at_end) { /* go on from the end of the path handed out */
-        vector_share(I->y1, I->y0);
-        vector_share(I->f1, I->f0);
-        I->t = I->t1;
-        I->at_end = false;
-    }
+    go_on(I);
     double reached, h = 0.0;
     int flag = ARK_RHSFUNC_FAIL;
     for (int attempt = 0; attempt <= max_retries; attempt++) {

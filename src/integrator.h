@@ -17,7 +17,14 @@ void integrator_destroy(integrator *i);
  *  integrator and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status integrator_step(integrator *i, path *step, bool *rooted);
 
-/** Goes on from another state, with step size and history kept. */
+/** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
+ *  path holds on until the next step or restart. */
+void integrator_settle(integrator *i, const path *step);
+
+/** The state from which the next step goes; who changes it restarts. */
+double *integrator_state(const integrator *i);
+
+/** Goes on from another state, or from its own as it has been changed, with step size and history kept. */
 dem_status integrator_restart(integrator *i, double t, const double *y);
 
 /** Steps, rejections, evaluations and retries so far; the rest is 0. */

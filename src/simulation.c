@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "aligned.h"
 #include "contact.h"
 #include "diagnostics.h"
 #include "engine.h"
@@ -42,13 +43,14 @@ struct dem_simulation {
     overlap overlap;
     contact contact;
     engine engine;
-    double t;      /* s, of y */
-    double step;   /* s, length of the last committed step */
-    double *y;     /* [4 n] state (x, v) after the last committed step */
-    double *frame; /* [4 n] state interpolated to a frame or to t_end */
-    path path;     /* the step in hand */
-    bool in_hand;  /* whether there is one */
-    bool at_event; /* whether it ends with one */
+    double t;        /* s, of y */
+    double step;     /* s, length of the last committed step */
+    double *y;       /* [4 n] state (x, v) after the last committed step, the engine's */
+    double *initial; /* [4 n] state before there is an engine */
+    double *frame;   /* [4 n] state interpolated to a frame or to t_end */
+    path path;       /* the step in hand */
+    bool in_hand;    /* whether there is one */
+    bool at_event;   /* whether it ends with one */
     bool started;
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
@@ -64,11 +66,17 @@ struct dem_simulation {
 
 /* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
  * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
- * the energies that friction and damping take; then the work of the boundaries, and the time. A few more, so that velocities begin at a cache line as positions do. */
+ * the energies that friction and damping take; then the work of the boundaries, and last the time. Before them there is
+ * room, so that the velocities begin at a cache line as the positions do. */
+static dem_index n_room(const dem_model *model)
+{
+    const dem_index pairs_of_line = 4, used = model->lattice.n_nodes + 2 * model->obstacles.n + 2;
+    return (pairs_of_line - used % pairs_of_line) % pairs_of_line;
+}
+
 static dem_index n_books(const dem_model *model)
 {
-    const dem_index n = model->lattice.n_nodes, pairs_of_line = 4;
-    return (n + 2 * model->obstacles.n + 2 + pairs_of_line - 1) / pairs_of_line * pairs_of_line - n;
+    return n_room(model) + 2 * model->obstacles.n + 2;
 }
 
 enum { FRICTION, DAMPING, WORK, TIME }; /* places behind the impulses */
@@ -81,7 +89,7 @@ static dem_index unknowns(const dem_model *model)
 /* The books in a state, and those of them behind the impulses. */
 static const double *books_of(const dem_simulation *s, const double *y)
 {
-    return y + unknowns(s->model) + 2 * s->model->lattice.n_nodes;
+    return y + unknowns(s->model) + 2 * (s->model->lattice.n_nodes + n_room(s->model));
 }
 
 static const double *totals_of(const dem_simulation *s, const double *y)
@@ -105,10 +113,9 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
 /* Rates of the books: [2 n_books] behind the accelerations. */
 static void fill_rates(dem_simulation *s, const double *y, double *rate, double work)
 {
-    const dem_index n_obstacles = s->model->obstacles.n;
-    double *total = rate + 4 * n_obstacles;
+    double *impulse = rate + 2 * n_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
     for (dem_index k = 0; k < 2 * n_books(s->model); k++) rate[k] = 0.0;
-    contact_account(&s->contact, y, rate);
+    contact_account(&s->contact, y, impulse);
     if (s->damped)
         total[DAMPING] =
             diagnostics_damping_power(s->model, &s->contact.sites.scene.rule.load, y, y + unknowns(s->model));
@@ -246,7 +253,8 @@ static dem_status commit_step(dem_simulation *s)
 {
     const contact_listener listener = {tell_event, s};
     const path *p = &s->path;
-    path_state(p, p->end, s->y);
+    engine_settle(&s->engine, p);
+    s->y = engine_state(&s->engine);
     const bool moved = contact_straighten(&s->contact, p->end, s->y);
     contact_follow(&s->contact, p, s->y);
     s->step = p->end - s->t;
@@ -351,7 +359,7 @@ static dem_status fill_options(dem_simulation *s)
 static dem_status allocate(dem_simulation *s)
 {
     const size_t n = 2 * (size_t)unknowns(s->model);
-    s->y = calloc(n, sizeof *s->y);
+    s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
     s->contacts = calloc(2 * (size_t)(s->model->n_sites + s->model->surface.n_edges) + 1, sizeof *s->contacts);
     s->measures = calloc(1, sizeof *s->measures);
@@ -367,7 +375,7 @@ static model_load load_of(const dem_simulation *s)
     return (model_load){{o->gravity[0], o->gravity[1]},
                         o->mass_damping,
                         s->boundaries.first != NULL ? &s->boundaries : NULL,
-                        2 * s->model->lattice.n_nodes + 4 * s->model->obstacles.n + TIME};
+                        2 * (s->model->lattice.n_nodes + n_books(s->model)) - 1};
 }
 
 static contact_rule rule_of(const dem_simulation *s)
@@ -420,6 +428,9 @@ static dem_status set_up(dem_simulation *s)
                             .bulk = s->kernel.bulk,
                             .n_threads = s->kernel.n_threads};
     TRY(engine_create(&s->engine, &problem, 0.0, s->y));
+    s->y = engine_state(&s->engine);
+    free(s->initial);
+    s->initial = NULL;
     TRY(overlap_create(&s->overlap, &model->lattice));
     look_for_overlaps(s);
     look_at(s, 0.0, s->y);
@@ -451,7 +462,7 @@ void dem_simulation_destroy(dem_simulation *s)
     contact_destroy(&s->contact);
     boundaries_free(&s->boundaries);
     overlap_destroy(&s->overlap);
-    free(s->y);
+    free(s->initial);
     free(s->frame);
     free(s->contacts);
     free(s->measures);

@@ -95,6 +95,11 @@ const double *vector_values(N_Vector v)
     return content_of(v)->buffer->values;
 }
 
+double *vector_shared(N_Vector v)
+{
+    return content_of(v)->buffer->values;
+}
+
 void vector_share(N_Vector from, N_Vector to)
 {
     content *c = content_of(to);

@@ -25,6 +25,9 @@ const double *vector_values(N_Vector v);
 /** Its numbers, all of them to be written. */
 double *vector_fresh(N_Vector v);
 
+/** Its numbers, some of them to be changed, also for those who share them. */
+double *vector_shared(N_Vector v);
+
 /** From now on `to` has the numbers of `from`. */
 void vector_share(N_Vector from, N_Vector to);
 

@@ -67,7 +67,7 @@ void verlet_destroy(verlet *V)
 
 void verlet_restart(verlet *V, double t, const double *y)
 {
-    memcpy(V->y0, y, 4 * (size_t)V->problem.n_nodes * sizeof *y);
+    if (y != V->y0) memcpy(V->y0, y, 4 * (size_t)V->problem.n_nodes * sizeof *y);
     V->t = t;
     V->has_f0 = V->has_low = V->at_end = false;
 }
@@ -88,6 +88,23 @@ static void go_on(verlet *V)
     swap(&V->low, &V->high);
     V->t = V->t1;
     V->at_end = false;
+}
+
+void verlet_settle(verlet *V, const path *step)
+{
+    if (step->end < step->t1) {
+        path_state(step, step->end, V->state);
+        swap(&V->y1, &V->state);
+        V->t1 = step->end;
+    }
+    go_on(V);
+    V->has_f0 = step->end == step->t1;
+    V->has_low = V->has_low && V->has_f0;
+}
+
+double *verlet_state(const verlet *V)
+{
+    return V->y0;
 }
 
 static int evaluate(verlet *V, double t, const double *y, double *f)

@@ -17,7 +17,14 @@ void verlet_destroy(verlet *V);
  *  until its next call. DEM_ERROR_INTEGRATOR leaves the last state in force. */
 dem_status verlet_step(verlet *V, path *step, bool *rooted);
 
-/** Goes on from another state. */
+/** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
+ *  path holds on until the next step or restart. */
+void verlet_settle(verlet *V, const path *step);
+
+/** The state from which the next step goes; who changes it restarts. */
+double *verlet_state(const verlet *V);
+
+/** Goes on from another state, or from its own as it has been changed. */
 void verlet_restart(verlet *V, double t, const double *y);
 
 /** Steps and evaluations so far; the rest is 0. */

@@ -365,9 +365,9 @@ static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
 
 /* ---- what the guard stiffens ---- */
 
-/* A triangle squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Opposite to node 2 is the side of 1 m, to node 1 the
- * diagonal, to node 0 the side of 0.2 m; each in turn is so light that it decides. What the guard adds stands beside
- * omega_max^2. */
+/* A triangle squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Opposite to node 2 is the side of 1 m, to node 1
+ * the diagonal, to node 0 the side of 0.2 m; each in turn is so light that it decides. What the guard adds stands
+ * beside omega_max^2. */
 static void the_guard_stiffens_what_it_squeezes(void **state)
 {
     double rest[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0}, mass[3] = {1.0, 2.0, 3.0}, length[2] = {1.0, 1.0};

@@ -93,8 +93,8 @@ static double difference(double width, double height, double spacing, const dem_
     return largest;
 }
 
-/* 1e-12 m: the sums at a node have another order, 1e-16 of forces of 1e5 N/m times coordinates, over some hundred steps.
- * 3000 nodes, for which the model finds a numbering of its own. */
+/* 1e-12 m: the sums at a node have another order, 1e-16 of forces of 1e5 N/m times coordinates, over some hundred
+ * steps. 3000 nodes, for which the model finds a numbering of its own. */
 static void a_free_body_moves_alike(void **state)
 {
     (void)state;
