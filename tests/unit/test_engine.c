@@ -66,6 +66,62 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
     }
 }
 
+/* Settled after each step and reflected where the state is; after a root nobody has to change anything. */
+static void steps_are_settled_and_states_changed_where_they_are(void **state)
+{
+    const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
+    const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
+    (void)state;
+    for (int m = 0; m < 2; m++) {
+        int calls = 0, bounces = 0;
+        const motion problem = {.n_nodes = 1,
+                                .bulk = &bulk_portable,
+                                .n_threads = 1,
+                                .n_guards = 1,
+                                .derivative = fall,
+                                .guards = height,
+                                .context = &calls,
+                                .method = methods[m],
+                                .position_error = 1.0,
+                                .velocity_error = 1.0,
+                                .max_step = 0.05,
+                                .fixed_step = m == 0 ? 0.0 : 0.05};
+        engine e;
+        path p = {0};
+        double end[4];
+        assert_ok(engine_create(&e, &problem, 0.0, y0));
+        assert_memory_equal(engine_state(&e), y0, sizeof y0);
+        while (bounces < 4) {
+            bool rooted;
+            assert_ok(engine_step(&e, &p, &rooted));
+            if (bounces > 0 || rooted) assert_true(p.t0 < p.t1);
+            path_state(&p, p.end, end);
+            engine_settle(&e, &p);
+            double *y = engine_state(&e);
+            assert_memory_equal(y, end, sizeof end);
+            if (!rooted) continue;
+            assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9);
+            y[1] = 0.0;
+            y[3] = -y[3];
+            assert_ok(engine_restart(&e, p.end, y));
+            assert_memory_equal(engine_state(&e), ((double[4]){end[0], 0.0, end[2], -end[3]}), sizeof end);
+        }
+        assert_ok(engine_restart(&e, p.end, y0));
+        assert_memory_equal(engine_state(&e), y0, sizeof y0);
+        bool rooted = false;
+        while (!rooted) {
+            assert_ok(engine_step(&e, &p, &rooted));
+            engine_settle(&e, &p);
+        }
+        const double root = p.end;
+        assert_ok(engine_step(&e, &p, &rooted)); /* goes on below the floor, from the root */
+        assert_false(rooted);
+        assert_close(p.t0, root, 0.0);
+        assert_true(p.y0[1] <= 0.0 && p.y1[1] < p.y0[1]);
+        engine_destroy(&e);
+    }
+}
+
 static void what_cannot_be_made_is_told(void **state)
 {
     const motion problem = {.n_nodes = 1,
@@ -85,6 +141,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_finds_the_bounces_of_a_ball),
+        cmocka_unit_test(steps_are_settled_and_states_changed_where_they_are),
         cmocka_unit_test(what_cannot_be_made_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
