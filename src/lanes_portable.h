@@ -6,6 +6,7 @@
 #include "layout.h"
 
 typedef double two __attribute__((vector_size(16)));
+typedef int64_t two_bits __attribute__((vector_size(16)));
 
 typedef struct pairs {
     two n[8]; /* of each node */
@@ -61,16 +62,23 @@ static inline pairs pairs_spread(const double *p)
     return a;
 }
 
+/* All bits if node k is in the mask. */
+static inline two_bits spread_bit(unsigned mask, int k)
+{
+    const int64_t bits = -(int64_t)(mask >> (2 * k) & 1u);
+    return (two_bits){bits, bits};
+}
+
 static inline pairs pairs_mask(pairs a, unsigned mask)
 {
-    EACH a.n[k] = mask >> (2 * k) & 1u ? a.n[k] : (two){0.0, 0.0};
+    EACH a.n[k] = (two)((two_bits)a.n[k] & spread_bit(mask, k));
     return a;
 }
 
 /* Of the nodes in the mask. */
 static inline pairs pairs_negate(pairs a, unsigned mask)
 {
-    EACH a.n[k] = mask >> (2 * k) & 1u ? -a.n[k] : a.n[k];
+    EACH a.n[k] = (two)((two_bits)a.n[k] ^ (spread_bit(mask, k) & (two_bits){INT64_MIN, INT64_MIN}));
     return a;
 }
 
