@@ -245,7 +245,7 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 static double shortening(const queue *q, dem_status status)
 {
     const double error = queue_error(q);
-    if (error > 1.0) return fmax(least_factor, safety / sqrt(sqrt(error)));
+    if (!(error <= 1.0)) return fmax(least_factor, safety / sqrt(sqrt(error))); /* not finite: as much as may be */
     return status == DEM_ERROR_CONTACT ? least_factor : 1.0;
 }
 
@@ -262,6 +262,8 @@ static dem_status take_local_step(dem_simulation *s)
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
         queue_undo(&s->queue);
+        CHECK(status != DEM_OK || attempt < most_attempts, DEM_ERROR_INTEGRATOR,
+              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach", s->path.t0);
         if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return status;
         TRY(engine_redo(&s->engine, factor));
     }
