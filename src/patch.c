@@ -332,6 +332,18 @@ static trail_motion motion_of(const patch *p, const path *step, dem_index place)
     return trail_later(&motion, p->t, step->t1);
 }
 
+/* What the event is due by has the bits that it was found with. */
+static void fetch_start(patch *p, const path *step, double *y)
+{
+    for (dem_index j = 0; j < p->end[1]; j++) {
+        const dem_index i = p->nodes[j].place;
+        vec2_put(p->x[0], j, path_position(step, p->t, i));
+        vec2_put(p->v[0], j, path_velocity(step, p->t, i));
+        vec2_put(y, i, vec2_at(p->x[0], j));
+        vec2_put(y, step->n_nodes + i, vec2_at(p->v[0], j));
+    }
+}
+
 dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state)
 {
     p->t = t;
@@ -342,6 +354,7 @@ dem_status patch_open(patch *p, const path *step, dem_index site, double t, doub
     for (int stage = 0; stage < PATCH_STAGES; stage++)
         if (stage != LAST) TRY(open_stage(p, step, stage, state));
     fetch_stage(p, step, 0, p->n, state);
+    fetch_start(p, step, state);
     return DEM_OK;
 }
 
