@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* trail.c: pieces of motions against the polynomials they are of; what was changed is taken back to the bit. Numbers
+/* trail.c: motions against the polynomials they are of; what was changed is taken back to the bit. Numbers
  * are of order 1 to 10, so that sums of six terms are good to 1e-14. */
 #include "../verification/support.h"
 
@@ -69,14 +69,14 @@ static void check_motion(const trail *tr, dem_index node, double t)
 
 /* ---- polynomials ---- */
 
-static void a_piece_is_the_polynomial_of_its_coefficients(void **state)
+static void a_motion_is_the_polynomial_of_its_coefficients(void **state)
 {
     const trail_motion whole = written_from(0.25, 1.5);
     step s;
     (void)state;
     open_step(&s, 1.5);
     assert_false(trail_has(&s.trail, 1));
-    assert_ok(trail_add(&s.trail, 1, &whole));
+    assert_ok(trail_turn(&s.trail, 1, &whole));
     assert_true(trail_has(&s.trail, 1));
     assert_false(trail_has(&s.trail, 0));
     for (double t = 0.25; t <= 1.5; t += 0.125) check_motion(&s.trail, 1, t);
@@ -105,15 +105,15 @@ static void written_anew_again_and_again_it_stays_the_same(void **state)
     step s;
     (void)state;
     open_step(&s, 1.5);
-    assert_ok(trail_add(&s.trail, 0, &m));
     for (int k = 1; k <= 10; k++) {
         m = trail_later(&m, 0.25 + 0.1 * k, 1.5);
-        assert_ok(trail_add(&s.trail, 0, &m));
-    }
-    for (double t = 0.25; t <= 1.5; t += 0.05) {
-        const vec2 x = trail_position(&s.trail, t, 0), expected = along_both(0, t);
-        assert_close(x.x, expected.x, 2e-13);
-        assert_close(x.y, expected.y, 2e-13);
+        assert_ok(trail_turn(&s.trail, 0, &m));
+        assert_close(trail_of(&s.trail, 0)->from, 0.25 + 0.1 * k, 0.0);
+        for (double t = 0.25 + 0.1 * k; t <= 1.5; t += 0.05) {
+            const vec2 x = trail_position(&s.trail, t, 0), expected = along_both(0, t);
+            assert_close(x.x, expected.x, 2e-13);
+            assert_close(x.y, expected.y, 2e-13);
+        }
     }
     trail_destroy(&s.trail);
 }
@@ -131,10 +131,10 @@ static void a_bend_is_the_quintic_through_both_ends(void **state)
     (void)state;
     open_step(&s, end);
     trail_bend(&m, end, &at, &by);
-    assert_ok(trail_add(&s.trail, 2, &m));
+    assert_ok(trail_turn(&s.trail, 2, &m));
     for (double t = from; t <= end; t += 0.0625) check_motion(&s.trail, 2, t);
     trail_bend(&m, end, &at, &by); /* and adds to what there is */
-    assert_ok(trail_add(&s.trail, 2, &m));
+    assert_ok(trail_turn(&s.trail, 2, &m));
     for (double t = from; t <= end; t += 0.0625) {
         const vec2 x = trail_position(&s.trail, t, 2), expected = along_both(0, t);
         assert_close(x.x, 2.0 * expected.x, 4e-14);
@@ -155,7 +155,7 @@ static void a_node_by_itself_goes_straight_on_after_a_jump(void **state)
         step s;
         open_step(&s, end);
         trail_bend(&m, end, &at, &by);
-        assert_ok(trail_add(&s.trail, 0, &m));
+        assert_ok(trail_turn(&s.trail, 0, &m));
         for (double share = 0.0; share <= 1.0; share += 0.125) {
             const double t = from + share * (end - from);
             const vec2 x = trail_position(&s.trail, t, 0), v = trail_velocity(&s.trail, t, 0);
@@ -169,7 +169,7 @@ static void a_node_by_itself_goes_straight_on_after_a_jump(void **state)
 }
 
 /* An event at the end of the step leaves nothing to go on with. */
-static void a_piece_without_length_is_the_state_at_its_time(void **state)
+static void a_motion_without_length_is_the_state_at_its_time(void **state)
 {
     const trail_jump at = {.x = {0.25, 0.5}, .v = {3.0, -1.0}, .a = {7.0, 8.0}}, by = {.x = {0.0, 0.0}};
     const trail_motion whole = written_from(0.25, 1.5);
@@ -177,59 +177,61 @@ static void a_piece_without_length_is_the_state_at_its_time(void **state)
     step s;
     (void)state;
     open_step(&s, 1.5);
-    assert_ok(trail_add(&s.trail, 1, &whole));
+    assert_ok(trail_turn(&s.trail, 1, &whole));
     trail_bend(&m, 1.5, &at, &by);
-    assert_ok(trail_add(&s.trail, 1, &m));
+    assert_ok(trail_turn(&s.trail, 1, &m));
     const vec2 x = trail_position(&s.trail, 1.5, 1), v = trail_velocity(&s.trail, 1.5, 1);
     assert_close(x.x, along_both(0, 1.5).x + 0.25, 1e-14);
     assert_close(x.y, along_both(0, 1.5).y + 0.5, 1e-14);
     assert_close(v.x, along_both(1, 1.5).x + 3.0, 4e-14);
     assert_close(v.y, along_both(1, 1.5).y - 1.0, 4e-14);
-    check_motion(&s.trail, 1, 1.375);
     trail_destroy(&s.trail);
 }
 
-/* ---- lists ---- */
-
-/* Each piece adds 1 m/s to the velocity: at a piece's first instant that has happened. */
-static void a_piece_holds_from_its_time_to_that_of_the_next(void **state)
+/* Each adds 1 m/s to the velocity; the end of the step is kept once. */
+static void the_last_motion_of_a_node_holds(void **state)
 {
     enum { n = 400 };
-    trail_motion m = {.from = 0.0};
     step s;
     (void)state;
     open_step(&s, 4.0);
     for (dem_index node = 0; node < 2; node++) {
-        m = (trail_motion){.from = 0.0};
+        trail_motion m = {.from = 0.0};
         for (int k = 0; k < n; k++) {
-            assert_ok(trail_add(&s.trail, node, &m));
+            assert_ok(trail_turn(&s.trail, node, &m));
+            assert_close(trail_velocity(&s.trail, 0.01 * k, node).x, k, 1e-11 * (1 + k)); /* a sum of k */
+            assert_close(trail_velocity(&s.trail, 0.01 * k + 0.005, node).x, k, 1e-11 * (1 + k));
             m = trail_later(&m, 0.01 * (k + 1), 4.0);
             trail_bend(&m, 4.0, &(trail_jump){.v = {1.0, 0.0}}, &(trail_jump){.x = {4.0 - 0.01 * (k + 1), 0.0}});
         }
     }
-    assert_int_equal(s.trail.n_ends, 2);
-    for (int k = 0; k < n; k++)
-        for (dem_index node = 0; node < 2; node++) {
-            assert_close(trail_velocity(&s.trail, 0.01 * k, node).x, k, 1e-11 * (1 + k)); /* a sum of k */
-            assert_close(trail_velocity(&s.trail, 0.01 * k + 0.005, node).x, k, 1e-11 * (1 + k));
-        }
-    assert_close(trail_last(&s.trail, 0)->from, 0.01 * (n - 1), 0.0);
+    assert_int_equal(s.trail.n, 2);
     trail_destroy(&s.trail);
 }
 
-static void of_pieces_from_the_same_time_on_the_last_holds(void **state)
+/* ---- the end of the step ---- */
+
+/* A node that is kept can change there, and be kept again, though its motion has not. */
+static void a_node_can_be_kept_without_a_motion(void **state)
 {
-    const trail_motion first = {.from = 0.0}, second = {.from = 0.5, .x = {{1.0}}}, third = {.from = 0.5, .x = {{2.0}}};
-    step s;
+    const trail_motion still = {0};
+    const trail_jump jump = {{0.5, 0.25}, {2.0, 4.0}, {8.0, 16.0}};
+    step s, before;
     (void)state;
     open_step(&s, 1.0);
-    assert_ok(trail_add(&s.trail, 0, &first));
-    assert_ok(trail_add(&s.trail, 0, &second));
-    assert_ok(trail_add(&s.trail, 0, &third));
-    assert_close(trail_position(&s.trail, 0.25, 0).x, 0.0, 0.0);
-    assert_close(trail_position(&s.trail, 0.5, 0).x, 2.0, 0.0);
-    assert_close(trail_position(&s.trail, 1.0, 0).x, 2.0, 0.0);
-    assert_close(trail_position(&s.trail, -1.0, 0).x, 0.0, 0.0); /* before the first piece, that goes on */
+    before = s;
+    assert_ok(trail_keep(&s.trail, 2));
+    assert_false(trail_has(&s.trail, 2));
+    trail_move_end(&s.trail, 2, &jump);
+    assert_ok(trail_turn(&s.trail, 2, &still));
+    trail_move_end(&s.trail, 2, &jump);
+    assert_ok(trail_keep(&s.trail, 2));
+    assert_true(trail_has(&s.trail, 2));
+    trail_move_end(&s.trail, 2, &jump);
+    trail_undo(&s.trail);
+    assert_false(trail_has(&s.trail, 2));
+    assert_memory_equal(s.y1, before.y1, sizeof s.y1);
+    assert_memory_equal(s.f1, before.f1, sizeof s.f1);
     trail_destroy(&s.trail);
 }
 
@@ -241,7 +243,7 @@ static void a_jump_at_the_end_changes_the_state_and_its_derivative(void **state)
     (void)state;
     open_step(&s, 1.0);
     before = s;
-    assert_ok(trail_add(&s.trail, 1, &still));
+    assert_ok(trail_turn(&s.trail, 1, &still));
     trail_move_end(&s.trail, 1, &jump);
     before.y1[2] += 0.5, before.y1[3] += 0.25, before.y1[2 * n_nodes + 2] += 2.0, before.y1[2 * n_nodes + 3] += 4.0;
     before.f1[2] += 2.0, before.f1[3] += 4.0, before.f1[2 * n_nodes + 2] += 8.0, before.f1[2 * n_nodes + 3] += 16.0;
@@ -262,7 +264,7 @@ static void undoing_brings_every_bit_back(void **state)
         for (int k = 0; k < 700; k++) {
             const double size = pow(10.0, k % 40 - 20);
             const trail_jump jump = {{size, -0.3 * size}, {1.1 * size, size}, {0.7 * size, -size}};
-            assert_ok(trail_add(&s.trail, (2 * k) % n_nodes, &still));
+            assert_ok(trail_turn(&s.trail, (2 * k) % n_nodes, &still));
             trail_move_end(&s.trail, (2 * k) % n_nodes, &jump);
         }
         assert_memory_not_equal(s.y1, before.y1, sizeof s.y1);
@@ -282,12 +284,12 @@ static void the_next_step_knows_nothing_of_the_last_which_stays_as_it_is(void **
     step s, next;
     (void)state;
     open_step(&s, 1.0);
-    assert_ok(trail_add(&s.trail, 2, &still));
+    assert_ok(trail_turn(&s.trail, 2, &still));
     trail_move_end(&s.trail, 2, &(trail_jump){.x = {1.0, 1.0}});
     next = s;
     trail_start(&s.trail, 2.0, next.y1, next.f1);
     assert_false(trail_has(&s.trail, 2));
-    assert_ok(trail_add(&s.trail, 0, &still));
+    assert_ok(trail_turn(&s.trail, 0, &still));
     trail_undo(&s.trail);
     assert_memory_equal(s.y1, next.y1, sizeof s.y1);
     assert_close(s.y1[4], 1.0 / 7.0 + 1.0, 1e-15);
@@ -297,14 +299,14 @@ static void the_next_step_knows_nothing_of_the_last_which_stays_as_it_is(void **
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_piece_is_the_polynomial_of_its_coefficients),
+        cmocka_unit_test(a_motion_is_the_polynomial_of_its_coefficients),
         cmocka_unit_test(the_same_motion_can_be_written_from_any_later_time_on),
         cmocka_unit_test(written_anew_again_and_again_it_stays_the_same),
         cmocka_unit_test(a_bend_is_the_quintic_through_both_ends),
         cmocka_unit_test(a_node_by_itself_goes_straight_on_after_a_jump),
-        cmocka_unit_test(a_piece_without_length_is_the_state_at_its_time),
-        cmocka_unit_test(a_piece_holds_from_its_time_to_that_of_the_next),
-        cmocka_unit_test(of_pieces_from_the_same_time_on_the_last_holds),
+        cmocka_unit_test(a_motion_without_length_is_the_state_at_its_time),
+        cmocka_unit_test(the_last_motion_of_a_node_holds),
+        cmocka_unit_test(a_node_can_be_kept_without_a_motion),
         cmocka_unit_test(a_jump_at_the_end_changes_the_state_and_its_derivative),
         cmocka_unit_test(undoing_brings_every_bit_back),
         cmocka_unit_test(the_next_step_knows_nothing_of_the_last_which_stays_as_it_is),
