@@ -52,10 +52,9 @@ static void run_deck(const char *name, double restitution, dem_contact_method me
     deck_free(&d);
 }
 
-/* Bodies whose nodes strike a hundred times and more are sensitive to the last digit (docs/method.md): in the end
- * eta = 0 takes that away, and of eta = 1, which keeps it, only sums count. So the rebound of the former to 1e-3, of
- * the latter to what halving the spacing makes of it, 3 percent. */
-static void compare(const char *name, double restitution)
+/* Plastic bodies are not sensitive: 1e-3 of the rebound. Elastic ones, struck a thousand times, are, to the last digit:
+ * what halving the spacing makes of the rebound, 3 percent. `share` of the impacts. */
+static void compare(const char *name, double restitution, double share)
 {
     outcome o[2];
     for (int m = 0; m < 2; m++) {
@@ -71,24 +70,25 @@ static void compare(const char *name, double restitution)
     assert_close(o[0].rise, o[1].rise, (restitution > 0.0 ? 0.03 : 1e-3) * fabs(o[1].rise));
     assert_close(o[0].taken, o[1].taken, 0.01 * o[1].taken + 1e-12);
     const double impacts = (double)o[1].counts.impacts;
-    assert_close((double)o[0].counts.impacts, impacts, 0.01 * impacts + 1.0);
+    assert_close((double)o[0].counts.impacts, impacts, share * impacts);
     assert_true(o[0].counts.evaluations < o[1].counts.evaluations);
 }
 
 static void plastic_bodies_rebound_alike(void **state)
 {
     (void)state;
-    compare("rectangle", 0.0);
-    compare("disc", 0.0);
-    compare("porous", 0.0);
+    compare("rectangle", 0.0, 0.01);
+    compare("disc", 0.0, 0.01);
+    compare("porous", 0.0, 0.01);
 }
 
+/* Of the porous body either method counts 1200 to 1450 impacts at rtol 6e-9 to 1e-6, as chance has it. */
 static void elastic_bodies_rebound_alike(void **state)
 {
     (void)state;
-    compare("rectangle", 1.0);
-    compare("disc", 1.0);
-    compare("porous", 1.0);
+    compare("rectangle", 1.0, 0.01);
+    compare("disc", 1.0, 0.01);
+    compare("porous", 1.0, 0.2);
 }
 
 int main(int argc, char **argv)
