@@ -30,8 +30,9 @@ typedef struct ball {
     int n_rings;     /* the last is a frame: its nodes accelerate others, but are not accelerated */
     int32_t *number; /* [n_nodes] of a node of the lattice here; -1: it is not */
     dem_index n, capacity;
-    ball_node *nodes;                                 /* [n] */
-    dem_index end[BALL_RINGS], bonds_end[BALL_RINGS]; /* nodes of ring r or nearer; springs that act on them */
+    ball_node *nodes;                /* [n] */
+    dem_index end[BALL_RINGS];       /* nodes of ring r or nearer */
+    dem_index bonds_end[BALL_RINGS]; /* springs that act on them */
     dem_index n_bonds, bond_capacity;
     ball_bond *bonds;                /* [n_bonds] */
     double *stiffness, *rest_length; /* [n_bonds] */

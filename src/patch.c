@@ -177,7 +177,12 @@ static void put_time(const patch *p, const path *step, int stage, double *y)
 static void fetch_stage(patch *p, int stage, dem_index n)
 {
     const double s = p->table.c[stage];
-    for (dem_index j = 0; j < n; j++) trail_at(&p->motions[j], s, p->x[stage] + 2 * j, p->v[stage] + 2 * j);
+    for (dem_index j = 0; j < n; j++) {
+        double at[4];
+        trail_at(&p->motions[j], s, at);
+        vec2_put(p->x[stage], j, vec2_at(at, 0));
+        vec2_put(p->v[stage], j, vec2_at(at, 1));
+    }
 }
 
 static dem_status open_stage(patch *p, const path *step, int stage, double *y)
