@@ -169,7 +169,7 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
 static dem_index next_guarded(const kernel *k, dem_index q)
 {
     const dem_index end = LAYOUT_LANES * k->model->layout.n_blocks;
-    if (k->model->layout.corners.n == 0) return end;
+    if (k->model->layout.corners.entries.n == 0) return end;
     while (q < end && !(k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES & 1))
         q += k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES ? 1 : LAYOUT_LANES - q % LAYOUT_LANES;
     return q < end ? q : end;
