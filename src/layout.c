@@ -321,6 +321,12 @@ static dem_status lay_terms(builder *b, dem_index block)
 
 /* ---- corners of triangles ---- */
 
+static void look_ahead(layout *l, dem_index block, int32_t place)
+{
+    const dem_index way = place / LAYOUT_LANES - block, ahead = (way > 0 ? way : -way) + 1;
+    if (ahead > l->ahead) l->ahead = ahead;
+}
+
 static void list_corners(builder *b, dem_index block)
 {
     const triangles *t = b->t;
@@ -329,6 +335,8 @@ static void list_corners(builder *b, dem_index block)
         b->n[lane] = t->row[i + 1] - t->row[i];
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
             const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
+            look_ahead(b->l, block, next);
+            look_ahead(b->l, block, last);
             const double onset = t->guard[p] > 0.0 ? TRIANGLES_GUARD_ONSET * t->rest_area[p] : -INFINITY;
             b->items[lane * b->most + p - t->row[i]] =
                 (item){.at = next,
@@ -405,6 +413,7 @@ static dem_status choose_order(builder *b)
         }
     }
     l->reach = (span + LAYOUT_LANES - 1) / LAYOUT_LANES;
+    l->ahead = l->reach + 1; /* other lanes of an entry read up to seven nodes further */
     for (l->ring_rows = LAYOUT_LANES; l->ring_rows < LAYOUT_LANES * (l->reach + 2);) l->ring_rows *= 2;
     return DEM_OK;
 }

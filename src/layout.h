@@ -57,6 +57,7 @@ typedef struct layout {
     pool bonds;            /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
     pool areas;            /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
     dem_index reach;       /* blocks: none collects from one that is further below */
+    dem_index ahead;       /* blocks: none reads positions that are further away */
     dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */
     dem_index ring_length; /* forces in the ring */
 } layout;
