@@ -40,7 +40,7 @@ void trail_start(trail *tr, double end, double *y1, double *f1)
 void trail_undo(trail *tr)
 {
     const dem_index n = tr->n_nodes;
-    for (dem_index k = 0; k < tr->n_ends; k++) {
+    for (dem_index k = tr->n_ends - 1; k >= 0; k--) { /* the first of several was before */
         const trail_end *e = &tr->ends[k];
         vec2_put(tr->y1, e->node, e->x);
         vec2_put(tr->y1, n + e->node, e->v);
@@ -62,7 +62,7 @@ static dem_status grow(void **array, dem_index *capacity, dem_index n, size_t si
     return DEM_OK;
 }
 
-static dem_status keep_end(trail *tr, dem_index node)
+dem_status trail_keep(trail *tr, dem_index node)
 {
     const dem_index n = tr->n_nodes;
     TRY(grow((void **)&tr->ends, &tr->end_capacity, tr->n_ends, sizeof *tr->ends));
@@ -79,7 +79,7 @@ const trail_motion *trail_last(const trail *tr, dem_index node)
 dem_status trail_add(trail *tr, dem_index node, const trail_motion *motion)
 {
     TRY(grow((void **)&tr->pieces, &tr->capacity, tr->n, sizeof *tr->pieces));
-    if (!trail_has(tr, node)) TRY(keep_end(tr, node));
+    if (!trail_has(tr, node)) TRY(trail_keep(tr, node));
     tr->pieces[tr->n] = (trail_piece){*motion, tr->last[node]};
     tr->last[node] = tr->n++;
     return DEM_OK;
@@ -101,11 +101,6 @@ void trail_move_end(trail *tr, dem_index node, const trail_jump *jump)
 
 /* ---- polynomials ---- */
 
-static double value(const double c[TRAIL_TERMS], double s)
-{
-    return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * (c[4] + s * c[5]))));
-}
-
 /* The piece that holds at t. */
 static const trail_motion *motion_at(const trail *tr, double t, dem_index node)
 {
@@ -121,16 +116,18 @@ static double share(const trail *tr, const trail_motion *m, double t)
 
 vec2 trail_position(const trail *tr, double t, dem_index node)
 {
+    double x[2], v[2];
     const trail_motion *m = motion_at(tr, t, node);
-    const double s = share(tr, m, t);
-    return (vec2){value(m->x[0], s), value(m->x[1], s)};
+    trail_at(m, share(tr, m, t), x, v);
+    return vec2_at(x, 0);
 }
 
 vec2 trail_velocity(const trail *tr, double t, dem_index node)
 {
+    double x[2], v[2];
     const trail_motion *m = motion_at(tr, t, node);
-    const double s = share(tr, m, t);
-    return (vec2){value(m->v[0], s), value(m->v[1], s)};
+    trail_at(m, share(tr, m, t), x, v);
+    return vec2_at(v, 0);
 }
 
 /* c(s + r u) in powers of u: Taylor's shift, then the scale. */
@@ -147,6 +144,7 @@ trail_motion trail_later(const trail_motion *m, double from, double end)
     trail_motion later = *m;
     const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
     later.from = from;
+    if (s == 0.0) return later;
     for (int c = 0; c < 2; c++) {
         expand(later.x[c], s, 1.0 - s);
         expand(later.v[c], s, 1.0 - s);

@@ -41,7 +41,7 @@ typedef struct trail {
     dem_index n, capacity;
     trail_piece *pieces; /* [n] */
     dem_index n_ends, end_capacity;
-    trail_end *ends; /* [n_ends] one for each node that has pieces */
+    trail_end *ends; /* [n_ends] for each node that has pieces, and those kept */
 } trail;
 
 /** Free with trail_destroy(). */
@@ -62,6 +62,9 @@ static inline bool trail_has(const trail *tr, dem_index node)
 /** The motion of a node that goes to the end: its last piece. */
 const trail_motion *trail_last(const trail *tr, dem_index node);
 
+/** Remembers the end of the step at a node, which is changed without a motion that leads there. */
+dem_status trail_keep(trail *tr, dem_index node);
+
 /** Makes a motion that of a node from motion->from on; the first of a node is that of the whole step. */
 dem_status trail_add(trail *tr, dem_index node, const trail_motion *motion);
 
@@ -70,6 +73,16 @@ void trail_move_end(trail *tr, dem_index node, const trail_jump *jump);
 
 vec2 trail_position(const trail *tr, double t, dem_index node);
 vec2 trail_velocity(const trail *tr, double t, dem_index node);
+
+/** Position and velocity of a motion at s, 0 to 1. */
+static inline void trail_at(const trail_motion *m, double s, double x[2], double v[2])
+{
+    for (int c = 0; c < 2; c++) {
+        const double *a = m->x[c], *b = m->v[c];
+        x[c] = a[0] + s * (a[1] + s * (a[2] + s * (a[3] + s * (a[4] + s * a[5]))));
+        v[c] = b[0] + s * (b[1] + s * (b[2] + s * (b[3] + s * (b[4] + s * b[5]))));
+    }
+}
 
 /** The same motion written from a later time on. */
 trail_motion trail_later(const trail_motion *m, double from, double end);
