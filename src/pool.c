@@ -36,7 +36,7 @@ static bool is_list(const pool *p, int32_t list, const void *items, dem_index n)
 {
     const pool_span s = p->lists[list];
     return s.end - s.first == n &&
-           memcmp((const char *)p->items + (size_t)s.first * p->unit, items, (size_t)n * p->unit) == 0;
+           (n == 0 || memcmp((const char *)p->items + (size_t)s.first * p->unit, items, (size_t)n * p->unit) == 0);
 }
 
 /* That of the list, or a free one. */

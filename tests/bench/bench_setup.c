@@ -2,7 +2,7 @@
 /* What a run takes beside its time loop: setting up, memory, frames. A rectangle with the folding guard above a ground;
  * CPU time, of frames and steps the least, of set-up in the last of five turns: memory that the system has to clear
  * first is slow. `bench_setup NODES` */
-#define _DEFAULT_SOURCE /* getrusage */
+#define _XOPEN_SOURCE 700 /* getrusage */
 #include <math.h>
 #include <sys/resource.h>
 #include <unistd.h>
