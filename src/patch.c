@@ -328,8 +328,20 @@ static dem_status open_end(patch *p, const path *step)
 static trail_motion motion_of(const patch *p, const path *step, dem_index place)
 {
     const bool turned = trail_has(step->trail, place);
-    const trail_motion motion = turned ? *trail_last(step->trail, place) : path_motion(step, place);
+    const trail_motion motion = turned ? *trail_of(step->trail, place) : path_motion(step, place);
     return trail_later(&motion, p->t, step->t1);
+}
+
+/* What the event is due by has the bits that it was found with. */
+static void fetch_start(patch *p, const path *step, double *y)
+{
+    for (dem_index j = 0; j < p->end[1]; j++) {
+        const dem_index i = p->nodes[j].place;
+        vec2_put(p->x[0], j, path_position(step, p->t, i));
+        vec2_put(p->v[0], j, path_velocity(step, p->t, i));
+        vec2_put(y, i, vec2_at(p->x[0], j));
+        vec2_put(y, step->n_nodes + i, vec2_at(p->v[0], j));
+    }
 }
 
 dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state)
@@ -342,15 +354,17 @@ dem_status patch_open(patch *p, const path *step, dem_index site, double t, doub
     for (int stage = 0; stage < PATCH_STAGES; stage++)
         if (stage != LAST) TRY(open_stage(p, step, stage, state));
     fetch_stage(p, step, 0, p->n, state);
+    fetch_start(p, step, state);
     return DEM_OK;
 }
 
 /* ---- the change ---- */
 
 /* to = from + h sum of weights rates over the stages before, of nodes first to last - 1. */
-static void combine(const patch *p, int stage, const double *weights, double *const rates[], dem_index first,
-                    dem_index last, double *const change[])
+static void combine(const patch *p, int stage, double *const rates[], double *const change[], dem_index first,
+                    dem_index last)
 {
+    const double *weights = stage == END ? p->table.b : p->table.a + stage * PATCH_STAGES;
     double *restrict to = change[stage];
     memcpy(to + 2 * first, change[0] + 2 * first, 2 * (size_t)(last - first) * sizeof *to);
     for (int q = 0; q < stage; q++) {
@@ -361,13 +375,12 @@ static void combine(const patch *p, int stage, const double *weights, double *co
 
 static void advance(patch *p, int stage)
 {
-    const double *weights = stage == END ? p->table.b : p->table.a + stage * PATCH_STAGES;
     const dem_index moving = p->end[p->n_rings];
-    combine(p, stage, weights, p->dv, 0, moving, p->dx);
-    combine(p, stage, weights, p->da, 0, moving, p->dv);
+    combine(p, stage, p->dv, p->dx, 0, moving);
+    combine(p, stage, p->da, p->dv, 0, moving);
     if (p->n_books == 0) return;
-    combine(p, stage, weights, p->dv, p->n, p->n + p->n_books, p->dx);
-    combine(p, stage, weights, p->da, p->n, p->n + p->n_books, p->dv);
+    combine(p, stage, p->dv, p->dx, p->n, p->n + p->n_books);
+    combine(p, stage, p->da, p->dv, p->n, p->n + p->n_books);
 }
 
 /* Puts the changed state at a stage in place, as far as accelerations depend on it. */
@@ -417,12 +430,8 @@ static dem_status leave(const patch *p, const path *step, trail *tr, dem_index j
     const trail_jump at = jump_at(p, 0, j), end = jump_at(p, END, j);
     const trail_jump by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
     trail_motion motion = j < p->n ? p->nodes[j].motion : motion_of(p, step, place);
-    if (!trail_has(tr, place)) {
-        const trail_motion whole = path_motion(step, place);
-        TRY(trail_add(tr, place, &whole));
-    }
     trail_bend(&motion, step->t1, &at, &by);
-    TRY(trail_add(tr, place, &motion));
+    TRY(trail_turn(tr, place, &motion));
     trail_move_end(tr, place, &end);
     return DEM_OK;
 }
@@ -430,19 +439,19 @@ static dem_status leave(const patch *p, const path *step, trail *tr, dem_index j
 static double squared_error(const patch *p)
 {
     const dem_index n = p->sites->scene.model->lattice.n_nodes;
-    double sum = 0.0;
+    double weights[PATCH_STAGES], x_sum = 0.0, v_sum = 0.0;
+    for (int q = 0; q < PATCH_STAGES; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
     for (dem_index k = 0; k < 2 * p->end[p->n_rings]; k++) {
         double x = 0.0, v = 0.0;
         for (int q = 0; q < PATCH_STAGES; q++) {
-            const double weight = p->h * (p->table.b[q] - p->table.d[q]);
-            x += weight * p->dv[q][k];
-            v += weight * p->da[q][k];
+            x += weights[q] * p->dv[q][k];
+            v += weights[q] * p->da[q][k];
         }
-        x /= p->position_error;
-        v /= p->velocity_error;
-        sum += x * x + v * v;
+        x_sum += x * x;
+        v_sum += v * v;
     }
-    return sum / (4.0 * (double)n);
+    return (x_sum / (p->position_error * p->position_error) + v_sum / (p->velocity_error * p->velocity_error)) /
+           (4.0 * (double)n);
 }
 
 dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error)

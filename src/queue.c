@@ -234,22 +234,29 @@ static void renew(const queue *q, dem_index i, const double *y)
     if (held == 0) vec2_put(q->trail.f1, i, vec2_at(v, i));
 }
 
-/* The error that the patches leave in closed contacts goes: they are put back on their surfaces and stopped there. Then
- * the derivative is that of the state to the bit, but for the books. */
-static dem_status settle_end(queue *q)
+/* The rates of the books that contacts fill, from all of them. */
+static dem_status renew_books(queue *q)
+{
+    const contact_scene *scene = &q->contact->sites.scene;
+    const dem_index first = scene_books(scene), n_impulses = 2 * scene->model->obstacles.n;
+    double *rate = q->trail.f1 + scene_velocities(scene) + 2 * first;
+    for (dem_index b = 0; b <= n_impulses; b++) TRY(trail_keep(&q->trail, first + b));
+    for (dem_index k = 0; k <= 2 * n_impulses; k++) rate[k] = 0.0; /* the last is the power of friction */
+    contact_account(q->contact, q->trail.y1, rate);
+    return DEM_OK;
+}
+
+/* Derivatives at the end of the step, for the change of nodes and contacts: they are those of the state to the bit, but
+ * for the power of damping and boundaries. */
+static dem_status renew_end(queue *q)
 {
     contact_sites *c = &q->contact->sites;
     const springs *s = &c->scene.model->springs;
-    double *y1 = q->trail.y1;
-    contact_moment now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
-    for (dem_index g = 0; g < c->reactions.n_groups; g++) {
-        if (!has_moved(q, g)) continue;
-        (void)strike_straighten(c, g, &now);
-        strike_stop(c, g, &now);
-    }
-    for (dem_index g = 0; g < c->reactions.n_groups; g++) reactions_solve(&c->reactions, g, now.x, now.v);
-    for (dem_index e = 0, n = q->trail.n_ends; e < n; e++) {
-        const dem_index i = q->trail.ends[e].node;
+    const double *y1 = q->trail.y1;
+    for (dem_index g = 0; g < c->reactions.n_groups; g++)
+        reactions_solve(&c->reactions, g, y1, y1 + scene_velocities(&c->scene));
+    for (dem_index e = 0, n = q->trail.n; e < n; e++) {
+        const dem_index i = q->trail.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
         renew(q, i, y1);
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
@@ -258,8 +265,22 @@ static dem_status settle_end(queue *q)
             renew(q, s->neighbour[p], y1);
         }
     }
+    return renew_books(q);
+}
+
+/* The error that the patches leave in closed contacts goes: they are put back on their surfaces and stopped there. */
+static dem_status settle_end(queue *q)
+{
+    contact_sites *c = &q->contact->sites;
+    double *y1 = q->trail.y1;
+    contact_moment now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
+    for (dem_index g = 0; g < c->reactions.n_groups; g++) {
+        if (!has_moved(q, g)) continue;
+        (void)strike_straighten(c, g, &now);
+        strike_stop(c, g, &now);
+    }
     q->settled = true;
-    return DEM_OK;
+    return renew_end(q);
 }
 
 double queue_error(const queue *q)
