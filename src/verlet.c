@@ -120,40 +120,28 @@ static int evaluate(verlet *V, double t, const double *y, double *f)
     return V->problem.derivative(t, y, u, a, V->problem.context);
 }
 
-/* What a thread has of the numbers from `first` to the end of positions, or of velocities. */
+/* A part of the numbers of positions, and of velocities. */
 typedef struct stretch {
     dem_index at, size;
 } stretch;
 
-static stretch stretch_of(const verlet *V, int t, dem_index first)
+static stretch share_of(const verlet *V, int t)
 {
-    const dem_index n = 2 * V->problem.n_nodes - first, at = threads_share(n, V->problem.n_threads, t);
-    return (stretch){first + at, threads_share(n, V->problem.n_threads, t + 1) - at};
+    const dem_index n = 2 * V->problem.n_nodes, at = threads_share(n, V->problem.n_threads, t);
+    return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
 }
 
-static void drift_share(verlet *V, int t, double h, dem_index first)
+static void drift_stretch(verlet *V, double h, stretch s)
 {
     const dem_index n = 2 * V->problem.n_nodes;
-    const stretch s = stretch_of(V, t, first);
     const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
     V->problem.bulk->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
 }
 
-static void drift(verlet *V, double h, dem_index first)
+static void kick_stretch(verlet *V, double h, stretch s)
 {
-    THREADS_RUN(V->problem.n_threads, t, drift_share(V, t, h, first));
-}
-
-static void kick_share(verlet *V, int t, double h, dem_index first)
-{
-    const stretch s = stretch_of(V, t, first);
     const dem_index at = 2 * V->problem.n_nodes + s.at;
     V->problem.bulk->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
-}
-
-static void kick(verlet *V, double h, dem_index first)
-{
-    THREADS_RUN(V->problem.n_threads, t, kick_share(V, t, h, first));
 }
 
 /* A velocity that the derivative does not take over as it is, is prescribed. */
@@ -170,13 +158,13 @@ static int leap(verlet *V, double h)
 {
     const motion *p = &V->problem;
     const motion_leap step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
-    const dem_index books = 2 * (p->n_nodes - p->n_books);
+    const stretch books = {2 * (p->n_nodes - p->n_books), 2 * p->n_books};
     if (p->leap == NULL) return -1;
-    drift(V, h, books);
+    drift_stretch(V, h, books);
     const int flag = p->leap(&step, p->context);
     if (flag < 0) return flag;
     V->counts.evaluations++;
-    kick(V, h, books);
+    kick_stretch(V, h, books);
     return flag;
 }
 
@@ -185,12 +173,12 @@ static int kick_drift_kick(verlet *V, double h)
     V->t1 = V->t + h;
     const int flag = leap(V, h);
     if (flag >= 0) return flag;
-    drift(V, h, 0);
+    THREADS_RUN(V->problem.n_threads, t, drift_stretch(V, h, share_of(V, t)));
     if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
     if (V->problem.prescribes)
         kick_free(V, h);
     else
-        kick(V, h, 0);
+        THREADS_RUN(V->problem.n_threads, t, kick_stretch(V, h, share_of(V, t)));
     return 0;
 }
 
