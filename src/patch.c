@@ -110,6 +110,13 @@ static dem_status add_rate(patch *p, dem_index place, int stage, double sign, ve
     return DEM_OK;
 }
 
+/* Whether there is anything but contacts in the books. */
+static bool has_powers(const patch *p)
+{
+    const contact_scene *scene = &p->ball.sites->scene;
+    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || scene->rule.load.mass_damping > 0.0;
+}
+
 /* What damping takes at a node, and boundaries put in, W; of these what no event changes is left out. */
 static vec2 node_powers(const patch *p, dem_index i, const double *x, const double *v)
 {
@@ -149,7 +156,7 @@ static dem_status add_rates(patch *p, int stage, double sign, const double *y)
                 totals[0].x += of.power;
             }
     }
-    if (p->rule.held != NULL || c->scene.model->springs.viscosity != NULL || c->scene.rule.load.mass_damping > 0.0)
+    if (has_powers(p))
         for (dem_index j = 0; j < p->ball.end[rings]; j++) {
             const vec2 powers = node_powers(p, p->ball.nodes[j].i, y, v);
             totals[0].y += powers.x;
@@ -186,12 +193,18 @@ static void fetch_stage(patch *p, int stage, dem_index n)
     }
 }
 
+/* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the books. */
+static bool needs_state(const patch *p)
+{
+    return !p->ball.plain || p->ball.n_groups > 0 || has_powers(p);
+}
+
 static dem_status open_stage(patch *p, const path *step, int stage, double *y)
 {
     const ball_state s = {p->x[stage], p->v[stage], y};
     const dem_index n = p->ball.end[reach(p, stage) + 1];
     fetch_stage(p, stage, n);
-    ball_put(&p->ball, &s, n);
+    if (needs_state(p)) ball_put(&p->ball, &s, n);
     put_time(p, step, stage, y);
     ball_accelerate(&p->ball, reach(p, stage), &s, p->a[stage]);
     return add_rates(p, stage, -1.0, y);
@@ -284,7 +297,7 @@ static dem_status change_stage(patch *p, const path *step, int stage, double *y)
     const ball_state s = {p->changed[0], p->changed[1], y};
     add_change(p->x[at], p->dx[stage], n, n_changed, p->changed[0]);
     add_change(p->v[at], p->dv[stage], n, n_changed, p->changed[1]);
-    ball_put(&p->ball, &s, n);
+    if (needs_state(p)) ball_put(&p->ball, &s, n);
     put_time(p, step, at, y);
     ball_accelerate(&p->ball, rings, &s, p->changed[2]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++)
