@@ -199,7 +199,7 @@ static void open_step(step *s, kind k)
     s->y0 = zeros(s), s->f0 = zeros(s), s->y1 = zeros(s), s->f1 = zeros(s);
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
-    assert_ok(patch_create(&s->patch, &s->c.sites, s->b.held, position_error, velocity_error));
+    assert_ok(patch_create(&s->patch, &s->c.sites, &(patch_rule){5, position_error, velocity_error, s->b.held}));
     assert_ok(trail_create(&s->trail, s->n_all));
 }
 
@@ -345,8 +345,8 @@ static void check_derivative(step *s)
 {
     double *f = zeros(s);
     derive(s, &s->c, s->path.t1, s->y1, f);
-    for (dem_index j = 0; j < s->patch.end[s->patch.n_rings - 1]; j++)
-        for (dem_index k = 2 * s->patch.nodes[j].place; k < 2 * s->patch.nodes[j].place + 2; k++) {
+    for (dem_index j = 0; j < s->patch.ball.end[s->patch.ball.n_rings - 2]; j++)
+        for (dem_index k = 2 * s->patch.ball.nodes[j].i; k < 2 * s->patch.ball.nodes[j].i + 2; k++) {
             assert_close(s->f1[k], f[k], 1e-13 * (1.0 + fabs(f[k])));
             assert_close(s->f1[2 * s->n_all + k], f[2 * s->n_all + k], 1e-10 * s->model->omega_max);
         }
@@ -534,7 +534,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
     dem_lattice_free(&lattice);
     assert_ok(contact_create(&c, model, &rule));
-    assert_ok(patch_create(&near, &c.sites, NULL, 1.0, 1.0));
+    assert_ok(patch_create(&near, &c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
     assert_ok(trail_create(&tr, 5));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
@@ -585,7 +585,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     assert_ok(dem_model_create(&s.model, &l, &ground, 1));
     s.n = s.n_all = l.n_nodes;
     assert_ok(contact_create(&s.c, s.model, &rule));
-    assert_ok(patch_create(&s.patch, &s.c.sites, NULL, 1.0, 1.0));
+    assert_ok(patch_create(&s.patch, &s.c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
     assert_ok(trail_create(&s.trail, s.n));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);

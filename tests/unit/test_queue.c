@@ -39,7 +39,9 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     assert_true(r->n <= most_nodes);
     assert_ok(dem_model_create(&r->model, lattice, &plane, 1));
     assert_ok(contact_create(&r->c, r->model, &rule));
-    assert_ok(queue_create(&r->q, &r->c, NULL, error != NULL, error != NULL ? error : (const double[2]){1.0, 1.0}));
+    assert_ok(queue_create(&r->q, &r->c,
+                           &(patch_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0, NULL},
+                           error != NULL));
 }
 
 /* n free masses at heights y, in a row along x. */

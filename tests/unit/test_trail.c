@@ -36,8 +36,8 @@ static trail_motion written_from(double from, double end)
     double scale = 1.0;
     for (int k = 0; k < TRAIL_TERMS; scale *= (end - from) / ++k)
         for (int c = 0; c < 2; c++) {
-            m.x[c][k] = scale * derivative(motions[c], k, from);
-            m.v[c][k] = scale * derivative(motions[c], k + 1, from);
+            m.c[k][c] = scale * derivative(motions[c], k, from);
+            m.c[k][2 + c] = scale * derivative(motions[c], k + 1, from);
         }
     return m;
 }
@@ -90,11 +90,8 @@ static void the_same_motion_can_be_written_from_any_later_time_on(void **state)
     for (double from = 0.25; from <= 1.5; from += 0.3125) {
         const trail_motion later = trail_later(&whole, from, 1.5), expected = written_from(from, 1.5);
         assert_close(later.from, from, 0.0);
-        for (int c = 0; c < 2; c++)
-            for (int k = 0; k < TRAIL_TERMS; k++) {
-                assert_close(later.x[c][k], expected.x[c][k], 1e-13);
-                assert_close(later.v[c][k], expected.v[c][k], 1e-13);
-            }
+        for (int k = 0; k < TRAIL_TERMS; k++)
+            for (int q = 0; q < 4; q++) assert_close(later.c[k][q], expected.c[k][q], 1e-13);
     }
 }
 

@@ -111,7 +111,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     spread(p, y, y0);
     assert_ok(contact_create(&c, p->model, &p->rule));
     assert_ok(contact_start(&c, t, y0, &nobody));
-    assert_ok(queue_create(&q, &c, NULL, true, one));
+    assert_ok(queue_create(&q, &c, &(patch_rule){5, one[0], one[1], NULL}, true));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
     (void)derive(t, y0, f0, p);
