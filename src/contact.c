@@ -452,13 +452,34 @@ void contact_expect(contact *c, const path *p, double *state)
     if (whole) c->solved = p->t1;
 }
 
+/* A free node that has not moved as far as it was clear, and yet is inside: it has passed a free end of the obstacle at
+ * a distance, and is behind it. */
+static bool come_round(contact_sites *c, dem_index k, const contact_spot *spot)
+{
+    const contact_site *site = &c->list[k];
+    dem_index nearest;
+    if (site_is_edge(site) || site->n_closed > 0 || site->behind[0] >= 0) return false;
+    if (!(site_moved(site, spot) < site->clear) || site_clearance(&c->scene, site, spot, &nearest) >= 0.0) return false;
+    sites_go_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
+    return true;
+}
+
+/* When a site that has room for a contact touches. */
+static double next_crossing(contact_sites *c, const path *p, dem_index k, double from)
+{
+    const double crossing = search_crossing(&c->scene, &c->list[k], p, from);
+    if (crossing > from) return crossing;
+    const contact_spot spot = site_spot_on(&c->list[k], p, from);
+    return come_round(c, k, &spot) ? search_crossing(&c->scene, &c->list[k], p, from) : crossing;
+}
+
 double contact_next(contact *c, const path *p, dem_index k, double from, double *state)
 {
     contact_site *site = &c->sites.list[k];
     double next = site->n_closed > 0 ? next_due(c, p, k, from, state) : INFINITY;
     if (!watch_wakes(&c->watch, site, c->way)) return next;
     site->asleep = false;
-    return site->n_closed < 2 ? fmin(next, search_crossing(&c->sites.scene, site, p, from)) : next;
+    return site->n_closed < 2 ? fmin(next, next_crossing(&c->sites, p, k, from)) : next;
 }
 
 bool contact_check(contact *c, path *p, bool rooted, double *state)

@@ -45,7 +45,7 @@ static void look_at(contact_watch *w, contact_sites *c, dem_index k, const doubl
     const contact_spot spot = site_spot(site, x);
     dem_index nearest;
     double clear = site_clearance(&c->scene, site, &spot, &nearest);
-    const bool untouched = site->asleep && site->wake > w->travelled;
+    const bool untouched = site->asleep ? site->wake > w->travelled : site_moved(site, &spot) < site->clear;
     if (clear < 0.0 && untouched && site->n_closed == 0 && !site_is_edge(site)) {
         sites_go_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
         clear = site_clearance(&c->scene, site, &spot, &nearest);

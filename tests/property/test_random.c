@@ -27,6 +27,7 @@ typedef struct verdict {
     double taken;                    /* J, by impacts so far */
     double start, open, scale;       /* J, the ledger at first, the largest difference from it, the largest energy */
     int stuck, slid;                 /* lasting contacts seen to */
+    int round;                       /* nodes have passed an end of what is given of a solid: they may be in the rest */
     double v_scale;                  /* m/s */
     const dem_index *old;            /* [n_nodes] numbers before shuffling, or NULL */
     int n_hits;
@@ -35,7 +36,7 @@ typedef struct verdict {
 
 /* How many cases showed what. */
 typedef struct census {
-    long stick, slip, vertex, cases, chaotic;
+    long stick, slip, vertex, round, cases, chaotic;
     dem_counts sum;
     double deepest, deepest_vertex, gained, closure, parted;
 } census;
@@ -57,6 +58,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     verdict *v = context;
     dem_state state;
     dem_simulation_state(simulation, &state);
+    v->round |= dem_simulation_counts(simulation).behind > 0;
     v->node_depth = fmax(v->node_depth, judge_nodes(v->scene, state.x));
     v->vertex_depth = fmax(v->vertex_depth, judge_vertices(v->scene, &v->boundary, state.x));
     return DEM_OK;
@@ -213,6 +215,7 @@ static void add_up(census *all, const verdict *v, const dem_counts *c)
     all->stick += v->stuck;
     all->slip += v->slid;
     all->vertex += c->vertex_impacts > 0;
+    all->round += v->round;
     all->sum.impacts += c->impacts;
     all->sum.vertex_impacts += c->vertex_impacts;
     all->sum.early += c->early;
@@ -232,11 +235,12 @@ static void judge_case(unsigned long seed, census *all, const scene *sc, const v
 {
     const dem_options o = dem_simulation_options(run->simulation);
     const double closure = v->open / v->scale, scale = v->scale;
-    all->deepest = fmax(all->deepest, v->node_depth / o.skin);
-    all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.skin);
+    if (!v->round) all->deepest = fmax(all->deepest, v->node_depth / o.skin);
+    if (!v->round) all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.skin);
     all->closure = fmax(all->closure, closure);
-    if (!(v->node_depth <= 5.0 * o.skin)) fault(seed, "a node %g skins deep", v->node_depth / o.skin);
-    if (!(v->vertex_depth <= 5.0 * o.skin)) fault(seed, "a vertex %g skins deep", v->vertex_depth / o.skin);
+    if (!(v->node_depth <= 5.0 * o.skin) && !v->round) fault(seed, "a node %g skins deep", v->node_depth / o.skin);
+    if (!(v->vertex_depth <= 5.0 * o.skin) && !v->round)
+        fault(seed, "a vertex %g skins deep", v->vertex_depth / o.skin);
     if (!(v->gained <= 1e-12)) fault(seed, "an impact gave %g of its energy", v->gained);
     if (!(v->fall <= 1e-12 * scale)) fault(seed, "impacts gave %g J", v->fall);
     if (!(closure <= 2e-3)) fault(seed, "ledger open by %g", closure);
@@ -288,6 +292,7 @@ static void random_bodies_neither_sink_in_nor_gain_energy_in_any_order(void **un
     print_census(&all);
     assert_int_equal(n_faults, 0);
     assert_true(100 * all.chaotic <= n_cases + 100);
+    assert_true(1000 * all.round <= n_cases + 1000);
     assert_true(all.sum.impacts >= 5 * n_cases);
     assert_true(5 * all.stick >= n_cases);
     assert_true(5 * all.slip >= n_cases);
@@ -298,8 +303,8 @@ static void random_bodies_neither_sink_in_nor_gain_energy_in_any_order(void **un
  * that a node went through; places from before a notch. */
 static void what_once_failed_stays_mended(void **unused)
 {
-    static const unsigned long seeds[] = {2,    3,    17,   56,   79,   92,   132,  2536, 2723,
-                                          3299, 3511, 3570, 3584, 4562, 5370, 6568, 6875, 8914};
+    static const unsigned long seeds[] = {2,    3,    17,   56,   79,   92,   132,  2536, 2723,  3299,
+                                          3511, 3570, 3584, 4562, 5370, 6568, 6875, 8914, 61338, 62158};
     census all = {0};
     (void)unused;
     n_faults = 0;

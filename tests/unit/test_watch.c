@@ -156,12 +156,13 @@ static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(vo
 }
 
 /* 1.044 m from the free end at (4, 0), below it, a node is in front; a little less to the left it is inside: it has
- * come round the end. One that is awake, or may have touched since it fell asleep, has not. */
-static void a_sleeper_found_inside_has_come_round_a_free_end_and_may_come_back(void **state)
+ * come round the end, awake or not. One that may have touched since it was seen to be clear has not. */
+static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void **state)
 {
-    const double x[4] = {4.3, -1.0, -3.0, 3.0}, travelled[3] = {1.04, 1.05, 1.04};
+    const double x[4] = {4.3, -1.0, -3.0, 3.0}, travelled[4] = {1.04, 1.05, 1.04, 1.04};
     (void)state;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 4; k++) {
+        const bool comes_round = k == 0 || k == 3;
         scene s;
         open_nodes(&s, 2, x);
         look(&s, 1.0);
@@ -169,11 +170,12 @@ static void a_sleeper_found_inside_has_come_round_a_free_end_and_may_come_back(v
         s.y[0] = 3.5;
         s.y[1] = -0.5;
         s.c.watch.travelled = travelled[k];
-        if (k == 2) s.c.sites.list[0].asleep = false;
+        if (k == 2) sites_disturb(&s.c.sites.list[0]);
+        if (k == 3) s.c.sites.list[0].asleep = false;
         look(&s, 1.0);
-        assert_int_equal(s.c.sites.list[0].behind[0], k == 0 ? 0 : -1);
-        assert_int_equal(s.c.sites.books.counts.behind, k == 0);
-        if (k > 0) assert_false(s.c.sites.list[0].asleep);
+        assert_int_equal(s.c.sites.list[0].behind[0], comes_round ? 0 : -1);
+        assert_int_equal(s.c.sites.books.counts.behind, comes_round);
+        if (!comes_round) assert_false(s.c.sites.list[0].asleep);
         s.y[1] = 0.5;
         look(&s, 1.0);
         assert_int_equal(s.c.sites.list[0].behind[0], -1);
@@ -192,7 +194,7 @@ int main(void)
         cmocka_unit_test(a_step_counts_as_twice_what_the_fastest_goes),
         cmocka_unit_test(edges_sleep_too),
         cmocka_unit_test(a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it),
-        cmocka_unit_test(a_sleeper_found_inside_has_come_round_a_free_end_and_may_come_back),
+        cmocka_unit_test(a_node_found_inside_has_come_round_a_free_end_and_may_come_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
