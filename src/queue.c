@@ -209,6 +209,9 @@ static dem_status take(queue *q, dem_index k)
     each_site(q, keep_site);
     TRY(contact_resolve_at(c, k, q->now, q->state, &listener));
     TRY(patch_close(&q->patch, q->step, &q->trail, q->state, &error));
+    CHECK(isfinite(error), DEM_ERROR_INTEGRATOR,
+          "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->sites.list[k].node,
+          q->now);
     q->error += error;
     c->way = furthest(q);
     for (dem_index g = 0; g < q->patch.ball.n_groups; g++)

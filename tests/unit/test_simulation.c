@@ -861,6 +861,36 @@ static void a_storm_of_impacts_ends_the_run(void **state)
     dem_model_destroy(model);
 }
 
+/* What comes after a step that contacts have refused is the same step again. */
+static void a_run_that_a_storm_has_ended_does_not_go_on_without_contacts(void **state)
+{
+    static const dem_method methods[2] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
+    const double v[2] = {0.0, -100.0};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        dem_options options = point_options();
+        dem_state now;
+        options.method = methods[k / 2];
+        options.max_step = 0.3;
+        options.fixed_step = k == 0 ? 0.0 : (k == 1 ? 0.3 : 0.05);
+        options.max_impacts = 1;
+        dem_model *model = make_point(v, 0.02);
+        dem_simulation *simulation = simulate(model, &options);
+        assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
+        dem_simulation_state(simulation, &now);
+        const double t = now.t, x[2] = {now.x[1], now.v[1]};
+        for (int again = 0; again < 3; again++) {
+            assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
+            dem_simulation_state(simulation, &now);
+            assert_close(now.t, t, 0.0);
+            assert_close(now.x[1], x[0], 0.0);
+            assert_close(now.v[1], x[1], 0.0);
+        }
+        dem_simulation_destroy(simulation);
+        dem_model_destroy(model);
+    }
+}
+
 /* ---- stops at impacts ---- */
 
 static void stop_at_impact(double clearance)
@@ -931,6 +961,7 @@ int main(void)
         cmocka_unit_test(fixed_nodes_do_not_move),
         cmocka_unit_test(nodes_that_coincide_end_the_run_with_the_node_named),
         cmocka_unit_test(a_storm_of_impacts_ends_the_run),
+        cmocka_unit_test(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts),
         cmocka_unit_test(a_stop_within_a_batch_of_impacts_leaves_no_trace),
         cmocka_unit_test(a_stop_at_an_impact_at_the_start_leaves_no_trace),
     };
