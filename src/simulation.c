@@ -272,7 +272,8 @@ static dem_status give_up(dem_simulation *s, dem_status status)
 {
     if (status == DEM_OK)
         status = status_fail(DEM_ERROR_INTEGRATOR,
-                             "contacts near t = %.9g s have errors that no step is short enough for", s->t);
+                             "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
+                             s->t);
     return first_of(status, engine_restart(&s->engine, s->t, s->y));
 }
 
@@ -451,8 +452,10 @@ static dem_status set_up(dem_simulation *s)
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
-    const double error[2] = {o->rtol * o->spacing, o->rtol * o->v_scale};
-    TRY(queue_create(&s->queue, &s->contact, s->boundaries.held, !(o->fixed_step > 0.0), error));
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
+    const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
+    TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
     const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
                             .n_books = n_books(model),
                             .n_guards = model->obstacles.n > 0 && !is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
