@@ -218,6 +218,9 @@ static dem_status take(queue *q, dem_index k)
     each_site(q, keep_site);
     TRY(contact_resolve_at(c, k, q->now, q->state, &listener));
     TRY(patch_close(&q->patch, q->step, &q->trail, q->state, &error));
+    CHECK(isfinite(error), DEM_ERROR_INTEGRATOR,
+          "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->sites.list[k].node,
+          q->now);
     q->error += error;
     q->ahead += error * growth((q->step->t1 - q->step->t0) / q->patch.h);
     c->way = furthest(q);

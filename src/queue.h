@@ -49,7 +49,8 @@ void queue_destroy(queue *q);
 void queue_start(queue *q, path *step, double *y1, double *f1, double *state);
 
 /** Makes the contacts, and the step up to there, what they are at t; the end is whole when t is not before it.
- *  \return DEM_ERROR_CONTACT as contact_resolve(), DEM_ERROR_MEMORY */
+ *  \return DEM_ERROR_CONTACT as contact_resolve(), DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
+ *  DEM_ERROR_MEMORY */
 dem_status queue_show(queue *q, double t);
 
 /** How far beyond what is allowed the error of the step is that comes from its events: 1 is just allowed. */
