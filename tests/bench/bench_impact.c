@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A rectangle of 8 x 13 cm falls on a flat floor (W2): 10 m/s, tilted by 0.03, every impact elastic and by itself.
+ *
+ *      bench_impact SPACING TIME METHOD CONTACT RTOL STEP SKIN [FILE]   one run, its state at the end into FILE
+ *      bench_impact SPACING lammps FILE                                 the same body as a data file of LAMMPS
+ *
+ * STEP is the longest step, of Verlet's method the step, times omega_max; SKIN is in spacings. A run is repeated for
+ * half a second and prints: nodes, springs, evaluations, steps, impacts, late ones; the least CPU time in s; by how
+ * much of the kinetic energy at the start the ledger is off. */
+#include <math.h>
+#include <string.h>
+
+#include "plate.h"
+
+static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
+static const double least_time = 0.5; /* s */
+
+/* Its lowest node is a fifth of a spacing above the floor. */
+static dem_lattice make_body(double spacing)
+{
+    const dem_index columns = llround(width / spacing) + 1, rows = llround(height / (spacing * sqrt(3.0) / 2.0)) + 1;
+    dem_lattice body = plate_make(columns, rows, spacing);
+    double lift[2] = {0.0, INFINITY};
+    plate_triangulate(&body, columns);
+    dem_lattice_move(&body, tilt, (const double[2]){0.0, 0.0});
+    for (dem_index i = 0; i < body.n_nodes; i++) lift[1] = fmin(lift[1], body.x[2 * i + 1]);
+    lift[1] = 0.2 * spacing - lift[1];
+    dem_lattice_move(&body, 0.0, lift);
+    ask(dem_lattice_launch(&body, speed));
+    return body;
+}
+
+static dem_model *compile(double spacing)
+{
+    static const double points[] = {-1.0, 0.0, 1.0, 0.0};
+    const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = 1.0};
+    dem_lattice body = make_body(spacing);
+    dem_model *model;
+    ask(dem_model_create(&model, &body, &floor, 1));
+    dem_lattice_free(&body);
+    return model;
+}
+
+static dem_options read_options(char **argv, const dem_model *model)
+{
+    dem_options options = dem_options_default();
+    ask(dem_method_find(&options.method, argv[0]));
+    must(strcmp(argv[1], "exact") == 0, "CONTACT is exact");
+    options.rtol = atof(argv[2]);
+    options.max_step = atof(argv[3]) / dem_model_omega_max(model);
+    if (options.method == DEM_METHOD_VERLET) options.fixed_step = options.max_step;
+    options.skin = atof(argv[4]) * dem_model_spacing(model);
+    options.window = 0.0;
+    return options;
+}
+
+/* Returns the CPU time of the loop. */
+static double take(dem_simulation **simulation, const dem_model *model, const dem_options *options, double t_end)
+{
+    ask(dem_simulation_create(simulation, model, options));
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    ask(dem_simulation_advance(*simulation, t_end));
+    return seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+}
+
+static void print(const dem_simulation *simulation, double cpu)
+{
+    const dem_counts counts = dem_simulation_counts(simulation);
+    const dem_model_size sizes = dem_model_sizes(dem_simulation_model(simulation));
+    (void)printf("nodes %lld\nsprings %lld\nevaluations %lld\nsteps %lld\nimpacts %lld\nlate %lld\ncpu %.6f\n",
+                 (long long)sizes.n_nodes, (long long)sizes.n_springs, (long long)counts.evaluations,
+                 (long long)counts.steps, (long long)counts.impacts, (long long)counts.late, cpu);
+}
+
+int main(int argc, char **argv)
+{
+    must(argc == 4 || argc == 8 || argc == 9,
+         "bench_impact SPACING TIME METHOD CONTACT RTOL STEP SKIN [FILE] or SPACING lammps FILE");
+    const double spacing = atof(argv[1]), t_end = atof(argv[2]);
+    if (argc == 4) {
+        dem_lattice body = make_body(spacing);
+        plate_write_lammps(&body, spacing, 0.05, argv[3]);
+        dem_lattice_free(&body);
+        return 0;
+    }
+    dem_model *model = compile(spacing);
+    const dem_options options = read_options(argv + 3, model);
+    dem_simulation *simulation;
+    double least = INFINITY, sum = 0.0;
+    for (;;) {
+        const double cpu = take(&simulation, model, &options, t_end);
+        sum += cpu;
+        least = fmin(least, cpu);
+        if (sum > least_time) break;
+        dem_simulation_destroy(simulation);
+    }
+    print(simulation, least);
+    if (argc == 9) plate_write_state(simulation, argv[8]);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    return 0;
+}
