@@ -70,6 +70,10 @@ def positions(path, header, first):
     return [tuple(map(float, line.split()[first:first + 2])) for line in path.read_text().splitlines()[header:]]
 
 
+def distances(some, others):
+    return [math.dist(*pair) for pair in zip(some, others, strict=True)]
+
+
 class Body:
     """What a bench program moves, also in LAMMPS."""
 
@@ -112,7 +116,7 @@ class Plate(Body):
         """Largest difference of positions, in spacings, after the same steps."""
         self.run_lammps(STEPS_ALIKE, 1)
         self.run("verlet", STEPS_ALIKE, 1, "body.state")
-        return max(map(math.dist, self.theirs(), self.ours(), strict=True)) / self.spacing
+        return max(distances(self.theirs(), self.ours())) / self.spacing
 
     def steps_for(self, time_of):
         """As many steps as take LEAST_TIME."""
@@ -152,15 +156,15 @@ class Impact(Body):
 
     def __init__(self, bench, work, spacing, time):
         super().__init__(bench, work, spacing)
-        self.time = time
+        self.time, self.a_step = time, math.nan
         self.run(*REFERENCE)
         self.reference = self.ours()
 
     def run(self, *options):
-        return self.here(self.time, *options, "body.state")["cpu"][0]
+        return self.here(self.time, 0, *options, "body.state")["cpu"][0]
 
     def error(self, nodes):
-        return math.sqrt(math.fsum(math.dist(*pair) ** 2 for pair in zip(nodes, self.reference, strict=True)) / len(nodes)) / self.spacing
+        return math.hypot(*distances(nodes, self.reference)) / math.sqrt(len(nodes)) / self.spacing
 
     def try_lammps(self, step):
         steps = math.ceil(self.time * FREQUENCY / (step * self.period))
@@ -188,8 +192,8 @@ class Impact(Body):
             theirs.append(self.sweep(self.try_lammps, least))
             for turn, engine in zip(ours, ENGINES):
                 turn.append(self.sweep(lambda step: self.try_here(engine, step), least))
-        a_step = min(turn[-1][1] / turn[-1][2] for turn in theirs)
-        yield [(error, a_step * steps) for error, _, steps in theirs[0]]
+        self.a_step = min(turn[-1][1] / turn[-1][2] for turn in theirs)
+        yield [(error, self.a_step * steps) for error, _, steps in theirs[0]]
         for turn in ours:
             yield [(runs[0][0], min(time for _, time in runs)) for runs in zip(*turn, strict=True)]
 
@@ -204,16 +208,18 @@ def time_at(curve, error):
 
 
 def print_impacts(a):
-    print("| body | error, spacings | LAMMPS, s | " + " | ".join(f"{method}, {contact}, s | ratio" for method, contact in ENGINES) +
-          " |\n|---|---|---|" + "---|---|" * len(ENGINES))
+    print("| body | error, spacings | step/sqrt(m/k) | LAMMPS, s | " +
+          " | ".join(f"{method}, {contact}, s | ratio" for method, contact in ENGINES) +
+          " |\n|---|---|---|---|" + "---|---|" * len(ENGINES))
     for name in a.impact:
         spacing, time, errors = IMPACTS[name]
         impact = Impact(a.bench / "bench_impact", a.work, spacing, time)
         theirs, *ours = impact.curves(min(errors), a.turns)
         for error in errors:
             times = [time_at(curve, error) for curve in (theirs, *ours)]
-            print(f"| {name} | {error} | {times[0]:.2e} | " + " | ".join(f"{t:.2e} | {times[0] / t:.1f}" for t in times[1:]) + " |",
-                  flush=True)
+            step = time * impact.a_step / times[0] / impact.period
+            print(f"| {name} | {error:g} | {step:.1e} | {times[0]:.2g} | " +
+                  " | ".join(f"{t:.2g} | {times[0] / t:.3g}" for t in times[1:]) + " |", flush=True)
 
 
 def main():

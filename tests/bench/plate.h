@@ -13,11 +13,11 @@ double plate_period(double spacing); /* sqrt(mass/bond), s */
 dem_lattice plate_make(dem_index columns, dem_index rows, double spacing);
 
 /** Adds the triangles, so that the nodes on their boundary may touch. */
-void plate_triangulate(dem_lattice *plate, dem_index columns);
+void plate_triangulate(dem_lattice *l, dem_index columns);
 
 /** A data file for LAMMPS, in a box wider by `pad` all round; prints what a run needs beside it: springs, constant,
  *  length and period. */
-void plate_write_lammps(const dem_lattice *plate, double spacing, double pad, const char *path);
+void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const char *path);
 
 /** x y vx vy of every node, a line each. */
 void plate_write_state(const dem_simulation *simulation, const char *path);
