@@ -5,8 +5,8 @@
  *      bench_impact SPACING lammps FILE                                       the body as a data file of LAMMPS
  *
  * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step, times
- * omega_max; SKIN is in spacings. Prints: nodes, springs, evaluations, steps, impacts, late ones, and the least CPU time
- * in s. */
+ * omega_max; SKIN is in spacings. Prints: nodes, springs, evaluations, steps, impacts, late ones, the least CPU time in
+ * s. */
 #include <math.h>
 #include <string.h>
 
