@@ -262,6 +262,7 @@ static void set_options(dem_options *options, const schema_deck *groups)
     options->max_impacts = (dem_index)schema_real(contact, "max_impacts");
     options->vertices = schema_real(contact, "vertices") != 0.0;
     options->mass_damping = schema_real(solver, "mass_damping");
+    options->contact = schema_is(contact, "method", "local") ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
     if (schema_value_of(contact, "window")->given) options->window = schema_real(contact, "window");
 }
 

@@ -62,17 +62,27 @@ static void follow_strain(report *r, const dem_simulation *simulation, double t)
     if (strain.inverted > r->inverted_max) r->inverted_max = strain.inverted;
 }
 
+static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    report *r = context;
+    (void)simulation;
+    if (!r->touched) r->first_contact = event->t;
+    r->touched = true;
+    r->last_contact = event->t;
+    return DEM_OK;
+}
+
 static void follow_contact(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index impacts = dem_simulation_counts(simulation).impacts;
     const bool contact = state->n_contacts > 0 || r->contacts_before > 0 || impacts > r->impacts_before;
     r->contacts_before = state->n_contacts;
     r->impacts_before = impacts;
+    if (state->n_contacts > 0) r->last_contact = state->t;
     if (!contact) return;
-    if (!r->touched) r->first_contact = state->t;
-    r->touched = true;
-    r->last_contact = state->t;
-    r->speed_after = rising_speed(simulation);
+    const dem_options options = dem_simulation_options(simulation);
+    const double fallen = hypot(options.gravity[0], options.gravity[1]) * (state->t - r->last_contact);
+    r->speed_after = rising_speed(simulation) + fallen; /* since the last contact in the step it is in free flight */
 }
 
 /* What the ledger has gained, over the largest energy so far. */
@@ -149,7 +159,7 @@ void report_start(report *r, FILE *out, bool terminal, const deck *d)
 
 dem_observer report_observer(report *r)
 {
-    return (dem_observer){.step = follow, .context = r};
+    return (dem_observer){.step = follow, .event = note_event, .context = r};
 }
 
 static void print_contact(const report *r, const dem_simulation *simulation)

@@ -195,10 +195,12 @@ static const schema_key obstacle_keys[] = {
 };
 
 static const schema_key contact_keys[] = {
-    {"method", SCHEMA_CHOICE, 1, 1, "-", "'exact'", ANY, "exact", PHYSICS,
-     "How contacts are found: 'exact' stops all bodies at each contact event.", NULL},
+    {"method", SCHEMA_CHOICE, 1, 1, "-", "'local'", ANY, "local|exact", PHYSICS,
+     "What a contact event in a step does: 'local' corrects the motion near it, 'exact' ends the step of all bodies.",
+     NULL},
     {"window", SCHEMA_REAL, 1, 1, "s", NONE, ">= 0", NULL, PHYSICS,
-     "Impacts nearer in time than this are taken together, 0: each by itself; default: by docs/method.md.", "0"},
+     "Impacts nearer in time than this are taken together by 'exact', 0: each by itself; default: by docs/method.md.",
+     "0"},
     {"vertices", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, PHYSICS,
      "Whether the edges of bodies touch convex vertices of obstacles; if not, only nodes touch.", NULL},
     {"overlap", SCHEMA_CHOICE, 1, 1, "-", "'warn'", ANY, "warn|stop", PHYSICS,

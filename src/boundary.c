@@ -261,10 +261,9 @@ dem_status boundaries_compile(boundaries *out, const dem_boundary *list, dem_ind
     CHECK(n >= 0 && (n == 0 || list != NULL), DEM_ERROR_ARGUMENT, "%lld boundaries, the list is %s", (long long)n,
           list != NULL ? "given" : "NULL");
     if (n == 0) return DEM_OK;
-    unsigned char *held = calloc((size_t)lattice->n_nodes, sizeof *held);
-    CHECK_MEMORY(held);
-    dem_status status = check_all(list, n, lattice, n_obstacles > 0, held);
-    free(held);
+    b.held = calloc((size_t)lattice->n_nodes, sizeof *b.held);
+    CHECK_MEMORY(b.held);
+    dem_status status = check_all(list, n, lattice, n_obstacles > 0, b.held);
     if (status == DEM_OK) status = compile(&b, list, n, lattice->n_nodes);
     if (status == DEM_OK)
         *out = b;
@@ -282,5 +281,6 @@ void boundaries_free(boundaries *b)
     free(b->list);
     free(b->first);
     free(b->pushes);
+    free(b->held);
     *b = (boundaries){0};
 }

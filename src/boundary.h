@@ -30,6 +30,7 @@ typedef struct boundaries {
     boundary *list;        /* [n] */
     dem_index *first;      /* [n_nodes] of the node's pushes, -1: none; NULL where there are no forces at all */
     boundary_push *pushes; /* one for each node of each force */
+    unsigned char *held;   /* [n_nodes] components that are prescribed; NULL where there are no boundaries */
 } boundaries;
 
 /** Validates and copies.  \return DEM_ERROR_ARGUMENT, or DEM_ERROR_MODEL for a node that is fixed, whose component is

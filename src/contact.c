@@ -305,20 +305,58 @@ void contact_destroy(contact *c)
     sites_destroy(&c->sites);
 }
 
-dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener)
+/* The sites at a node: itself and its edges. */
+static dem_status settle_node(contact_sites *c, dem_index node, contact_moment *now, bool *changed)
+{
+    const surface *s = &c->scene.model->surface;
+    if (c->of_node[node] >= 0) TRY(settle(c, c->of_node[node], now, changed));
+    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_sites; p++)
+        TRY(settle(c, sites_of_edge(c, s->at[p]), now, changed));
+    return DEM_OK;
+}
+
+static dem_status settle_all(contact_sites *c, contact_moment *now, bool *changed)
+{
+    for (dem_index k = 0; k < c->n; k++) TRY(settle(c, k, now, changed));
+    return DEM_OK;
+}
+
+static dem_status settle_around(contact_sites *c, dem_index k, contact_moment *now, bool *changed)
+{
+    const contact_site *site = &c->list[k];
+    TRY(settle_node(c, site->node, now, changed));
+    return site_is_edge(site) ? settle_node(c, site->other, now, changed) : DEM_OK;
+}
+
+/* Makes the changes that are due, of all sites or around one, until there are none. */
+static dem_status settle_until_done(contact *c, dem_index around, contact_moment *now)
 {
     contact_sites *s = &c->sites;
-    c->solved = NAN;
-    contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
-    const dem_index impacts = s->books.counts.impacts;
     bool changed = true;
+    c->solved = NAN;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
         changed = false;
-        for (dem_index k = 0; k < s->n; k++) TRY(settle(s, k, &now, &changed));
+        TRY(around < 0 ? settle_all(s, now, &changed) : settle_around(s, around, now, &changed));
     }
     CHECK(c->idle <= s->scene.rule.max_impacts, DEM_ERROR_CONTACT,
           "more than %lld contact events in a row changed nothing, at t = %.9g s", (long long)s->scene.rule.max_impacts,
-          t);
+          now->t);
+    return DEM_OK;
+}
+
+dem_status contact_resolve_at(contact *c, dem_index k, double t, double *y, const contact_listener *listener)
+{
+    contact_moment now = {t, y, y + scene_velocities(&c->sites.scene), listener, DEM_OK};
+    TRY(settle_until_done(c, k, &now));
+    return now.told;
+}
+
+dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener)
+{
+    contact_sites *s = &c->sites;
+    contact_moment now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
+    const dem_index impacts = s->books.counts.impacts;
+    TRY(settle_until_done(c, -1, &now));
     if (s->scene.rule.window > 0.0 && s->books.counts.impacts > impacts) reflect_early(s, &now);
     straighten_nodes(s, now.x);
     solve_all(s, now.x, now.v);
@@ -376,31 +414,51 @@ static double furthest(const contact *c, const path *p)
     return 2.0 * (p->t1 - p->t0) * fmax(c->watch.speed, watch_speed(&c->sites, velocities(c, p->y1)));
 }
 
-/* First time at which a closed contact has to change that has to at the end of the step; infinity if none has. */
-static double first_due(contact *c, const path *p, double *state)
+/* The state at the end of a step, as far as the forces of a group depend on it. */
+static const double *end_of(contact *c, dem_index group, const path *p, double *state)
 {
-    contact_sites *s = &c->sites;
-    reactions *r = &s->reactions;
+    if (p->end == p->t1) return p->y1;
+    search_state(&c->sites.reactions, group, p, p->end, state);
+    return state;
+}
+
+void contact_weigh(contact *c, const path *p, dem_index group, double *state)
+{
+    const double *y = end_of(c, group, p, state);
+    reactions_solve(&c->sites.reactions, group, y, velocities(c, y));
+}
+
+/* First time at which closed contacts of a site have to change that have to at the end of the step. */
+static double next_due(contact *c, const path *p, dem_index k, double from, double *state)
+{
+    reactions *r = &c->sites.reactions;
+    const contact_site *site = &c->sites.list[k];
+    if (c->quiet) return INFINITY;
+    const double *y = end_of(c, r->group[k], p, state);
+    if (!site_due(&c->sites.scene, site, r->force[k], y, velocities(c, y))) return INFINITY;
+    const double due = search_due(r, site, p, from, state);
+    contact_weigh(c, p, r->group[k], state);
+    return due;
+}
+
+void contact_expect(contact *c, const path *p, double *state)
+{
+    const reactions *r = &c->sites.reactions;
     const bool whole = p->end == p->t1, solved = whole && c->solved == p->t1;
-    const double *y = whole ? p->y1 : state;
-    double first = INFINITY;
-    if (solved && c->quiet) return first;
-    for (dem_index g = 0; g < r->n_groups; g++) {
-        if (!whole) search_state(r, g, p, p->end, state);
-        if (!solved) reactions_solve(r, g, y, velocities(c, y));
-        for (dem_index m = r->row[g]; m < r->row[g + 1]; m++) {
-            const contact_site *site = &s->list[r->members[m]];
-            if (!site_due(&s->scene, site, r->force[r->members[m]], y, velocities(c, y))) continue;
-            first = fmin(first, search_due(r, site, p, state));
-            if (!whole) search_state(r, g, p, p->end, state);
-            reactions_solve(r, g, y, velocities(c, y));
-        }
-    }
-    if (whole) {
-        c->solved = p->t1;
-        c->quiet = false;
-    }
-    return first;
+    c->way = furthest(c, p);
+    c->all = watch_asks_all(&c->watch, c->way);
+    c->quiet = solved && c->quiet;
+    for (dem_index g = 0; g < r->n_groups && !solved; g++) contact_weigh(c, p, g, state);
+    if (whole) c->solved = p->t1;
+}
+
+double contact_next(contact *c, const path *p, dem_index k, double from, double *state)
+{
+    contact_site *site = &c->sites.list[k];
+    double next = site->n_closed > 0 ? next_due(c, p, k, from, state) : INFINITY;
+    if (!watch_wakes(&c->watch, site, c->way)) return next;
+    site->asleep = false;
+    return site->n_closed < 2 ? fmin(next, search_crossing(&c->sites.scene, site, p, from)) : next;
 }
 
 bool contact_check(contact *c, path *p, bool rooted, double *state)
@@ -408,16 +466,9 @@ bool contact_check(contact *c, path *p, bool rooted, double *state)
     contact_sites *s = &c->sites;
     const double last = rooted ? p->end - 4.0 * search_resolution(p) : INFINITY; /* later it is the root found */
     double first = INFINITY;
-    c->way = furthest(c, p);
-    const bool all = watch_asks_all(&c->watch, c->way);
-    for (dem_index a = 0; a < (all ? s->n : c->watch.n); a++) {
-        const dem_index k = all ? a : c->watch.awake[a];
-        if (!watch_wakes(&c->watch, &s->list[k], c->way)) continue;
-        s->list[k].asleep = false;
-        if (s->list[k].n_closed == 2) continue;
-        first = fmin(first, search_crossing(&s->scene, &s->list[k], p));
-    }
-    first = fmin(first, first_due(c, p, state));
+    contact_expect(c, p, state);
+    for (dem_index a = 0; a < contact_watched(c); a++)
+        first = fmin(first, contact_next(c, p, contact_at_watch(c, a), p->t0, state));
     if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;
     p->end = first;
@@ -467,16 +518,11 @@ void contact_account(const contact *c, const double *y, double *rate)
     double *friction = rate + 2 * s->scene.model->obstacles.n, *power = rate + 4 * s->scene.model->obstacles.n;
     for (dem_index m = 0; m < s->reactions.row[s->reactions.n_groups]; m++) {
         const dem_index k = s->reactions.members[m];
-        const contact_site *site = &s->list[k];
-        for (int q = 0; q < site->n_closed; q++) {
-            const reaction *force = &s->reactions.force[k][q];
-            const touch_frame f = touch_frame_at(&s->scene, site, q, y, velocities(c, y));
-            const dem_index o =
-                touch_obstacle(&s->scene, site, site->closed[q].feature) - s->scene.model->obstacles.list;
-            const vec2 along = vec2_scale(force->tangent, f.tangent);
-            vec2_put(rate, o, vec2_add(vec2_at(rate, o), vec2_along(along, force->normal, f.normal)));
-            vec2_put(friction, o, vec2_add(vec2_at(friction, o), along));
-            if (site->closed[q].sign != 0) *power -= force->tangent * vec2_dot(f.velocity, f.tangent);
+        for (int q = 0; q < s->list[k].n_closed; q++) {
+            const sites_share of = sites_share_of(s, k, q, y, velocities(c, y));
+            vec2_put(rate, of.obstacle, vec2_add(vec2_at(rate, of.obstacle), of.force));
+            vec2_put(friction, of.obstacle, vec2_add(vec2_at(friction, of.obstacle), of.friction));
+            *power += of.power;
         }
     }
 }

@@ -14,6 +14,7 @@ typedef struct contact {
     double solved;  /* s, time of the state for which the reactions' forces are known; NAN: none */
     bool quiet;     /* and all guards were > 0 in that state, so that nothing is due */
     double way;     /* m, no site goes further in the step that was checked last */
+    bool all;       /* so that all sites are to be asked, not only those awake */
     dem_index idle; /* events in a row that changed nothing */
 } contact;
 
@@ -33,9 +34,31 @@ void contact_guards(contact *c, double t, const double *y, double *g);
 /** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
 void contact_constrain(contact *c, const double *y, double *a);
 
-/** Looks in an accepted step for what the root finder has not seen: a site inside an obstacle, a closed contact that
- *  should have ended, an entry and exit within the step. If there is one, cuts path->end short to the first and
- *  returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
+/** Looks how far sites go in an accepted step, and solves for the forces in closed contacts at its end.
+ *  \param[out] state  [4 n] scratch */
+void contact_expect(contact *c, const path *p, double *state);
+
+/** Solves for the forces of one group there. */
+void contact_weigh(contact *c, const path *p, dem_index group, double *state);
+
+/** Sites for which something can happen in the step: their number, and the a-th of them. */
+static inline dem_index contact_watched(const contact *c)
+{
+    return c->all ? c->sites.n : c->watch.n;
+}
+
+static inline dem_index contact_at_watch(const contact *c, dem_index a)
+{
+    return c->all ? a : c->watch.awake[a];
+}
+
+/** First time after `from` in the step at which something happens at a site, after contact_expect(): it is inside an
+ *  obstacle, if only between entry and exit, or a closed contact of it has to change that still has to at the end.
+ *  Infinity if nothing happens.  \param[out] state  [4 n] scratch */
+double contact_next(contact *c, const path *p, dem_index k, double from, double *state);
+
+/** Looks in an accepted step for what the root finder has not seen. If there is something, cuts path->end short to the
+ *  first and returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
 bool contact_check(contact *c, path *p, bool rooted, double *state);
 
 /** Puts closed vertex contacts that the integrator's error has opened back on their surfaces, and takes the velocity
@@ -54,6 +77,10 @@ void contact_account(const contact *c, const double *y, double *rate);
  *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first
  *  status other than DEM_OK that the listener returned */
 dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener);
+
+/** The same at one site and those that share nodes with it, where nothing else is known to be due: reads and changes
+ *  only what is near them, and leaves the rest of what follows from a change to the caller. */
+dem_status contact_resolve_at(contact *c, dem_index k, double t, double *y, const contact_listener *listener);
 
 /** Closed contacts at positions x, in the order of sites, into list [2 n_sites]; returns their number. */
 dem_index contact_list(const contact *c, const double *x, dem_contact *list);

@@ -24,6 +24,19 @@ dem_status engine_step(engine *e, path *step, bool *rooted)
     return e->verlet != NULL ? verlet_step(e->verlet, step, rooted) : integrator_step(e->integrator, step, rooted);
 }
 
+void engine_end(engine *e, double **y1, double **f1)
+{
+    if (e->verlet != NULL)
+        verlet_end(e->verlet, y1, f1);
+    else
+        integrator_end(e->integrator, y1, f1);
+}
+
+dem_status engine_redo(engine *e, double factor)
+{
+    return integrator_redo(e->integrator, factor); /* the other has no error control */
+}
+
 void engine_settle(engine *e, const path *step)
 {
     if (e->verlet != NULL)

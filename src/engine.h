@@ -20,6 +20,12 @@ void engine_destroy(engine *e);
  *  hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status engine_step(engine *e, path *step, bool *rooted);
 
+/** The end of the step just taken, [4 n], and its derivative, for who changes both before settling. */
+void engine_end(engine *e, double **y1, double **f1);
+
+/** Takes the step just taken back: the next goes from its start, and is shorter by the factor. */
+dem_status engine_redo(engine *e, double factor);
+
 /** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
  *  path holds on until the next step or restart. */
 void engine_settle(engine *e, const path *step);

@@ -297,6 +297,21 @@ static void go_on(integrator *I)
     I->at_end = false;
 }
 
+void integrator_end(integrator *I, double **y1, double **f1)
+{
+    *y1 = vector_shared(I->y1);
+    *f1 = vector_shared(I->f1);
+}
+
+dem_status integrator_redo(integrator *I, double factor)
+{
+    I->counts.steps--;
+    I->counts.rejected++;
+    CHECK(ARKodeSetInitStep(I->arkode, factor * (I->t1 - I->t)) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s",
+          I->message);
+    return integrator_restart(I, I->t, vector_values(I->y0));
+}
+
 void integrator_settle(integrator *I, const path *step)
 {
     if (step->end == step->t1) {
@@ -352,7 +367,7 @@ dem_counts integrator_counts(const integrator *I)
 {
     dem_counts counts = I->counts;
     long rejected = 0;
-    if (ARKodeGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected = rejected;
+    if (ARKodeGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected += rejected;
     return counts;
 }
 

@@ -17,6 +17,12 @@ void integrator_destroy(integrator *i);
  *  integrator and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status integrator_step(integrator *i, path *step, bool *rooted);
 
+/** The end of the step just taken and its derivative, to be changed. */
+void integrator_end(integrator *i, double **y1, double **f1);
+
+/** Goes back to the start of the step just taken; the next is shorter by the factor. */
+dem_status integrator_redo(integrator *i, double factor);
+
 /** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
  *  path holds on until the next step or restart. */
 void integrator_settle(integrator *i, const path *step);

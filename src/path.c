@@ -66,10 +66,16 @@ static double velocity(const path *p, const basis *b, dem_index k)
            b->slope * defect(p, k, h) / h;
 }
 
+static bool turned(const path *p, dem_index i)
+{
+    return p->trail != NULL && trail_has(p->trail, i);
+}
+
 vec2 path_position(const path *p, double t, dem_index i)
 {
     if (t == p->t0) return vec2_at(p->y0, i);
     if (t == p->t1) return vec2_at(p->y1, i);
+    if (turned(p, i)) return trail_position(p->trail, t, i);
     const basis b = basis_at(p, t);
     return (vec2){position(p, &b, 2 * i), position(p, &b, 2 * i + 1)};
 }
@@ -79,6 +85,7 @@ vec2 path_velocity(const path *p, double t, dem_index i)
     const dem_index n = p->n_nodes;
     if (t == p->t0) return vec2_at(p->y0, n + i);
     if (t == p->t1) return vec2_at(p->y1, n + i);
+    if (turned(p, i)) return trail_velocity(p->trail, t, i);
     const basis b = basis_at(p, t);
     return (vec2){velocity(p, &b, 2 * i), velocity(p, &b, 2 * i + 1)};
 }
@@ -96,4 +103,50 @@ void path_state(const path *p, double t, double *y)
         y[k] = position(p, &b, k);
         y[n + k] = velocity(p, &b, k);
     }
+    for (dem_index i = 0; i < p->n_nodes && p->trail != NULL; i++) {
+        if (!trail_has(p->trail, i)) continue;
+        vec2_put(y, i, trail_position(p->trail, t, i));
+        vec2_put(y, p->n_nodes + i, trail_velocity(p->trail, t, i));
+    }
+}
+
+/* The same in powers of s: the integral of the velocity's cubic, and the bump. */
+static void quintic(const path *p, dem_index k, double x[TRAIL_TERMS], double v[TRAIL_TERMS])
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = p->t1 - p->t0, d = defect(p, k, h), jump = p->y1[n + k] - p->y0[n + k];
+    const double a0 = h * p->f0[n + k], a1 = h * p->f1[n + k];
+    const double c[TRAIL_TERMS] = {
+        p->y0[n + k], a0, 3.0 * jump - 2.0 * a0 - a1 + 30.0 * d / h, a0 + a1 - 2.0 * jump - 60.0 * d / h,
+        30.0 * d / h, 0.0};
+    x[0] = p->y0[k];
+    for (int q = 0; q < TRAIL_TERMS; q++) {
+        v[q] = c[q];
+        if (q + 1 < TRAIL_TERMS) x[q + 1] = h * c[q] / (q + 1);
+    }
+}
+
+static void parabolas(const path *p, dem_index k, double x[TRAIL_TERMS], double v[TRAIL_TERMS])
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = p->t1 - p->t0;
+    for (int q = 0; q < TRAIL_TERMS; q++) x[q] = v[q] = 0.0;
+    x[0] = p->y0[k];
+    x[1] = h * p->y0[n + k];
+    x[2] = p->y1[k] - x[0] - x[1];
+    v[0] = p->y0[n + k];
+    v[1] = h * p->f0[n + k];
+    v[2] = p->y1[n + k] - v[0] - v[1];
+}
+
+trail_motion path_motion(const path *p, dem_index i)
+{
+    trail_motion m = {.from = p->t0};
+    for (int c = 0; c < 2; c++) {
+        if (p->parabolic)
+            parabolas(p, 2 * i + c, m.x[c], m.v[c]);
+        else
+            quintic(p, 2 * i + c, m.x[c], m.v[c]);
+    }
+    return m;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bracketing, dips and bisection along the path of a step. */
+/* Bracketing, dips and roots along the path of a step. */
 #include "search.h"
 
 #include <float.h>
@@ -7,6 +7,39 @@
 double search_resolution(const path *p)
 {
     return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
+}
+
+/* A root between a time when a function is above 0 and one when it is not: secants in which the value at an end that
+ * stays is halved (Illinois), after most_secants of them the middle. */
+typedef struct bracket {
+    double before, after; /* s */
+    double above, below;  /* the values there, of which one may be halved */
+    int n, side;          /* trials; which end moved last */
+} bracket;
+
+static double bracket_trial(const bracket *b, double width)
+{
+    enum { most_secants = 24 };
+    const double secant = b->before + (b->after - b->before) * b->above / (b->above - b->below);
+    if (b->n >= most_secants || !(secant >= b->before && secant <= b->after)) return 0.5 * (b->before + b->after);
+    return fmin(fmax(secant, b->before + 0.5 * width), b->after - 0.5 * width);
+}
+
+static void bracket_close(bracket *b, double t, double value, bool beyond)
+{
+    const int side = beyond ? 1 : -1;
+    const bool again = side == b->side;
+    b->n++;
+    b->side = side;
+    if (beyond) {
+        b->after = t;
+        b->below = value;
+        if (again) b->above *= 0.5;
+    } else {
+        b->before = t;
+        b->above = value;
+        if (again) b->below *= 0.5;
+    }
 }
 
 /* The guard of a free site at one time, and how fast it grows. */
@@ -63,16 +96,15 @@ static double lowest(const contact_scene *scene, const contact_site *site, const
 }
 
 /* The zero of the guard between a time when it is above and one when it is not. */
-static double crossing(const contact_scene *scene, const contact_site *site, const path *p, double clear, double deep)
+static double crossing(const contact_scene *scene, const contact_site *site, const path *p, sample clear, sample deep)
 {
-    while (deep - clear > search_resolution(p)) {
-        const double middle = 0.5 * (clear + deep);
-        if (guard_at(scene, site, p, middle) <= 0.0)
-            deep = middle;
-        else
-            clear = middle;
+    const double width = search_resolution(p);
+    bracket b = {clear.t, deep.t, clear.guard, deep.guard, 0, 0};
+    while (b.after - b.before > width) {
+        const double t = bracket_trial(&b, width), guard = guard_at(scene, site, p, t);
+        bracket_close(&b, t, guard, guard <= 0.0);
     }
-    return deep;
+    return b.after;
 }
 
 static double fastest(const path *p, double t, const contact_site *site)
@@ -98,14 +130,15 @@ static double bend(const contact_site *site, const path *p)
 
 /* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the
  * nearest is further in front than the edge can have come from there. */
-static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const path *p, double reach)
+static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const path *p, double from,
+                          double reach)
 {
     const contact_spot spot = site_spot_on(site, p, p->end);
     const contact_gap around = site_around(scene, site, &spot, reach + scene->rule.skin);
     if (around.feature < 0) return true;
     const double va = vec2_dot(path_velocity(p, p->end, site->node), around.normal),
                  vb = vec2_dot(path_velocity(p, p->end, site->other), around.normal);
-    const double way = (p->end - p->t0) * fmax(0.0, fmax(va, vb));
+    const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
     return around.distance + scene->rule.skin > way + bend(site, p);
 }
 
@@ -117,35 +150,38 @@ static bool stays_clear(const contact_site *site, const path *p, double reach)
 }
 
 /* The first crossing of a site whose gap is the true one. */
-static double crossing_within(const contact_scene *scene, const contact_site *site, const path *p, double reach)
+static double crossing_within(const contact_scene *scene, const contact_site *site, const path *p, double from,
+                              double reach)
 {
     enum { n = 8 };
-    const double h = p->end - p->t0;
-    if (site_is_edge(site) && edge_is_clear(scene, site, p, reach)) return INFINITY;
+    const double h = p->end - from;
+    if (site_is_edge(site) && edge_is_clear(scene, site, p, from, reach)) return INFINITY;
     const sample last = sample_at(scene, site, p, p->end);
-    sample s = sample_at(scene, site, p, p->t0);
+    sample s = sample_at(scene, site, p, from);
+    if (s.guard <= 0.0) return from;
     const bool on_its_way = s.guard + last.guard <= reach; /* no gap of a node changes faster than that moves */
     if (!site_is_edge(site) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
-        const sample next = k == n ? last : sample_at(scene, site, p, p->t0 + h * k / n);
-        if (next.guard <= 0.0) return crossing(scene, site, p, s.t, next.t);
+        const sample next = k == n ? last : sample_at(scene, site, p, from + h * k / n);
+        if (next.guard <= 0.0) return crossing(scene, site, p, s, next);
         if (dips(&s, &next) && fmin(s.guard, next.guard) < reach / n) {
-            const double low = lowest(scene, site, p, &s, &next);
-            if (guard_at(scene, site, p, low) <= 0.0) return crossing(scene, site, p, s.t, low);
+            const sample low = {.t = lowest(scene, site, p, &s, &next)};
+            const double guard = guard_at(scene, site, p, low.t);
+            if (guard <= 0.0) return crossing(scene, site, p, s, (sample){low.t, guard, 0.0});
         }
         s = next;
     }
     return INFINITY;
 }
 
-double search_crossing(const contact_scene *scene, const contact_site *site, const path *p)
+double search_crossing(const contact_scene *scene, const contact_site *site, const path *p, double from)
 {
-    const double h = p->end - p->t0;
-    const double reach = 2.0 * h * fmax(fastest(p, p->t0, site), fastest(p, p->end, site)); /* no site goes further */
+    const double h = p->end - from;
+    const double reach = 2.0 * h * fmax(fastest(p, from, site), fastest(p, p->end, site)); /* no site goes further */
     if (stays_clear(site, p, reach)) return INFINITY;
     contact_site near = *site;
     near.clear = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
-    return crossing_within(scene, &near, p, reach);
+    return crossing_within(scene, &near, p, from, reach);
 }
 
 /* ---- closed contacts ---- */
@@ -182,18 +218,35 @@ void search_state(const reactions *r, dem_index group, const path *p, double t, 
     if (r->scene->rule.load.boundaries != NULL) put_node(p, t, p->n_nodes - 1, state); /* the time */
 }
 
-double search_due(reactions *r, const contact_site *site, const path *p, double *state)
+/* Forces and guards of a site in the state at t: the lowest of the guards, each in units of what it was at first. */
+static double lowest_guard(reactions *r, dem_index k, const double *state, const double *scale)
+{
+    double guard[SITE_GUARDS], low = INFINITY;
+    site_guards(r->scene, &r->sites[k], r->force[k], state, state + scene_velocities(r->scene), guard);
+    for (int q = 0; q < SITE_GUARDS; q++)
+        if (scale[q] > 0.0) low = fmin(low, guard[q] / scale[q]);
+    return low;
+}
+
+double search_due(reactions *r, const contact_site *site, const path *p, double from, double *state)
 {
     const dem_index k = site - r->sites, group = r->group[k];
-    double before = p->t0, after = p->end;
-    while (after - before > search_resolution(p)) {
-        const double middle = 0.5 * (before + after);
-        search_state(r, group, p, middle, state);
-        reactions_solve(r, group, state, state + 2 * p->n_nodes);
-        if (site_due(r->scene, site, r->force[k], state, state + 2 * p->n_nodes))
-            after = middle;
-        else
-            before = middle;
+    const double *v = state + scene_velocities(r->scene);
+    const double width = search_resolution(p);
+    double scale[SITE_GUARDS];
+    search_state(r, group, p, from, state);
+    reactions_solve(r, group, state, v);
+    if (site_due(r->scene, site, r->force[k], state, v)) return from;
+    site_guards(r->scene, site, r->force[k], state, v, scale);
+    bracket b = {from, p->end, lowest_guard(r, k, state, scale), 0.0, 0, 0};
+    search_state(r, group, p, p->end, state);
+    reactions_solve(r, group, state, v);
+    b.below = lowest_guard(r, k, state, scale);
+    while (b.after - b.before > width) {
+        const double t = bracket_trial(&b, width);
+        search_state(r, group, p, t, state);
+        reactions_solve(r, group, state, v);
+        bracket_close(&b, t, lowest_guard(r, k, state, scale), site_due(r->scene, site, r->force[k], state, v));
     }
-    return after;
+    return b.after;
 }

@@ -7,30 +7,26 @@
 #include <string.h>
 
 #include "aligned.h"
-#include "contact.h"
+#include "audience.h"
 #include "diagnostics.h"
 #include "engine.h"
 #include "kernel.h"
+#include "options.h"
 #include "overlap.h"
+#include "queue.h"
 #include "status.h"
 
 enum {
-    max_observers = 8,
-    between_looks = 16 /* accepted steps, for overlaps */
+    between_looks = 16, /* accepted steps, for overlaps */
+    most_attempts = 30  /* at a step whose contacts reject it */
 };
 
-static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
-static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
-static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/method.md */
+static const double safety = 0.9, least_factor = 0.1; /* of the next step after one that contacts have rejected */
 
-typedef struct watcher {
-    dem_observer observer;
-    dem_index next_frame; /* the frame at next_frame * interval comes next */
-} watcher;
-
-/* What was measured on the state as seen; each is measured once, when first asked for. */
+/* What is known of the state as seen; each is worked out once, when first asked for. */
 typedef struct measures {
-    bool has_energy, has_strain;
+    bool has_events, has_state, has_contacts, has_energy, has_strain;
+    dem_index n_contacts;
     dem_energy energy;
     dem_strain strain;
 } measures;
@@ -42,6 +38,7 @@ struct dem_simulation {
     kernel kernel;
     overlap overlap;
     contact contact;
+    queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
     engine engine;
     double t;        /* s, of y */
     double step;     /* s, length of the last committed step */
@@ -55,13 +52,12 @@ struct dem_simulation {
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
     dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
-    dem_index n_contacts;
     measures *measures;
     bool damped;  /* whether springs or masses are */
     int unlooked; /* steps since overlaps were looked for */
     dem_index events;
-    watcher watchers[max_observers];
-    int n_watchers;
+    dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
+    audience audience;
 };
 
 /* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
@@ -159,79 +155,132 @@ static void look_at(dem_simulation *s, double t, const double *y)
 {
     s->seen_t = t;
     s->seen = y;
-    *s->measures = (measures){0};
-    s->n_contacts = contact_list(&s->contact, y, s->contacts);
+    *s->measures = (measures){.has_events = true, .has_state = y != s->frame};
 }
 
-/* Every watcher is told; the first status other than DEM_OK counts. */
+static bool is_local(const dem_simulation *s)
+{
+    return s->options.contact == DEM_CONTACT_LOCAL;
+}
+
+/* Looks at a time within the step in hand. */
+static void look_inside(dem_simulation *s, double t)
+{
+    look_at(s, t, s->frame);
+    s->measures->has_events = !is_local(s);
+}
+
+/* Contacts and books as seen. The queue goes back for that and on again, to the same end. */
+static const contact *contact_of(const dem_simulation *s)
+{
+    dem_simulation *self = (dem_simulation *)s;
+    if (!s->measures->has_events) (void)queue_show(&self->queue, s->seen_t); /* what it did once it can do again */
+    s->measures->has_events = true;
+    return &s->contact;
+}
+
+static const double *seen_of(const dem_simulation *s)
+{
+    (void)contact_of(s);
+    if (!s->measures->has_state) path_state(&s->path, s->seen_t, s->frame);
+    s->measures->has_state = true;
+    return s->seen;
+}
+
+static dem_index contacts_of(const dem_simulation *s)
+{
+    measures *m = s->measures;
+    if (!m->has_contacts) m->n_contacts = contact_list(&s->contact, seen_of(s), s->contacts);
+    m->has_contacts = true;
+    return m->n_contacts;
+}
+
 static dem_status first_of(dem_status status, dem_status next)
 {
     return status != DEM_OK ? status : next;
 }
 
-static dem_status tell_event(void *context, const dem_event *event)
+/* An event at which the whole body has stopped. */
+static dem_status hear_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
-    dem_status status = DEM_OK;
     look_at(s, s->t, s->y);
-    for (int k = 0; k < s->n_watchers; k++) {
-        const dem_observer *o = &s->watchers[k].observer;
-        if (o->event != NULL) status = first_of(status, o->event(o->context, s, event));
+    return audience_event(&s->audience, s, event);
+}
+
+/* Events inside the step in hand, up to t. */
+static dem_status tell_events(dem_simulation *s, double t)
+{
+    dem_status status = DEM_OK;
+    if (!audience_hears_events(&s->audience)) return DEM_OK;
+    while (s->told < s->n_inside && s->queue.events[s->told].t <= t) {
+        const dem_event event = s->queue.events[s->told++];
+        look_inside(s, event.t);
+        status = first_of(status, audience_event(&s->audience, s, &event));
     }
     return status;
 }
 
 static dem_status tell_step(dem_simulation *s)
 {
-    dem_status status = DEM_OK;
     look_at(s, s->t, s->y);
-    for (int k = 0; k < s->n_watchers; k++) {
-        const dem_observer *o = &s->watchers[k].observer;
-        if (o->step != NULL) status = first_of(status, o->step(o->context, s));
-    }
-    return status;
-}
-
-/* The watcher whose frame is due first in the step in hand, up to t_end; a frame at t_end is not lost to rounding. */
-static watcher *next_due(dem_simulation *s, double t_end, double *t)
-{
-    watcher *first = NULL;
-    for (int k = 0; k < s->n_watchers; k++) {
-        watcher *w = &s->watchers[k];
-        if (w->observer.frame == NULL || !(w->observer.interval > 0.0)) continue;
-        const double due = (double)w->next_frame * w->observer.interval;
-        if (due > s->path.end || due > t_end + 1e-9 * w->observer.interval) continue;
-        if (first != NULL && due >= *t) continue;
-        first = w;
-        *t = due;
-    }
-    return first;
-}
-
-static void interpolate(dem_simulation *s, double t)
-{
-    path_state(&s->path, t, s->frame);
-    look_at(s, t, s->frame);
+    return audience_step(&s->audience, s);
 }
 
 static dem_status tell_frames(dem_simulation *s, double t_end)
 {
     double t;
-    for (watcher *w = next_due(s, t_end, &t); w != NULL; w = next_due(s, t_end, &t)) {
-        interpolate(s, t);
-        w->next_frame++;
-        TRY(w->observer.frame(w->observer.context, s));
+    for (int k = 0; (k = audience_due(&s->audience, s->path.end, t_end, &t)) >= 0;) {
+        TRY(tell_events(s, t));
+        look_inside(s, t);
+        TRY(audience_frame(&s->audience, k, s));
     }
     return DEM_OK;
 }
 
 /* ---- the loop ---- */
 
-static dem_status take_step(dem_simulation *s)
+/* What the next try of a step is shortened by: its error is too large, or contacts fail in it, which they may if it is
+ * much too long. */
+static double shortening(const queue *q, dem_status status)
+{
+    const double error = queue_error(q);
+    if (error > 1.0) return fmax(least_factor, safety / sqrt(sqrt(error)));
+    return status == DEM_ERROR_CONTACT ? least_factor : 1.0;
+}
+
+/* A step with all contact events inside it, which may reject it. */
+static dem_status take_local_step(dem_simulation *s)
+{
+    bool rooted;
+    double *y1, *f1;
+    for (int attempt = 1;; attempt++) {
+        TRY(engine_step(&s->engine, &s->path, &rooted));
+        engine_end(&s->engine, &y1, &f1);
+        queue_start(&s->queue, &s->path, y1, f1, s->frame);
+        const dem_status status = queue_show(&s->queue, s->path.t1);
+        const double factor = shortening(&s->queue, status);
+        if (status == DEM_OK && factor == 1.0) return DEM_OK;
+        queue_undo(&s->queue);
+        if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return status;
+        TRY(engine_redo(&s->engine, factor));
+    }
+}
+
+/* A step to the first contact event in it. */
+static dem_status take_step_to_event(dem_simulation *s)
 {
     bool rooted;
     TRY(engine_step(&s->engine, &s->path, &rooted));
     s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
+    return DEM_OK;
+}
+
+static dem_status take_step(dem_simulation *s)
+{
+    TRY(is_local(s) ? take_local_step(s) : take_step_to_event(s));
+    s->n_inside = s->queue.n_events;
+    s->told = 0;
     s->in_hand = true;
     return DEM_OK;
 }
@@ -249,9 +298,9 @@ static void look_for_overlaps(dem_simulation *s)
     s->unlooked = 0;
 }
 
-static dem_status commit_step(dem_simulation *s)
+/* The end of the step in hand becomes the state.  \return whether vertex contacts were put back */
+static bool settle_step(dem_simulation *s)
 {
-    const contact_listener listener = {tell_event, s};
     const path *p = &s->path;
     engine_settle(&s->engine, p);
     s->y = engine_state(&s->engine);
@@ -261,16 +310,38 @@ static dem_status commit_step(dem_simulation *s)
     s->t = p->end;
     s->in_hand = false;
     if (++s->unlooked >= between_looks) look_for_overlaps(s);
+    return moved;
+}
+
+static dem_status commit_step_to_event(dem_simulation *s)
+{
+    const contact_listener listener = {hear_event, s};
+    const bool moved = settle_step(s);
     if (!s->at_event && moved) TRY(engine_restart(&s->engine, s->t, s->y));
     if (!s->at_event) return tell_step(s);
     s->events++;
     return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
 }
 
+static dem_status commit_local_step(dem_simulation *s)
+{
+    TRY(tell_events(s, s->path.t1));
+    TRY(queue_show(&s->queue, s->path.t1));
+    const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
+    s->events += s->queue.n_stops;
+    if (moved || corrected) TRY(engine_restart(&s->engine, s->t, s->y));
+    return tell_step(s);
+}
+
+static dem_status commit_step(dem_simulation *s)
+{
+    return is_local(s) ? commit_local_step(s) : commit_step_to_event(s);
+}
+
 /* Contacts of the initial state come before the first step, when the observers are there to be told. */
 static dem_status start(dem_simulation *s)
 {
-    const contact_listener listener = {tell_event, s};
+    const contact_listener listener = {hear_event, s};
     s->started = true;
     return go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
 }
@@ -287,74 +358,12 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
         if (t_end < s->path.end) break;
         TRY(commit_step(s));
     }
-    interpolate(s, t_end);
+    TRY(tell_events(s, t_end));
+    look_inside(s, t_end);
     return DEM_OK;
 }
 
 /* ---- set-up ---- */
-
-static dem_status check_options(const dem_options *o)
-{
-    const double lengths[] = {o->spacing, o->v_scale, o->max_step, o->fixed_step, o->skin, o->rest_speed};
-    static const char *const names[] = {"spacing", "v_scale", "max_step", "fixed_step", "skin", "rest_speed"};
-    CHECK(o->struct_size == sizeof *o, DEM_ERROR_ARGUMENT, "dem_options: struct_size is %zu, %zu expected",
-          o->struct_size, sizeof *o);
-    CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
-          o->gravity[0], o->gravity[1]);
-    CHECK(o->rtol >= 1e-13 && o->rtol <= 0.1, DEM_ERROR_ARGUMENT, "rtol must be in [1e-13, 0.1], got %g", o->rtol);
-    for (int k = 0; k < 6; k++)
-        CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],
-              lengths[k]);
-    CHECK(isfinite(o->mass_damping) && o->mass_damping >= 0.0, DEM_ERROR_ARGUMENT, "mass_damping must be >= 0, got %g",
-          o->mass_damping);
-    CHECK(isfinite(o->window), DEM_ERROR_ARGUMENT, "window must be finite, got %g", o->window);
-    CHECK(o->threads >= 1 && o->threads <= 1024, DEM_ERROR_ARGUMENT, "threads must be in [1, 1024], got %d",
-          o->threads);
-    CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
-    return DEM_OK;
-}
-
-/* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound,
- * which is omega_max a/2 in a chain of spacing a. */
-static double default_v_scale(const dem_simulation *s)
-{
-    const dem_lattice *l = &s->model->lattice;
-    double speed = 1e-3 * 0.5 * s->model->omega_max * s->options.spacing, drop = INFINITY;
-    speed = fmax(speed, boundaries_speed(&s->boundaries));
-    for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
-    for (dem_index k = 0; k < s->model->n_sites; k++)
-        drop = fmin(drop, dem_model_gap(s->model, &l->position[2 * s->model->sites[k]]));
-    const double g = hypot(s->options.gravity[0], s->options.gravity[1]);
-    return isfinite(drop) && drop > 0.0 ? fmax(speed, sqrt(2.0 * g * drop)) : speed;
-}
-
-/* Largest rate at which damping slows anything, 1/s. */
-static double damping_rate(const dem_simulation *s)
-{
-    const dem_model *m = s->model;
-    return springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass) + s->options.mass_damping;
-}
-
-static dem_status fill_options(dem_simulation *s)
-{
-    dem_options *o = &s->options;
-    if (o->spacing == 0.0) o->spacing = s->model->spacing;
-    CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
-    dem_method_traits method;
-    TRY(dem_method_describe(&method, o->method));
-    if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
-    if (o->max_step == 0.0 && s->model->omega_max > 0.0)
-        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) /
-                      fmax(s->model->omega_max, damping_rate(s));
-    CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
-    if (!method.adaptive) o->fixed_step = o->max_step;
-    if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
-    if (o->window < 0.0)
-        o->window = s->model->omega_max > 0.0 ? window_share * fmin(1.0 / s->model->omega_max, 2.0 * o->max_step) : 0.0;
-    if (o->v_scale == 0.0) o->v_scale = default_v_scale(s);
-    CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
-    return DEM_OK;
-}
 
 static dem_status allocate(dem_simulation *s)
 {
@@ -401,7 +410,7 @@ static dem_status set_up(dem_simulation *s)
     const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
     TRY(boundaries_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice, model->obstacles.n));
     s->options.boundaries = NULL;
-    TRY(fill_options(s));
+    TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + unknowns(model), model->lattice.velocity, block);
@@ -412,9 +421,11 @@ static dem_status set_up(dem_simulation *s)
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
+    const double error[2] = {o->rtol * o->spacing, o->rtol * o->v_scale};
+    TRY(queue_create(&s->queue, &s->contact, s->boundaries.held, !(o->fixed_step > 0.0), error));
     const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
                             .n_books = n_books(model),
-                            .n_guards = model->obstacles.n > 0 ? SITE_GUARDS * s->contact.sites.n : 0,
+                            .n_guards = model->obstacles.n > 0 && !is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
                             .prescribes = boundaries_move(&s->boundaries),
                             .derivative = derivative,
                             .guards = guards,
@@ -441,7 +452,7 @@ dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, c
 {
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
-    TRY(check_options(options));
+    TRY(options_check(options));
     dem_simulation *s = calloc(1, sizeof *s);
     CHECK_MEMORY(s);
     s->model = model;
@@ -459,6 +470,7 @@ void dem_simulation_destroy(dem_simulation *s)
     if (s == NULL) return;
     engine_destroy(&s->engine);
     kernel_destroy(&s->kernel);
+    queue_destroy(&s->queue);
     contact_destroy(&s->contact);
     boundaries_free(&s->boundaries);
     overlap_destroy(&s->overlap);
@@ -474,10 +486,7 @@ dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observe
     CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
           s == NULL ? "simulation" : "observer");
     CHECK(!s->started, DEM_ERROR_ARGUMENT, "observers come before the first advance");
-    CHECK(isfinite(observer->interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", observer->interval);
-    CHECK(s->n_watchers < max_observers, DEM_ERROR_ARGUMENT, "at most %d observers", (int)max_observers);
-    s->watchers[s->n_watchers++] = (watcher){.observer = *observer};
-    return DEM_OK;
+    return audience_add(&s->audience, observer);
 }
 
 /* ---- looking ---- */
@@ -487,9 +496,9 @@ void dem_simulation_state(const dem_simulation *s, dem_state *state)
     *state = (dem_state){.struct_size = sizeof *state,
                          .t = s->seen_t,
                          .step = s->step,
-                         .x = s->seen,
+                         .x = seen_of(s),
                          .v = s->seen + unknowns(s->model),
-                         .n_contacts = s->n_contacts,
+                         .n_contacts = contacts_of(s),
                          .contacts = s->contacts,
                          .energy = dem_simulation_energy(s)};
 }
@@ -498,32 +507,32 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
 {
     measures *m = s->measures;
     if (!m->has_energy)
-        m->energy = diagnostics_energy(s->model, s->options.gravity, s->seen, s->seen + unknowns(s->model));
+        m->energy = diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + unknowns(s->model));
     m->has_energy = true;
-    m->energy.impact = s->contact.sites.books.impact;
-    m->energy.friction = totals_of(s, s->seen)[FRICTION];
-    m->energy.damping = totals_of(s, s->seen)[DAMPING];
-    m->energy.boundary = totals_of(s, s->seen)[WORK];
-    m->energy.projection = s->contact.sites.books.projection;
+    m->energy.impact = contact_of(s)->sites.books.impact;
+    m->energy.friction = totals_of(s, seen_of(s))[FRICTION];
+    m->energy.damping = totals_of(s, seen_of(s))[DAMPING];
+    m->energy.boundary = totals_of(s, seen_of(s))[WORK];
+    m->energy.projection = contact_of(s)->sites.books.projection;
     return m->energy;
 }
 
 dem_strain dem_simulation_strain(const dem_simulation *s)
 {
     measures *m = s->measures;
-    if (!m->has_strain) m->strain = diagnostics_strain(s->model, s->seen);
+    if (!m->has_strain) m->strain = diagnostics_strain(s->model, seen_of(s));
     m->has_strain = true;
     return m->strain;
 }
 
 void dem_simulation_strains(const dem_simulation *s, double *strain)
 {
-    springs_strains(&s->model->springs, s->seen, strain);
+    springs_strains(&s->model->springs, seen_of(s), strain);
 }
 
 void dem_simulation_forces(const dem_simulation *s, double *force)
 {
-    springs_forces(&s->model->springs, s->seen, force);
+    springs_forces(&s->model->springs, seen_of(s), force);
 }
 
 void dem_simulation_stress(const dem_simulation *s, double *stress)
@@ -534,7 +543,7 @@ void dem_simulation_stress(const dem_simulation *s, double *stress)
 void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
 {
     const dem_model *m = s->model;
-    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, s->seen, stress);
+    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, seen_of(s), stress);
 }
 
 dem_overlap dem_simulation_overlap(const dem_simulation *s)
@@ -545,25 +554,25 @@ dem_overlap dem_simulation_overlap(const dem_simulation *s)
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
     const dem_counts of_engine = engine_counts(&s->engine);
-    dem_counts counts = s->contact.sites.books.counts;
+    dem_counts counts = contact_of(s)->sites.books.counts;
     counts.steps = of_engine.steps;
     counts.rejected = of_engine.rejected;
     counts.evaluations = of_engine.evaluations;
     counts.retries = of_engine.retries;
-    counts.events = s->events;
+    counts.events = s->events + (s->in_hand ? s->queue.n_stops : 0);
     return counts;
 }
 
 dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 {
-    return diagnostics_body(s->model, body, s->seen, s->seen + unknowns(s->model));
+    return diagnostics_body(s->model, body, seen_of(s), s->seen + unknowns(s->model));
 }
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
-    const contact_books *books = &s->contact.sites.books;
-    const double *lasting = books_of(s, s->seen), *rubbing = lasting + 2 * s->model->obstacles.n;
-    dem_obstacle_load load = diagnostics_reaction(s->contacts, s->n_contacts, obstacle);
+    const contact_books *books = &contact_of(s)->sites.books;
+    const double *lasting = books_of(s, seen_of(s)), *rubbing = lasting + 2 * s->model->obstacles.n;
+    dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
     for (int k = 0; k < 2; k++) {
         load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[2 * obstacle + k];
         load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[2 * obstacle + k];
@@ -574,7 +583,7 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
 {
     const model_load load = load_of(s);
-    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], s->seen, s->seen + unknowns(s->model));
+    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s), s->seen + unknowns(s->model));
 }
 
 double dem_simulation_residual(const dem_simulation *s)

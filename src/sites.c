@@ -182,6 +182,30 @@ double sites_stop(contact_sites *c, dem_index group, const double *x, double *v)
     return energy;
 }
 
+sites_share sites_share_of(const contact_sites *c, dem_index k, int q, const double *x, const double *v)
+{
+    const contact_site *site = &c->list[k];
+    const reaction *force = &c->reactions.force[k][q];
+    const touch_frame f = touch_frame_at(&c->scene, site, q, x, v);
+    const vec2 along = vec2_scale(force->tangent, f.tangent);
+    const bool slides = site->closed[q].sign != 0;
+    return (sites_share){.obstacle =
+                             touch_obstacle(&c->scene, site, site->closed[q].feature) - c->scene.model->obstacles.list,
+                         .force = vec2_along(along, force->normal, f.normal),
+                         .friction = along,
+                         .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
+}
+
+dem_index sites_group_at(const contact_sites *c, dem_index node)
+{
+    const surface *s = &c->scene.model->surface;
+    if (node_closed(c, node)) return c->reactions.group[c->of_node[node]];
+    if (c->n == c->scene.model->n_sites) return -1;
+    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
+        if (c->list[sites_of_edge(c, s->at[p])].n_closed > 0) return c->reactions.group[sites_of_edge(c, s->at[p])];
+    return -1;
+}
+
 dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,
                       const contact_moment *now)
 {

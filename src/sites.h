@@ -59,6 +59,18 @@ void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v
  *  this takes.  \return the energy that it takes, J */
 double sites_stop(contact_sites *c, dem_index group, const double *x, double *v);
 
+/** What a closed contact does to its obstacle's account, with the forces last solved for. */
+typedef struct sites_share {
+    dem_index obstacle;
+    vec2 force, friction; /* N, on the body: all of it, and the part along the surface */
+    double power;         /* W, that friction takes */
+} sites_share;
+
+sites_share sites_share_of(const contact_sites *c, dem_index k, int q, const double *x, const double *v);
+
+/** The group that has closed contacts at a node, or -1. */
+dem_index sites_group_at(const contact_sites *c, dem_index node);
+
 /** An event of a site at a feature: what is known without the impact. */
 dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,
                       const contact_moment *now);

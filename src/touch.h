@@ -98,6 +98,13 @@ static inline dem_index scene_velocities(const contact_scene *scene)
     return 2 * (scene->model->lattice.n_nodes + scene->rule.n_books);
 }
 
+/** Where the books begin among the nodes of a state: pairs for the impulses of the obstacles, for those of their
+ *  friction, then (energy that friction takes, that damping takes), (work of the boundaries, time). */
+static inline dem_index scene_books(const contact_scene *scene)
+{
+    return scene->model->lattice.n_nodes + scene->rule.n_books - 2 * scene->model->obstacles.n - 2;
+}
+
 /** The segment that a contact is on, or that ends in the vertex it is on. */
 dem_index touch_segment(const contact_scene *scene, const contact_site *site, dem_index feature);
 

@@ -90,6 +90,12 @@ static void go_on(verlet *V)
     V->at_end = false;
 }
 
+void verlet_end(verlet *V, double **y1, double **f1)
+{
+    *y1 = V->y1;
+    *f1 = V->f1;
+}
+
 void verlet_settle(verlet *V, const path *step)
 {
     if (step->end < step->t1) {

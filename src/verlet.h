@@ -17,6 +17,9 @@ void verlet_destroy(verlet *V);
  *  until its next call. DEM_ERROR_INTEGRATOR leaves the last state in force. */
 dem_status verlet_step(verlet *V, path *step, bool *rooted);
 
+/** The end of the step just taken and its derivative, to be changed. */
+void verlet_end(verlet *v, double **y1, double **f1);
+
 /** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
  *  path holds on until the next step or restart. */
 void verlet_settle(verlet *V, const path *step);

@@ -160,6 +160,13 @@ DEM_API dem_status dem_kernel_find(dem_kernel *out, const char *name);
 /** NULL if there is no such kernel. */
 DEM_API const char *dem_kernel_name(dem_kernel kind);
 
+/** How contact events inside a step are taken. */
+typedef enum dem_contact_method {
+    DEM_CONTACT_LOCAL, /**< each where and when it happens; what follows is corrected near it, at a cost that does not
+                            grow with the body */
+    DEM_CONTACT_EXACT  /**< the step of the whole body ends at each, located by root functions */
+} dem_contact_method;
+
 /** \return DEM_ERROR_ARGUMENT if this machine, or this build of the library, does not have the kernel */
 DEM_API dem_status dem_kernel_check(dem_kernel kind);
 
@@ -184,8 +191,9 @@ typedef struct dem_options {
                                is reflected at once, and hops of less than twice this become lasting contacts;
                                0: every impact by itself */
     double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
-    int32_t vertices;  /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
-    dem_kernel kernel; /**< default DEM_KERNEL_AUTO */
+    int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    dem_contact_method contact; /**< default DEM_CONTACT_LOCAL */
+    dem_kernel kernel;          /**< default DEM_KERNEL_AUTO */
     int32_t
         threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit. A library
                           built without OpenMP does the work of all in one */

@@ -240,7 +240,7 @@ void scene_random(scene *out, unsigned long seed)
     gsl_rng_set(rng, seed);
     for (int tries = 0;; tries++) {
         assert_true(tries < 100);
-        *out = (scene){.options = dem_options_default(), .t_end = 8e-3, .interval = 2e-6};
+        *out = (scene){.options = support_options(), .t_end = 8e-3, .interval = 2e-6};
         random_obstacles(rng, out);
         random_laws(rng, out);
         random_options(rng, out);

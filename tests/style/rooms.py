@@ -11,6 +11,7 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
     {"vec2", "status", "random", "commit", "wall", "aligned", "threads"},
+    {"trail", "audience"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "hdf5_file",
      "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "file", "words", "image", "outline"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
@@ -19,13 +20,14 @@ LAYERS = [
     {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
     {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
      "schema_table", "schema_print", "uses", "material", "mask"},
-    {"touch", "diagnostics", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
+    {"touch", "options", "diagnostics", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
      "sweep_avx512", "peaks_file", "shape", "loading", "probes"},
     {"reaction", "books", "engine", "spectrum", "constants", "area"},
     {"site", "form"},
     {"sites", "search", "body"},
-    {"strike", "watch"},
+    {"strike", "watch", "patch"},
     {"contact", "trajectory", "deck"},
+    {"queue"},
     {"simulation", "output", "preview", "report"},
     {"dem_batch"},
 ]

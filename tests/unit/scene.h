@@ -143,7 +143,7 @@ static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_
         vec2_put(out->f0, n + i, a);
         vec2_put(out->f1, n + i, a);
     }
-    out->path = (path){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false};
+    out->path = (path){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
 }
 
 #endif

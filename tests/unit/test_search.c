@@ -28,7 +28,7 @@ static void open_node(scene *s, double x, double y, double u, double v)
 
 static double crossing(const scene *s, dem_index k, const path *p)
 {
-    return search_crossing(&s->c.sites.scene, &s->c.sites.list[k], p);
+    return search_crossing(&s->c.sites.scene, &s->c.sites.list[k], p, p->t0);
 }
 
 static void times_are_located_to_a_hundred_units_of_rounding(void **state)
@@ -248,7 +248,7 @@ static double first_due(scene *s, dem_index k, scene_flight *f)
     const double *v = y + 2 * s->model->lattice.n_nodes;
     reactions *r = &s->c.sites.reactions;
     assert_ok(sites_regroup(&s->c.sites));
-    const double found = search_due(r, &s->c.sites.list[k], &f->path, f->scratch);
+    const double found = search_due(r, &s->c.sites.list[k], &f->path, f->path.t0, f->scratch);
     for (int after = 0; after < 2; after++) { /* due there, and not a little before */
         path_state(&f->path, found - (1 - after) * 4.0 * search_resolution(&f->path), y);
         reactions_solve(r, r->group[k], y, v);

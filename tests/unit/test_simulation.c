@@ -817,7 +817,7 @@ static void a_storm_of_impacts_ends_the_run(void **state)
     const char *expected = " m had more than 1 contact events within 0.6 s, at t = ";
     assert_non_null(strstr(dem_status_message(), expected));
     dem_simulation_state(simulation, &now);
-    assert_close(now.x[1], 0.0, 1e-12);
+    assert_close(now.x[1], 0.0, 1e-6);       /* the skin */
     assert_true(now.t > 0.4 && now.t < 0.5); /* 0.01 s of fall and 4.1 m/s/g of flight, both ways */
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);

@@ -63,6 +63,14 @@ void support_block(dem_lattice *out)
     }
 }
 
+dem_options support_options(void)
+{
+    const char *method = getenv("CONTACT");
+    dem_options options = dem_options_default();
+    if (method != NULL) options.contact = strcmp(method, "exact") == 0 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+    return options;
+}
+
 static dem_status record(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     support_run *run = context;
@@ -102,7 +110,7 @@ void support_point(support_run *run, double m, const double x[2], const double v
 {
     dem_lattice lattice;
     const dem_obstacle obstacle = {.n_points = n_points, .points = points, .restitution = restitution};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     options.spacing = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;

@@ -23,6 +23,9 @@ void support_lattice(dem_lattice *out, dem_index n, const double *x, const doubl
 /** Sets where the nodes start and with which velocities [n][2]; NULL leaves it. */
 void support_start(dem_lattice *lattice, const double *position, const double *velocity);
 
+/** The default options, with the contact method that the environment names in CONTACT: 'local' or 'exact'. */
+dem_options support_options(void);
+
 enum { SUPPORT_IMPACTS = 4096 };
 
 typedef struct support_run {

@@ -163,7 +163,7 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
     const double mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;

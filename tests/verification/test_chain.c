@@ -86,7 +86,7 @@ static void open_chain(impact *s, int n, double height, bool lying)
     static const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.0, 1.0, 0.0, -1.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = lying ? wall : ground};
     const int along = lying ? 0 : 1;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     for (int i = 0; i <= n; i++) {
         x[2 * i + along] = height + length * i / n;

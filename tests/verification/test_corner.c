@@ -182,7 +182,7 @@ static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
     const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.5, -1.0, 0.5, 1.0};
     const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
                                        {.n_points = 2, .points = wall, .restitution = 0.5}};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
     (void)unused;
@@ -260,7 +260,7 @@ static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
         const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
                                            {.n_points = 2, .points = wall, .restitution = 0.0}};
         const double x[2] = {0.0, 0.0}, v[2] = {c, s}, mass = 1.0;
-        dem_options options = dem_options_default();
+        dem_options options = support_options();
         dem_lattice lattice;
         support_run run;
         options.gravity[0] = 9.81 * s;

@@ -115,7 +115,7 @@ static cost run_line(const dem_lattice *block, const line *l, double t, const do
     support_run run;
     drift d = {0};
     cost c = {0};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     const dem_observer observer = {.step = follow, .context = &d};
     options.gravity[1] = 0.0;
     options.method = l->method;

@@ -15,7 +15,7 @@ static const dem_index joined[2] = {0, 1};
 
 static dem_options tight_options(void)
 {
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     options.gravity[1] = 0.0;
     options.rtol = 1e-13;
     options.v_scale = 1.0;
@@ -114,7 +114,7 @@ static void an_overdamped_spring_creeps_back_as_the_closed_form(void **unused)
 static void a_node_under_mass_damping_falls_at_last_with_g_over_alpha(void **unused)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 1.0}, g = -9.81, alpha = 2.5, mass = 0.3;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
     (void)unused;
@@ -213,7 +213,7 @@ static void a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta(void **un
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
     (void)unused;

@@ -109,7 +109,7 @@ static double error_of(const wave *w)
 {
     dem_lattice l;
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     double e[2];
     make_block(&l, w);
     const double omega = omega_of(w, e), turn = M_PI / 180.0 * w->direction;

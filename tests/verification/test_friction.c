@@ -28,15 +28,6 @@ static double dot(const double a[2], const double b[2])
     return a[0] * b[0] + a[1] * b[1];
 }
 
-static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
-{
-    slide *s = context;
-    (void)simulation;
-    if (s->n_events < most_events) s->events[s->n_events] = *event;
-    s->n_events++;
-    return DEM_OK;
-}
-
 /* The books in a state that is seen, `way` after the last step along the incline. */
 static void look(slide *s, const dem_simulation *simulation, const dem_state *state, double way)
 {
@@ -66,6 +57,14 @@ static dem_status note_step(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
+static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    slide *s = context;
+    if (s->n_events < most_events) s->events[s->n_events] = *event;
+    s->n_events++;
+    return note_step(context, simulation);
+}
+
 static dem_state slide_at(slide *s, double t)
 {
     const dem_state state = support_at(&s->run, t);
@@ -81,7 +80,7 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
     const double x[2] = {h0 * n[0], h0 * n[1]};
     const dem_observer observer = {.step = note_step, .event = note_event, .context = s};
     dem_obstacle obstacle = *law;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     for (int d = 0; d < 2; d++) s->v0[d] = v0[0] * t[d] + v0[1] * n[d];
     obstacle.n_points = 2;

@@ -218,7 +218,7 @@ static double *pull(dem_lattice *l, double spacing)
 {
     const double scale = 1e-3;
     support_run run;
-    const dem_options options = dem_options_default();
+    const dem_options options = support_options();
     double *load = make_load(l, spacing), *u = solve(l, load);
     double *stress = malloc(3 * (size_t)l->n_nodes * sizeof *stress);
     l->position = malloc(2 * (size_t)l->n_nodes * sizeof *l->position);

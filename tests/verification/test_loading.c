@@ -12,7 +12,7 @@ static void open_pair(support_run *run, const dem_boundary *boundary, const doub
 {
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
@@ -91,7 +91,7 @@ static void a_sudden_force_swings_to_twice_the_static_way(void **unused)
                                  {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = pulled, .value = {force, 0.0}}};
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
     (void)unused;
@@ -124,7 +124,7 @@ static void friction_holds_until_the_force_exceeds_it(void **unused)
     const dem_boundary push = {
         .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {force, -5.0}, .ramp = ramp};
     const dem_obstacle ground = {.n_points = 2, .points = floor, .friction = mu};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
     (void)unused;
@@ -183,7 +183,7 @@ static void a_pulled_block_comes_to_rest_with_its_modulus(void **unused)
         {.components = DEM_COMPONENT_Y, .n_nodes = n_foot, .nodes = foot},
         {.components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = corner},
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = n_head, .nodes = head, .share = share, .value = {0.0, traction}}};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     options.gravity[1] = 0.0;
     options.v_scale = 1e-5; /* of the wave that the sudden traction sends, traction/(rho c) */
     options.mass_damping = 1000.0;

@@ -34,7 +34,7 @@ static void make_body(dem_lattice *out, dem_index n, const double *x)
 static double swing(dem_lattice *body, const gsl_matrix *modes, size_t mode, double omega)
 {
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     double start[14], worst = 0.0;
     for (size_t q = 0; q < modes->size1; q++) start[q] = body->x[q] + amplitude * gsl_matrix_get(modes, q, mode);
     support_start(body, start, NULL);

@@ -62,7 +62,7 @@ static void renumber(dem_lattice *l, const dem_index *number)
 static double *run(const dem_lattice *lattice, const dem_obstacle *ground, double t)
 {
     const size_t size = 2 * (size_t)lattice->n_nodes * sizeof(double);
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     support_run r;
     double *x = malloc(size);
     assert_non_null(x);

@@ -11,7 +11,7 @@ static const dem_index joined[2] = {0, 1};
 
 static dem_options tight_options(void)
 {
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     options.gravity[1] = 0.0;
     options.rtol = 1e-13;
     options.v_scale = 1.0;

@@ -84,7 +84,7 @@ static double *stresses(dem_lattice *lattice, const double F[4])
 {
     const dem_index n = lattice->n_nodes;
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     double *stress = malloc(3 * (size_t)n * sizeof *stress);
     free(lattice->position);
     lattice->position = malloc(2 * (size_t)n * sizeof *lattice->position);

@@ -54,7 +54,7 @@ static void open_block(block *b, const scene *s, const double *position, bool da
                                    .thickness = 0.1,
                                    .damping_time = damped ? s->damping_time / pace(s) : 0.0};
     const double offset[2] = {s->offset, 0.0}, start[2] = {0.0, s->height};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     options.rtol = 1e-10;
     options.v_scale = 0.1; /* more than the weight moves it */

@@ -61,7 +61,7 @@ static void add_power(double *power, double *series)
 static double *record(const dem_lattice *l, double interval, double omega)
 {
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     double *series = calloc((size_t)l->n_springs * n_samples, sizeof *series);
     assert_non_null(series);
     options.gravity[1] = 0.0;

@@ -132,7 +132,7 @@ static void run_case(int restitution, int friction, int kind, double rtol, outco
     ground g;
     dem_lattice block;
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     make_ground(&g, kind);
     make_block(&block, &g);
     const dem_obstacle obstacle = {.n_points = g.n,

@@ -12,7 +12,7 @@ static const double rtol[4] = {1e-12, 1e-5, 1e-7, 1e-9};
 static void run_to(const dem_lattice *body, const dem_obstacle *floor, double t, double tolerance, double *x)
 {
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     options.rtol = tolerance;
     options.max_step = t;
     options.v_scale = 1.0;

@@ -179,7 +179,7 @@ static void open_triangle(support_run *run, const triangle *q, const double *y, 
 {
     const dem_index ends[6] = {A, B, B, C, C, A}, corners[3] = {A, B, C};
     const dem_obstacle obstacle = {3, tip, 0.0, q->mu, DEM_FRICTION_COULOMB};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     dem_lattice lattice;
     support_lattice(&lattice, 3, y, q->mass, 3, ends, 1.0, 1.0, NULL);
     memcpy(lattice.rest_length, q->rest, sizeof q->rest);

@@ -54,7 +54,7 @@ static void fixed_steps_agree_with_gsl(void **unused)
     assert_non_null(y);
     for (int m = 0; m < 3; m++) {
         support_run run;
-        dem_options options = dem_options_default();
+        dem_options options = support_options();
         options.gravity[1] = 0.0;
         options.method = methods[m];
         options.fixed_step = 6e-6; /* omega_max h = 0.3 */
@@ -79,7 +79,7 @@ static void a_free_body_keeps_its_momenta_and_energy(void **unused)
 {
     dem_lattice block;
     support_run run;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     const double velocity[2] = {3.0, -2.0};
     (void)unused;
     support_block(&block);

@@ -14,7 +14,7 @@ static void open_masses(support_run *run, dem_index n, const double *height, dou
     double x[8], mass[4];
     dem_lattice lattice;
     const dem_obstacle level = {.n_points = 2, .points = floor_points, .restitution = eta};
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     for (dem_index i = 0; i < n; i++) {
         x[2 * i] = 0.5 * (double)i;
         x[2 * i + 1] = height[i];
@@ -147,7 +147,7 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
     const dem_obstacle rough = {.n_points = 5, .points = ground, .restitution = eta, .friction = friction};
     const double lift[2] = {0.0, 0.0015}, speed[2] = {1.0, -5.0};
     dem_lattice lattice;
-    dem_options options = dem_options_default();
+    dem_options options = support_options();
     support_run run;
     audit a = {.ground = ground, .v0 = {speed[0], speed[1]}};
     const dem_observer observer = {.interval = 1e-6, .frame = follow, .step = follow, .event = note, .context = &a};

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Telling in turn. */
+#include "audience.h"
+
+#include <math.h>
+
+#include "status.h"
+
+dem_status audience_add(audience *a, const dem_observer *observer)
+{
+    CHECK(isfinite(observer->interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", observer->interval);
+    CHECK(a->n < AUDIENCE_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)AUDIENCE_MOST);
+    a->members[a->n++] = (audience_member){.observer = *observer};
+    return DEM_OK;
+}
+
+bool audience_hears_events(const audience *a)
+{
+    for (int k = 0; k < a->n; k++)
+        if (a->members[k].observer.event != NULL) return true;
+    return false;
+}
+
+static dem_status first_of(dem_status status, dem_status next)
+{
+    return status != DEM_OK ? status : next;
+}
+
+dem_status audience_event(const audience *a, const dem_simulation *simulation, const dem_event *event)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->event != NULL) status = first_of(status, o->event(o->context, simulation, event));
+    }
+    return status;
+}
+
+dem_status audience_step(const audience *a, const dem_simulation *simulation)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->step != NULL) status = first_of(status, o->step(o->context, simulation));
+    }
+    return status;
+}
+
+int audience_due(const audience *a, double end, double t_end, double *t)
+{
+    int first = -1;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->frame == NULL || !(o->interval > 0.0)) continue;
+        const double due = (double)a->members[k].next_frame * o->interval;
+        if (due > end || due > t_end + 1e-9 * o->interval) continue;
+        if (first >= 0 && due >= *t) continue;
+        first = k;
+        *t = due;
+    }
+    return first;
+}
+
+dem_status audience_frame(audience *a, int k, const dem_simulation *simulation)
+{
+    const dem_observer *o = &a->members[k].observer;
+    a->members[k].next_frame++;
+    return o->frame(o->context, simulation);
+}

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Who is next; what has changed. */
+#include "queue.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "status.h"
+#include "strike.h"
+
+/* ---- set-up ---- */
+
+static dem_status allocate(queue *q, const dem_model *model)
+{
+    const size_t n = (size_t)q->contact->sites.n + 1;
+    q->due = malloc(n * sizeof *q->due);
+    q->waiting = malloc(n * sizeof *q->waiting);
+    q->waits = calloc(n, sizeof *q->waits);
+    q->kept = calloc(n, sizeof *q->kept);
+    q->sites = malloc(n * sizeof *q->sites);
+    CHECK(q->due && q->waiting && q->waits && q->kept && q->sites, DEM_ERROR_MEMORY,
+          "out of memory for %lld contact sites", (long long)q->contact->sites.n);
+    TRY(trail_create(&q->trail, model->lattice.n_nodes + q->contact->sites.scene.rule.n_books));
+    return books_create(&q->books, model->obstacles.n);
+}
+
+dem_status queue_create(queue *out, contact *c, const unsigned char *held, bool controlled, const double error[2])
+{
+    queue q = {.contact = c, .most = controlled ? 1.0 : (double)INFINITY};
+    dem_status status = allocate(&q, c->sites.scene.model);
+    if (status == DEM_OK) status = patch_create(&q.patch, &c->sites, held, error[0], error[1]);
+    if (status == DEM_OK)
+        *out = q;
+    else
+        queue_destroy(&q);
+    return status;
+}
+
+void queue_destroy(queue *q)
+{
+    patch_destroy(&q->patch);
+    trail_destroy(&q->trail);
+    books_destroy(&q->books);
+    free(q->due);
+    free(q->waiting);
+    free(q->waits);
+    free(q->kept);
+    free(q->sites);
+    free(q->events);
+    *q = (queue){0};
+}
+
+/* ---- who is next ---- */
+
+static void wait_until(queue *q, dem_index k, double due)
+{
+    q->due[k] = due;
+    if (q->waits[k] || !isfinite(due)) return;
+    q->waits[k] = true;
+    q->waiting[q->n_waiting++] = k;
+}
+
+/* The site that is due first, of those due at the same time that of the lowest number; -1: none. */
+static dem_index next_of(queue *q)
+{
+    dem_index next = -1, n = 0;
+    for (dem_index w = 0; w < q->n_waiting; w++) {
+        const dem_index k = q->waiting[w];
+        q->waits[k] = isfinite(q->due[k]);
+        if (!q->waits[k]) continue;
+        q->waiting[n++] = k;
+        if (next < 0 || q->due[k] < q->due[next] || (q->due[k] == q->due[next] && k < next)) next = k;
+    }
+    q->n_waiting = n;
+    return next;
+}
+
+static void look_ahead(queue *q)
+{
+    contact *c = q->contact;
+    const path *step = q->step;
+    for (dem_index w = 0; w < q->n_waiting; w++) q->waits[q->waiting[w]] = false;
+    q->n_waiting = 0;
+    q->now = step->t0;
+    q->error = 0.0;
+    q->settled = false;
+    contact_expect(c, step, q->state);
+    for (dem_index a = 0; a < contact_watched(c); a++) {
+        const dem_index k = contact_at_watch(c, a);
+        wait_until(q, k, contact_next(c, step, k, step->t0, q->state));
+    }
+}
+
+void queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+{
+    for (dem_index s = 0; s < q->n_sites; s++) q->kept[q->sites[s].k] = false;
+    q->n_sites = q->n_events = q->n_stops = 0;
+    trail_start(&q->trail, step->t1, y1, f1);
+    step->trail = &q->trail;
+    q->step = step;
+    q->state = state;
+    q->idle = q->contact->idle;
+    look_ahead(q);
+}
+
+/* ---- what has changed ---- */
+
+static void copy_books(const contact_books *from, contact_books *to, dem_index n_obstacles)
+{
+    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
+    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
+    *to = *from;
+    to->impulse = impulse;
+    to->friction_impulse = friction_impulse;
+}
+
+static void keep_site(queue *q, dem_index k)
+{
+    if (q->kept[k]) return;
+    q->kept[k] = true;
+    q->sites[q->n_sites++] = (queue_site){k, q->contact->sites.list[k]};
+}
+
+static bool moves(const queue *q, dem_index node)
+{
+    return q->patch.ring[node] >= 0 && q->patch.ring[node] <= q->patch.n_rings;
+}
+
+/* Does something to every site that has a node in the patch which moves. */
+static void each_site(queue *q, void (*act)(queue *q, dem_index k))
+{
+    const contact_sites *c = &q->contact->sites;
+    const surface *s = &c->scene.model->surface;
+    for (dem_index j = 0; j < q->patch.end[q->patch.n_rings]; j++) {
+        const dem_index i = q->patch.nodes[j].place;
+        if (c->of_node[i] >= 0) act(q, c->of_node[i]);
+        for (dem_index p = s->row[i]; p < s->row[i + 1] && c->n > c->scene.model->n_sites; p++) {
+            const dem_index k = sites_of_edge(c, s->at[p]);
+            if (c->list[k].node == i || !moves(q, c->list[k].node)) act(q, k); /* once */
+        }
+    }
+}
+
+void queue_undo(queue *q)
+{
+    contact *c = q->contact;
+    if (q->n_stops == 0) return;
+    for (dem_index s = 0; s < q->n_sites; s++) {
+        c->sites.list[q->sites[s].k] = q->sites[s].before;
+        q->kept[q->sites[s].k] = false;
+    }
+    copy_books(&q->books, &c->sites.books, c->sites.scene.model->obstacles.n);
+    (void)sites_regroup(&c->sites); /* groups that there were have room */
+    trail_undo(&q->trail);
+    c->idle = q->idle;
+    c->solved = NAN;
+    q->n_sites = q->n_events = q->n_stops = 0;
+}
+
+/* ---- events ---- */
+
+static dem_status hear(void *context, const dem_event *event)
+{
+    queue *q = context;
+    if (q->n_events == q->capacity) {
+        const dem_index more = 2 * q->capacity + 64;
+        dem_event *events = realloc(q->events, (size_t)more * sizeof *events);
+        CHECK(events != NULL, DEM_ERROR_MEMORY, "out of memory for the contact events of a step");
+        q->events = events;
+        q->capacity = more;
+    }
+    q->events[q->n_events++] = *event;
+    return DEM_OK;
+}
+
+static void look_again(queue *q, dem_index k)
+{
+    wait_until(q, k, contact_next(q->contact, q->step, k, q->now, q->state));
+}
+
+/* How far sites may go: some are faster now. */
+static double furthest(const queue *q)
+{
+    const path *step = q->step;
+    double way = q->contact->way;
+    for (dem_index j = 0; j < q->patch.end[q->patch.n_rings]; j++) {
+        const dem_index i = q->patch.nodes[j].place;
+        if (q->contact->sites.of_node[i] < 0) continue;
+        way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1, step->n_nodes + i)));
+    }
+    return way;
+}
+
+/* What is due at a site, and what follows from it. */
+static dem_status take(queue *q, dem_index k)
+{
+    const contact_listener listener = {hear, q};
+    contact *c = q->contact;
+    double error;
+    if (q->n_stops++ == 0) copy_books(&c->sites.books, &q->books, c->sites.scene.model->obstacles.n);
+    q->now = q->due[k];
+    TRY(patch_open(&q->patch, q->step, k, q->now, q->state));
+    each_site(q, keep_site);
+    TRY(contact_resolve_at(c, k, q->now, q->state, &listener));
+    TRY(patch_close(&q->patch, q->step, &q->trail, q->state, &error));
+    q->error += error;
+    c->way = furthest(q);
+    for (dem_index g = 0; g < q->patch.n_groups; g++) contact_weigh(c, q->step, q->patch.groups[g].group, q->state);
+    each_site(q, look_again);
+    return DEM_OK;
+}
+
+static bool has_moved(const queue *q, dem_index group)
+{
+    const reactions *r = &q->contact->sites.reactions;
+    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++)
+        if (trail_has(&q->trail, r->sites[r->members[m]].node)) return true;
+    return false;
+}
+
+/* The error that the patches leave in closed contacts goes: they are put back on their surfaces and stopped there. */
+static void settle_end(queue *q)
+{
+    contact_sites *c = &q->contact->sites;
+    double *y1 = q->trail.y1;
+    contact_moment now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
+    for (dem_index g = 0; g < c->reactions.n_groups; g++) {
+        if (!has_moved(q, g)) continue;
+        (void)strike_straighten(c, g, &now);
+        strike_stop(c, g, &now);
+    }
+    q->settled = true;
+}
+
+double queue_error(const queue *q)
+{
+    return isfinite(q->most) ? sqrt(q->error / q->most) : 0.0;
+}
+
+dem_status queue_show(queue *q, double t)
+{
+    if (t < q->now) {
+        queue_undo(q);
+        look_ahead(q);
+    }
+    for (dem_index k = next_of(q); k >= 0 && q->due[k] <= t && q->error <= q->most; k = next_of(q)) TRY(take(q, k));
+    if (t >= q->step->t1 && q->n_stops > 0 && !q->settled) settle_end(q);
+    q->now = t;
+    return DEM_OK;
+}
