@@ -49,7 +49,7 @@ FREQUENCY = math.sqrt(6)    # omega_max sqrt(m/k)
 IMPACTS = {"coarse": (5e-3, 2e-3, (1.3e-5, 1e-4, 4.4e-4, 1e-2)),    # spacing, m; time, s; errors, spacings
            "fine": (1.25e-3, 1e-3, (4.4e-4, 1e-2))}
 REFERENCE = ("fehlberg45", "exact", 1e-12, 0.5, 1e-12)
-ENGINES = (("fehlberg45", "exact"), ("verlet", "exact"))
+ENGINES = (("fehlberg45", "exact"), ("fehlberg45", "local"), ("dopri45", "local"), ("verlet", "exact"), ("verlet", "local"))
 RTOL, SKIN = 1e-4, 1e-9     # so loose and so thin that steps alone decide
 LONGEST, SHRINK, SHORTEST = 1.5, 0.75, 1e-4     # steps tried, times omega_max
 
