@@ -50,6 +50,11 @@ double *engine_state(const engine *e)
     return e->verlet != NULL ? verlet_state(e->verlet) : integrator_state(e->integrator);
 }
 
+dem_status engine_resume(engine *e)
+{
+    return e->verlet != NULL ? DEM_OK : integrator_resume(e->integrator);
+}
+
 dem_status engine_restart(engine *e, double t, const double *y)
 {
     if (e->verlet == NULL) return integrator_restart(e->integrator, t, y);

@@ -37,7 +37,8 @@ struct integrator {
     double t1;               /* end of the step that y1, f0, f1 hold */
     bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
     bool at_end;             /* the path was handed out: y1 is the start of the next step */
-    bool knows_f0;           /* f0 is that of y0 */
+    bool knows_f0;           /* f0 is that of y0, */
+    bool gives_f0;           /* and what ARKODE is given when it asks for it */
     dem_counts counts;
     char message[256]; /* ARKODE's last complaint */
 };
@@ -47,6 +48,10 @@ struct integrator {
 static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     integrator *I = user;
+    if (I->gives_f0 && t == I->t && vector_values(y) == vector_values(I->y0)) {
+        vector_share(I->f0, f);
+        return 0;
+    }
     I->counts.evaluations++;
     double *u = vector_fresh(f), *a = u + 2 * I->problem.n_nodes;
     return I->problem.derivative(t, vector_values(y), u, a, I->problem.context) == 0 ? 0 : -1;
@@ -156,7 +161,7 @@ static void start_from(integrator *I, double t, const double *y)
     if (y != vector_values(I->y0)) memcpy(vector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
     vector_share(I->y0, I->y);
     I->t = t;
-    I->at_end = I->holds_step = I->knows_f0 = false;
+    I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;
 }
 
 /* The order that ARKODE is told limits the degree of its interpolant, and nothing else: below 4 it would not hold the
@@ -294,7 +299,19 @@ static void go_on(integrator *I)
     vector_share(I->y1, I->y0);
     vector_share(I->f1, I->f0);
     I->t = I->t1;
-    I->at_end = false;
+    I->at_end = I->gives_f0 = false;
+}
+
+/* ARKODE begins anew from the state, of which the derivative may be known. */
+static dem_status reset(integrator *I)
+{
+    vector_share(I->y0, I->y);
+    I->at_end = I->holds_step = false;
+    I->gives_f0 = I->knows_f0;
+    I->guards_t = NAN;
+    CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
+          "ARKODE does not restart at t = %.9g s: %s", I->t, I->message);
+    return DEM_OK;
 }
 
 void integrator_end(integrator *I, double **y1, double **f1)
@@ -309,7 +326,7 @@ dem_status integrator_redo(integrator *I, double factor)
     I->counts.rejected++;
     CHECK(ARKodeSetInitStep(I->arkode, factor * (I->t1 - I->t)) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s",
           I->message);
-    return integrator_restart(I, I->t, vector_values(I->y0));
+    return reset(I);
 }
 
 void integrator_settle(integrator *I, const path *step)
@@ -357,10 +374,12 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
 dem_status integrator_restart(integrator *I, double t, const double *y)
 {
     start_from(I, t, y);
-    I->guards_t = NAN;
-    CHECK(ARKodeReset(I->arkode, t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
-          "ARKODE does not restart at t = %.9g s: %s", t, I->message);
-    return DEM_OK;
+    return reset(I);
+}
+
+dem_status integrator_resume(integrator *I)
+{
+    return reset(I);
 }
 
 dem_counts integrator_counts(const integrator *I)

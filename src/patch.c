@@ -3,6 +3,7 @@
 #include "patch.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "status.h"
 
@@ -29,6 +30,7 @@ void patch_destroy(patch *p)
 {
     free(p->ring);
     free(p->nodes);
+    free(p->block);
     free(p->groups);
     *p = (patch){0};
 }
@@ -41,23 +43,45 @@ static int reach(const patch *p, int stage)
     return rings < p->n_rings ? rings : p->n_rings;
 }
 
-/* ---- rings ---- */
+/* ---- memory ---- */
 
-static dem_status grow(void **array, dem_index *capacity, dem_index n, size_t size)
+enum { ARRAYS = 6 * PATCH_STAGES + 3 };
+
+static double **array_of(patch *p, int k)
 {
-    if (n < *capacity) return DEM_OK;
-    const dem_index more = 2 * *capacity + 64;
-    void *larger = realloc(*array, (size_t)more * size);
-    CHECK(larger != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
-    *array = larger;
-    *capacity = more;
+    double **const groups[] = {p->x, p->v, p->a, p->dx, p->dv, p->da};
+    return k < 3 * PATCH_STAGES
+               ? &groups[k / PATCH_STAGES][k % PATCH_STAGES]
+               : &groups[3 + (k - 3 * PATCH_STAGES) / (PATCH_STAGES + 1)][(k - 3 * PATCH_STAGES) % (PATCH_STAGES + 1)];
+}
+
+/* Room for one more node, or pair of the books. */
+static dem_status reserve(patch *p)
+{
+    const dem_index used = p->n + p->n_books, more = 2 * p->capacity + 64;
+    if (used < p->capacity) return DEM_OK;
+    patch_node *nodes = realloc(p->nodes, (size_t)more * sizeof *nodes);
+    CHECK(nodes != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    p->nodes = nodes;
+    double *block = calloc(2 * (size_t)more * ARRAYS, sizeof *block);
+    CHECK(block != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    for (int k = 0; k < ARRAYS; k++) {
+        double **array = array_of(p, k), *moved = block + 2 * (size_t)more * (size_t)k;
+        if (used > 0) memcpy(moved, *array, 2 * (size_t)used * sizeof *moved);
+        *array = moved;
+    }
+    free(p->block);
+    p->block = block;
+    p->capacity = more;
     return DEM_OK;
 }
+
+/* ---- rings ---- */
 
 static dem_status add_node(patch *p, dem_index i, int ring)
 {
     if (p->ring[i] >= 0) return DEM_OK;
-    TRY(grow((void **)&p->nodes, &p->capacity, p->n, sizeof *p->nodes));
+    TRY(reserve(p));
     p->ring[i] = (signed char)ring;
     p->nodes[p->n].place = i;
     p->nodes[p->n].held = p->held != NULL ? p->held[i] : 0;
@@ -83,7 +107,13 @@ static dem_status note_group(patch *p, dem_index group, int ring, bool *is_new)
     *is_new = false;
     for (dem_index g = 0; g < p->n_groups; g++)
         if (p->groups[g].group == group) return DEM_OK;
-    TRY(grow((void **)&p->groups, &p->group_capacity, p->n_groups, sizeof *p->groups));
+    if (p->n_groups == p->group_capacity) {
+        const dem_index more = 2 * p->group_capacity + 16;
+        patch_group *groups = realloc(p->groups, (size_t)more * sizeof *groups);
+        CHECK(groups != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+        p->groups = groups;
+        p->group_capacity = more;
+    }
     p->groups[p->n_groups++] = (patch_group){group, ring};
     *is_new = true;
     return DEM_OK;
@@ -160,24 +190,23 @@ static dem_status find_groups(patch *p)
 /* ---- books ---- */
 
 /* The pair of the books at a place; one that is new has not changed. */
-static dem_status find_book(patch *p, dem_index place, patch_node **out)
+static dem_status find_book(patch *p, dem_index place, dem_index *out)
 {
-    for (dem_index b = 0; b < p->n_books; b++) {
-        *out = &p->nodes[p->n + b];
-        if ((*out)->place == place) return DEM_OK;
-    }
-    TRY(grow((void **)&p->nodes, &p->capacity, p->n + p->n_books, sizeof *p->nodes));
-    *out = &p->nodes[p->n + p->n_books++];
-    **out = (patch_node){.place = place};
+    for (*out = p->n; *out < p->n + p->n_books; (*out)++)
+        if (p->nodes[*out].place == place) return DEM_OK;
+    TRY(reserve(p));
+    p->nodes[*out] = (patch_node){.place = place};
+    for (int k = 3 * PATCH_STAGES; k < ARRAYS; k++) vec2_put(*array_of(p, k), *out, (vec2){0.0, 0.0});
+    p->n_books++;
     return DEM_OK;
 }
 
 static dem_status add_rate(patch *p, dem_index place, int stage, double sign, vec2 rate)
 {
-    patch_node *book;
+    dem_index book;
     if (rate.x == 0.0 && rate.y == 0.0) return DEM_OK;
     TRY(find_book(p, place, &book));
-    book->da[stage] = vec2_along(book->da[stage], sign, rate);
+    vec2_put(p->da[stage], book, vec2_along(vec2_at(p->da[stage], book), sign, rate));
     return DEM_OK;
 }
 
@@ -237,20 +266,26 @@ static double stage_time(const patch *p, const path *step, int stage)
     return stage == LAST ? step->t1 : p->t + p->table.c[stage] * p->h;
 }
 
-/* Fetches n nodes as they are at a stage without the event, and puts them into the state, and the time. */
+/* Puts the time into a state, for those who are driven by it. */
+static void put_time(const patch *p, const path *step, int stage, double *y)
+{
+    const dem_index last = step->n_nodes - 1;
+    if (p->sites->scene.rule.load.boundaries == NULL) return;
+    vec2_put(y, step->n_nodes + last, path_velocity(step, stage_time(p, step, stage), last));
+}
+
+/* Puts n nodes into a state as they are at a stage without the event. */
 static void fetch_stage(patch *p, const path *step, int stage, dem_index n, double *y)
 {
-    const double t = stage_time(p, step, stage);
-    double *v = y + scene_velocities(&p->sites->scene);
+    const double s = p->table.c[stage];
+    double *x = p->x[stage], *v = p->v[stage];
     for (dem_index j = 0; j < n; j++) {
-        patch_node *node = &p->nodes[j];
-        node->x[stage] = path_position(step, t, node->place);
-        node->v[stage] = path_velocity(step, t, node->place);
-        vec2_put(y, node->place, node->x[stage]);
-        vec2_put(v, node->place, node->v[stage]);
+        const dem_index i = p->nodes[j].place;
+        trail_at(&p->nodes[j].motion, s, x + 2 * j, v + 2 * j);
+        vec2_put(y, i, vec2_at(x, j));
+        vec2_put(y, step->n_nodes + i, vec2_at(v, j));
     }
-    if (p->sites->scene.rule.load.boundaries != NULL)
-        vec2_put(v, step->n_nodes - 1, path_velocity(step, t, step->n_nodes - 1));
+    put_time(p, step, stage, y);
 }
 
 /* The contact forces in a state; then accelerate() gives the accelerations. */
@@ -273,18 +308,40 @@ static dem_status open_stage(patch *p, const path *step, int stage, double *y)
 {
     fetch_stage(p, step, stage, p->end[reach(p, stage) + 1], y);
     solve_groups(p, stage, y);
-    for (dem_index j = 0; j < p->end[reach(p, stage)]; j++) p->nodes[j].a[stage] = accelerate(p, &p->nodes[j], y);
+    for (dem_index j = 0; j < p->end[reach(p, stage)]; j++) vec2_put(p->a[stage], j, accelerate(p, &p->nodes[j], y));
     return add_rates(p, stage, -1.0, y);
 }
 
 /* At the end of the step that is known. */
-static dem_status open_end(patch *p, const path *step, double *y)
+static dem_status open_end(patch *p, const path *step)
 {
+    for (dem_index j = 0; j < p->n; j++) {
+        const dem_index i = p->nodes[j].place;
+        vec2_put(p->x[LAST], j, vec2_at(step->y1, i));
+        vec2_put(p->v[LAST], j, vec2_at(step->y1, step->n_nodes + i));
+        vec2_put(p->a[LAST], j, vec2_at(step->f1, step->n_nodes + i));
+    }
     TRY(add_rates(p, END, -1.0, step->y1));
-    TRY(add_rates(p, LAST, -1.0, step->y1));
-    fetch_stage(p, step, LAST, p->n, y);
-    for (dem_index j = 0; j < p->n; j++) p->nodes[j].a[LAST] = vec2_at(step->f1, step->n_nodes + p->nodes[j].place);
-    return DEM_OK;
+    return add_rates(p, LAST, -1.0, step->y1);
+}
+
+static trail_motion motion_of(const patch *p, const path *step, dem_index place)
+{
+    const bool turned = trail_has(step->trail, place);
+    const trail_motion motion = turned ? *trail_of(step->trail, place) : path_motion(step, place);
+    return trail_later(&motion, p->t, step->t1);
+}
+
+/* What the event is due by has the bits that it was found with. */
+static void fetch_start(patch *p, const path *step, double *y)
+{
+    for (dem_index j = 0; j < p->end[1]; j++) {
+        const dem_index i = p->nodes[j].place;
+        vec2_put(p->x[0], j, path_position(step, p->t, i));
+        vec2_put(p->v[0], j, path_velocity(step, p->t, i));
+        vec2_put(y, i, vec2_at(p->x[0], j));
+        vec2_put(y, step->n_nodes + i, vec2_at(p->v[0], j));
+    }
 }
 
 dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state)
@@ -292,45 +349,56 @@ dem_status patch_open(patch *p, const path *step, dem_index site, double t, doub
     p->t = t;
     p->h = step->t1 - t;
     TRY(gather(p, site));
-    TRY(open_end(p, step, state));
+    for (dem_index j = 0; j < p->n; j++) p->nodes[j].motion = motion_of(p, step, p->nodes[j].place);
+    TRY(open_end(p, step));
     for (int stage = 0; stage < PATCH_STAGES; stage++)
         if (stage != LAST) TRY(open_stage(p, step, stage, state));
     fetch_stage(p, step, 0, p->n, state);
+    fetch_start(p, step, state);
     return DEM_OK;
 }
 
 /* ---- the change ---- */
 
-static patch_node *all_nodes(patch *p, dem_index j)
+/* to = from + h sum of weights rates over the stages before, of nodes first to last - 1. */
+static void combine(const patch *p, int stage, double *const rates[], double *const change[], dem_index first,
+                    dem_index last)
 {
-    return &p->nodes[j < p->end[p->n_rings] ? j : j - p->end[p->n_rings] + p->n]; /* those that move, then the books */
-}
-
-/* Change at a stage from the rates of those before; that at the end with the weights. */
-static void advance(const patch *p, patch_node *node, int stage, const double *weights)
-{
-    vec2 x = {0.0, 0.0}, v = {0.0, 0.0};
+    const double *weights = stage == END ? p->table.b : p->table.a + stage * PATCH_STAGES;
+    double *restrict to = change[stage];
+    memcpy(to + 2 * first, change[0] + 2 * first, 2 * (size_t)(last - first) * sizeof *to);
     for (int q = 0; q < stage; q++) {
-        x = vec2_along(x, p->h * weights[q], node->dv[q]);
-        v = vec2_along(v, p->h * weights[q], node->da[q]);
+        const double *restrict rate = rates[q], weight = p->h * weights[q];
+        for (dem_index k = 2 * first; k < 2 * last && weight != 0.0; k++) to[k] += weight * rate[k];
     }
-    node->dx[stage] = vec2_add(node->dx[0], x);
-    node->dv[stage] = vec2_add(node->dv[0], v);
 }
 
-/* Puts the changed state at a stage in place, as far as accelerations depend on it, and the time. */
+static void advance(patch *p, int stage)
+{
+    const dem_index moving = p->end[p->n_rings];
+    combine(p, stage, p->dv, p->dx, 0, moving);
+    combine(p, stage, p->da, p->dv, 0, moving);
+    if (p->n_books == 0) return;
+    combine(p, stage, p->dv, p->dx, p->n, p->n + p->n_books);
+    combine(p, stage, p->da, p->dv, p->n, p->n + p->n_books);
+}
+
+/* Puts the changed state at a stage in place, as far as accelerations depend on it. */
 static void put_stage(const patch *p, const path *step, int stage, double *y)
 {
     const int at = stage == END ? LAST : stage;
-    double *v = y + scene_velocities(&p->sites->scene);
-    for (dem_index j = 0; j < p->end[reach(p, stage) + 1]; j++) {
-        const patch_node *node = &p->nodes[j];
-        const bool moves = j < p->end[p->n_rings];
-        vec2_put(y, node->place, moves ? vec2_add(node->x[at], node->dx[stage]) : node->x[at]);
-        vec2_put(v, node->place, moves ? vec2_add(node->v[at], node->dv[stage]) : node->v[at]);
+    const dem_index needed = p->end[reach(p, stage) + 1], moving = p->end[p->n_rings];
+    for (dem_index j = 0; j < needed; j++) {
+        const dem_index i = p->nodes[j].place;
+        vec2 x = vec2_at(p->x[at], j), v = vec2_at(p->v[at], j);
+        if (j < moving) {
+            x = vec2_add(x, vec2_at(p->dx[stage], j));
+            v = vec2_add(v, vec2_at(p->dv[stage], j));
+        }
+        vec2_put(y, i, x);
+        vec2_put(y, step->n_nodes + i, v);
     }
-    if (p->sites->scene.rule.load.boundaries != NULL)
-        vec2_put(v, step->n_nodes - 1, path_velocity(step, stage_time(p, step, at), step->n_nodes - 1));
+    put_time(p, step, at, y);
 }
 
 /* Rates of the change at a stage. */
@@ -340,64 +408,66 @@ static dem_status change_stage(patch *p, const path *step, int stage, double *y)
     put_stage(p, step, stage, y);
     solve_groups(p, stage, y);
     for (dem_index j = 0; j < p->end[p->n_rings]; j++) {
-        patch_node *node = &p->nodes[j];
+        const patch_node *node = &p->nodes[j];
         vec2 change = {0.0, 0.0};
-        if (j < p->end[reach(p, stage)]) change = vec2_sub(accelerate(p, node, y), node->a[at]);
+        if (j < p->end[reach(p, stage)]) change = vec2_sub(accelerate(p, node, y), vec2_at(p->a[at], j));
         if (node->held & DEM_COMPONENT_X) change.x = 0.0;
         if (node->held & DEM_COMPONENT_Y) change.y = 0.0;
-        node->da[stage] = change;
+        vec2_put(p->da[stage], j, change);
     }
     return add_rates(p, stage, 1.0, y);
 }
 
-/* Makes the change of a node one of the step. */
-static dem_status leave(const patch *p, const path *step, trail *tr, const patch_node *node)
+static trail_jump jump_at(const patch *p, int stage, dem_index j)
 {
-    const trail_jump at = {node->dx[0], node->dv[0], node->da[0]}, end = {node->dx[END], node->dv[END], node->da[END]};
+    return (trail_jump){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
+}
+
+/* Makes the change of a node one of the step. */
+static dem_status leave(const patch *p, const path *step, trail *tr, dem_index j)
+{
+    const dem_index place = p->nodes[j].place;
+    const trail_jump at = jump_at(p, 0, j), end = jump_at(p, END, j);
     const trail_jump by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
-    if (!trail_has(tr, node->place)) {
-        const trail_motion whole = path_motion(step, node->place);
-        TRY(trail_add(tr, node->place, &whole));
-    }
-    trail_motion motion = trail_later(trail_last(tr, node->place), p->t, step->t1);
+    trail_motion motion = j < p->n ? p->nodes[j].motion : motion_of(p, step, place);
     trail_bend(&motion, step->t1, &at, &by);
-    TRY(trail_add(tr, node->place, &motion));
-    trail_move_end(tr, node->place, &end);
+    TRY(trail_turn(tr, place, &motion));
+    trail_move_end(tr, place, &end);
     return DEM_OK;
 }
 
 static double squared_error(const patch *p)
 {
     const dem_index n = p->sites->scene.model->lattice.n_nodes;
-    double sum = 0.0;
-    for (dem_index j = 0; j < p->end[p->n_rings]; j++) {
-        vec2 x = {0.0, 0.0}, v = {0.0, 0.0};
+    double weights[PATCH_STAGES], x_sum = 0.0, v_sum = 0.0;
+    for (int q = 0; q < PATCH_STAGES; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
+    for (dem_index k = 0; k < 2 * p->end[p->n_rings]; k++) {
+        double x = 0.0, v = 0.0;
         for (int q = 0; q < PATCH_STAGES; q++) {
-            const double weight = p->h * (p->table.b[q] - p->table.d[q]);
-            x = vec2_along(x, weight, p->nodes[j].dv[q]);
-            v = vec2_along(v, weight, p->nodes[j].da[q]);
+            x += weights[q] * p->dv[q][k];
+            v += weights[q] * p->da[q][k];
         }
-        sum += vec2_dot(x, x) / (p->position_error * p->position_error) +
-               vec2_dot(v, v) / (p->velocity_error * p->velocity_error);
+        x_sum += x * x;
+        v_sum += v * v;
     }
-    return sum / (4.0 * (double)n);
+    return (x_sum / (p->position_error * p->position_error) + v_sum / (p->velocity_error * p->velocity_error)) /
+           (4.0 * (double)n);
 }
 
 dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error)
 {
     TRY(find_groups(p));
     for (dem_index j = 0; j < p->end[p->n_rings]; j++) {
-        patch_node *node = &p->nodes[j];
-        node->dx[0] = vec2_sub(vec2_at(state, node->place), node->x[0]);
-        node->dv[0] = vec2_sub(vec2_at(state, step->n_nodes + node->place), node->v[0]);
+        const dem_index i = p->nodes[j].place;
+        vec2_put(p->dx[0], j, vec2_sub(vec2_at(state, i), vec2_at(p->x[0], j)));
+        vec2_put(p->dv[0], j, vec2_sub(vec2_at(state, step->n_nodes + i), vec2_at(p->v[0], j)));
     }
     for (int stage = 0; stage <= END; stage++) {
-        const double *weights = stage == END ? p->table.b : p->table.a + stage * PATCH_STAGES;
-        for (dem_index j = 0; j < p->end[p->n_rings] + p->n_books && stage > 0; j++)
-            advance(p, all_nodes(p, j), stage, weights);
+        if (stage > 0) advance(p, stage);
         TRY(change_stage(p, step, stage, state));
     }
-    for (dem_index j = 0; j < p->end[p->n_rings] + p->n_books; j++) TRY(leave(p, step, tr, all_nodes(p, j)));
+    for (dem_index j = 0; j < p->end[p->n_rings]; j++) TRY(leave(p, step, tr, j));
+    for (dem_index j = p->n; j < p->n + p->n_books; j++) TRY(leave(p, step, tr, j));
     *error = squared_error(p);
     return DEM_OK;
 }

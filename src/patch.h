@@ -13,14 +13,12 @@
 
 enum { PATCH_STAGES = 6, PATCH_RINGS = 6 };
 
-/** A node of the patch, or a pair of the books. At each stage: how it moves without the event, and the change; the last
- *  change is that at the end of the step. */
+/** A node of the patch, or a pair of the books. */
 typedef struct patch_node {
-    dem_index place; /* in a state */
-    bool grouped;    /* it takes part in closed contacts */
-    int held;        /* components that a boundary prescribes */
-    vec2 x[PATCH_STAGES], v[PATCH_STAGES], a[PATCH_STAGES];
-    vec2 dx[PATCH_STAGES + 1], dv[PATCH_STAGES + 1], da[PATCH_STAGES + 1];
+    dem_index place;     /* in a state */
+    bool grouped;        /* it takes part in closed contacts */
+    int held;            /* components that a boundary prescribes */
+    trail_motion motion; /* without the event, from there on */
 } patch_node;
 
 /** Closed contacts that share nodes, in the ring where they begin. */
@@ -38,7 +36,10 @@ typedef struct patch {
     signed char *ring; /* [n_nodes] of a node of the patch; -1: it is none */
     dem_index n, n_books, capacity;
     patch_node *nodes; /* [n] by rings, the last as a frame that stays as it is; then the books [n_books] */
-    dem_index end[PATCH_RINGS + 2]; /* nodes of ring r or nearer */
+    double *block;     /* those that follow, [n + n_books][2]: */
+    double *x[PATCH_STAGES], *v[PATCH_STAGES], *a[PATCH_STAGES]; /* at each stage, without the event: and x'' */
+    double *dx[PATCH_STAGES + 1], *dv[PATCH_STAGES + 1], *da[PATCH_STAGES + 1]; /* the change, and at the end */
+    dem_index end[PATCH_RINGS + 2];                                             /* nodes of ring r or nearer */
     dem_index n_groups, group_capacity;
     patch_group *groups; /* [n_groups] with nodes in the patch */
     double t, h;         /* s, of the event; from it to the end of the step */

@@ -100,6 +100,7 @@ void queue_start(queue *q, path *step, double *y1, double *f1, double *state)
     q->step = step;
     q->state = state;
     q->idle = q->contact->idle;
+    q->quiet = false;
     look_ahead(q);
 }
 
@@ -218,8 +219,57 @@ static bool has_moved(const queue *q, dem_index group)
     return false;
 }
 
+/* Accelerations at the end of the step depend on the new positions of nodes and neighbours. */
+static void renew(const queue *q, dem_index i, const double *y)
+{
+    const contact_sites *c = &q->contact->sites;
+    const unsigned held = q->patch.held != NULL ? q->patch.held[i] : 0;
+    const double *v = y + scene_velocities(&c->scene);
+    double *a = q->trail.f1 + scene_velocities(&c->scene);
+    const bool grouped = sites_group_at(c, i) >= 0;
+    const vec2 now =
+        grouped ? vec2_at(c->reactions.a, i) : model_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
+    if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
+    if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
+    if (held == 0) vec2_put(q->trail.f1, i, vec2_at(v, i));
+}
+
+/* The rates of the books that contacts fill, from all of them. */
+static dem_status renew_books(queue *q)
+{
+    const contact_scene *scene = &q->contact->sites.scene;
+    const dem_index first = scene_books(scene), n_impulses = 2 * scene->model->obstacles.n;
+    double *rate = q->trail.f1 + scene_velocities(scene) + 2 * first;
+    for (dem_index b = 0; b <= n_impulses; b++) TRY(trail_keep(&q->trail, first + b));
+    for (dem_index k = 0; k <= 2 * n_impulses; k++) rate[k] = 0.0; /* the last is the power of friction */
+    contact_account(q->contact, q->trail.y1, rate);
+    return DEM_OK;
+}
+
+/* Derivatives at the end of the step, for the change of nodes and contacts: they are those of the state to the bit, but
+ * for the power of damping and boundaries. */
+static dem_status renew_end(queue *q)
+{
+    contact_sites *c = &q->contact->sites;
+    const springs *s = &c->scene.model->springs;
+    const double *y1 = q->trail.y1;
+    for (dem_index g = 0; g < c->reactions.n_groups; g++)
+        reactions_solve(&c->reactions, g, y1, y1 + scene_velocities(&c->scene));
+    for (dem_index e = 0, n = q->trail.n; e < n; e++) {
+        const dem_index i = q->trail.list[e].node;
+        if (i >= c->scene.model->lattice.n_nodes) continue;
+        renew(q, i, y1);
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            if (trail_has(&q->trail, s->neighbour[p])) continue;
+            TRY(trail_keep(&q->trail, s->neighbour[p]));
+            renew(q, s->neighbour[p], y1);
+        }
+    }
+    return renew_books(q);
+}
+
 /* The error that the patches leave in closed contacts goes: they are put back on their surfaces and stopped there. */
-static void settle_end(queue *q)
+static dem_status settle_end(queue *q)
 {
     contact_sites *c = &q->contact->sites;
     double *y1 = q->trail.y1;
@@ -230,6 +280,7 @@ static void settle_end(queue *q)
         strike_stop(c, g, &now);
     }
     q->settled = true;
+    return renew_end(q);
 }
 
 double queue_error(const queue *q)
@@ -239,12 +290,15 @@ double queue_error(const queue *q)
 
 dem_status queue_show(queue *q, double t)
 {
-    if (t < q->now) {
+    const bool goes_back = t < q->now;
+    if (goes_back && q->quiet) return DEM_OK;
+    if (goes_back) {
         queue_undo(q);
         look_ahead(q);
     }
     for (dem_index k = next_of(q); k >= 0 && q->due[k] <= t && q->error <= q->most; k = next_of(q)) TRY(take(q, k));
-    if (t >= q->step->t1 && q->n_stops > 0 && !q->settled) settle_end(q);
     q->now = t;
-    return DEM_OK;
+    if (t < q->step->t1) return DEM_OK;
+    q->quiet = q->n_stops == 0;
+    return q->quiet || q->settled ? DEM_OK : settle_end(q);
 }

@@ -22,6 +22,7 @@ typedef struct queue {
     double *state;      /* [4 n] scratch, the caller's */
     double now;         /* s, everything until here is done */
     bool settled;       /* and the end of the step is */
+    bool quiet;         /* nothing happens in the step */
     double error;       /* of all patches, squared */
     double most;        /* of it; beyond it the step is to be rejected, and nothing more is done */
     double *due;        /* [n sites] s, when something happens at a site; infinity: nothing */

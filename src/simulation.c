@@ -329,7 +329,10 @@ static dem_status commit_local_step(dem_simulation *s)
     TRY(queue_show(&s->queue, s->path.t1));
     const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
     s->events += s->queue.n_stops;
-    if (moved || corrected) TRY(engine_restart(&s->engine, s->t, s->y));
+    if (moved)
+        TRY(engine_restart(&s->engine, s->t, s->y));
+    else if (corrected)
+        TRY(engine_resume(&s->engine));
     return tell_step(s);
 }
 

@@ -121,8 +121,10 @@ static void book(contact_sites *c, dem_event *event, double energy, vec2 impulse
 static dem_status hold_on(contact_sites *c, dem_index k, contact_hit held, const contact_moment *now)
 {
     contact_site *site = &c->list[k];
+    const bool stays_free = site->n_closed == 0 && held.n == 0;
     site->n_closed = 0;
     sites_disturb(site);
+    if (stays_free) return DEM_OK;
     for (int q = 0; q < held.n; q++) {
         const segment *s = scene_segment(&c->scene, held.feature[q]);
         const double speed = vec2_dot(vec2_at(now->v, site->node), s->tangent);

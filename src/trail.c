@@ -8,25 +8,24 @@
 
 dem_status trail_create(trail *out, dem_index n_nodes)
 {
-    trail tr = {.n_nodes = n_nodes, .last = malloc((size_t)n_nodes * sizeof *tr.last)};
-    CHECK(tr.last != NULL, DEM_ERROR_MEMORY, "out of memory for the motion of %lld nodes", (long long)n_nodes);
-    for (dem_index i = 0; i < n_nodes; i++) tr.last[i] = -1;
+    trail tr = {.n_nodes = n_nodes, .place = malloc((size_t)n_nodes * sizeof *tr.place)};
+    CHECK(tr.place != NULL, DEM_ERROR_MEMORY, "out of memory for the motion of %lld nodes", (long long)n_nodes);
+    for (dem_index i = 0; i < n_nodes; i++) tr.place[i] = -1;
     *out = tr;
     return DEM_OK;
 }
 
 void trail_destroy(trail *tr)
 {
-    free(tr->last);
-    free(tr->pieces);
-    free(tr->ends);
+    free(tr->place);
+    free(tr->list);
     *tr = (trail){0};
 }
 
 static void forget(trail *tr)
 {
-    for (dem_index k = 0; k < tr->n_ends; k++) tr->last[tr->ends[k].node] = -1;
-    tr->n = tr->n_ends = 0;
+    for (dem_index k = 0; k < tr->n; k++) tr->place[tr->list[k].node] = -1;
+    tr->n = 0;
 }
 
 void trail_start(trail *tr, double end, double *y1, double *f1)
@@ -40,8 +39,8 @@ void trail_start(trail *tr, double end, double *y1, double *f1)
 void trail_undo(trail *tr)
 {
     const dem_index n = tr->n_nodes;
-    for (dem_index k = 0; k < tr->n_ends; k++) {
-        const trail_end *e = &tr->ends[k];
+    for (dem_index k = tr->n - 1; k >= 0; k--) { /* of a node that is kept twice the first was before */
+        const trail_node *e = &tr->list[k];
         vec2_put(tr->y1, e->node, e->x);
         vec2_put(tr->y1, n + e->node, e->v);
         vec2_put(tr->f1, e->node, e->u);
@@ -50,38 +49,32 @@ void trail_undo(trail *tr)
     forget(tr);
 }
 
-/* Room for one more. */
-static dem_status grow(void **array, dem_index *capacity, dem_index n, size_t size)
-{
-    if (n < *capacity) return DEM_OK;
-    const dem_index more = 2 * *capacity + 256;
-    void *larger = realloc(*array, (size_t)more * size);
-    CHECK(larger != NULL, DEM_ERROR_MEMORY, "out of memory for the contact events of a step");
-    *array = larger;
-    *capacity = more;
-    return DEM_OK;
-}
-
-static dem_status keep_end(trail *tr, dem_index node)
+dem_status trail_keep(trail *tr, dem_index node)
 {
     const dem_index n = tr->n_nodes;
-    TRY(grow((void **)&tr->ends, &tr->end_capacity, tr->n_ends, sizeof *tr->ends));
-    tr->ends[tr->n_ends++] = (trail_end){node, vec2_at(tr->y1, node), vec2_at(tr->y1, n + node), vec2_at(tr->f1, node),
-                                         vec2_at(tr->f1, n + node)};
+    if (tr->n == tr->capacity) {
+        const dem_index more = 2 * tr->capacity + 256;
+        trail_node *list = realloc(tr->list, (size_t)more * sizeof *list);
+        CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contact events of a step");
+        tr->list = list;
+        tr->capacity = more;
+    }
+    trail_node *e = &tr->list[tr->n++];
+    e->node = node;
+    e->x = vec2_at(tr->y1, node);
+    e->v = vec2_at(tr->y1, n + node);
+    e->u = vec2_at(tr->f1, node);
+    e->a = vec2_at(tr->f1, n + node);
     return DEM_OK;
 }
 
-const trail_motion *trail_last(const trail *tr, dem_index node)
+dem_status trail_turn(trail *tr, dem_index node, const trail_motion *motion)
 {
-    return &tr->pieces[tr->last[node]].motion;
-}
-
-dem_status trail_add(trail *tr, dem_index node, const trail_motion *motion)
-{
-    TRY(grow((void **)&tr->pieces, &tr->capacity, tr->n, sizeof *tr->pieces));
-    if (!trail_has(tr, node)) TRY(keep_end(tr, node));
-    tr->pieces[tr->n] = (trail_piece){*motion, tr->last[node]};
-    tr->last[node] = tr->n++;
+    if (!trail_has(tr, node)) {
+        TRY(trail_keep(tr, node));
+        tr->place[node] = tr->n - 1;
+    }
+    tr->list[tr->place[node]].motion = *motion;
     return DEM_OK;
 }
 
@@ -101,19 +94,6 @@ void trail_move_end(trail *tr, dem_index node, const trail_jump *jump)
 
 /* ---- polynomials ---- */
 
-static double value(const double c[TRAIL_TERMS], double s)
-{
-    return c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * (c[4] + s * c[5]))));
-}
-
-/* The piece that holds at t. */
-static const trail_motion *motion_at(const trail *tr, double t, dem_index node)
-{
-    const trail_piece *piece = &tr->pieces[tr->last[node]];
-    while (t < piece->motion.from && piece->before >= 0) piece = &tr->pieces[piece->before];
-    return &piece->motion;
-}
-
 static double share(const trail *tr, const trail_motion *m, double t)
 {
     return tr->end > m->from ? (t - m->from) / (tr->end - m->from) : 0.0;
@@ -121,16 +101,18 @@ static double share(const trail *tr, const trail_motion *m, double t)
 
 vec2 trail_position(const trail *tr, double t, dem_index node)
 {
-    const trail_motion *m = motion_at(tr, t, node);
-    const double s = share(tr, m, t);
-    return (vec2){value(m->x[0], s), value(m->x[1], s)};
+    double x[2], v[2];
+    const trail_motion *m = trail_of(tr, node);
+    trail_at(m, share(tr, m, t), x, v);
+    return vec2_at(x, 0);
 }
 
 vec2 trail_velocity(const trail *tr, double t, dem_index node)
 {
-    const trail_motion *m = motion_at(tr, t, node);
-    const double s = share(tr, m, t);
-    return (vec2){value(m->v[0], s), value(m->v[1], s)};
+    double x[2], v[2];
+    const trail_motion *m = trail_of(tr, node);
+    trail_at(m, share(tr, m, t), x, v);
+    return vec2_at(v, 0);
 }
 
 /* c(s + r u) in powers of u: Taylor's shift, then the scale. */
@@ -147,6 +129,7 @@ trail_motion trail_later(const trail_motion *m, double from, double end)
     trail_motion later = *m;
     const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
     later.from = from;
+    if (s == 0.0) return later;
     for (int c = 0; c < 2; c++) {
         expand(later.x[c], s, 1.0 - s);
         expand(later.v[c], s, 1.0 - s);

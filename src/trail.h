@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How events inside a step change the motion of nodes: polynomials of these nodes, each from an event to the end of
- * the step, and the state there. */
+/* How events inside a step have changed the motion of nodes from the last of them on: a polynomial for each of these
+ * nodes, and the state at the end of the step. */
 #ifndef DEM_TRAIL_H
 #define DEM_TRAIL_H
 
@@ -22,26 +22,20 @@ typedef struct trail_jump {
     vec2 x, v, a;
 } trail_jump;
 
-typedef struct trail_piece {
-    trail_motion motion;
-    dem_index before; /* the piece until motion.from, -1: none */
-} trail_piece;
-
-/** A node's end of the step before any event changed it. */
-typedef struct trail_end {
+/** A node that has been changed, and its end of the step before that. */
+typedef struct trail_node {
     dem_index node;
+    trail_motion motion; /* from the last event that has changed it */
     vec2 x, v, u, a;
-} trail_end;
+} trail_node;
 
 typedef struct trail {
     dem_index n_nodes;
-    double end;      /* s, of the step */
-    double *y1, *f1; /* [4 n] state there and its derivative, the engine's */
-    dem_index *last; /* [n_nodes] piece that goes to the end, -1: none */
+    double end;       /* s, of the step */
+    double *y1, *f1;  /* [4 n] state there and its derivative, the engine's */
+    dem_index *place; /* [n_nodes] of a node in the list, -1: its motion has not changed */
     dem_index n, capacity;
-    trail_piece *pieces; /* [n] */
-    dem_index n_ends, end_capacity;
-    trail_end *ends; /* [n_ends] one for each node that has pieces */
+    trail_node *list; /* [n] those whose motion has changed, and those that are kept */
 } trail;
 
 /** Free with trail_destroy(). */
@@ -56,20 +50,36 @@ void trail_undo(trail *tr);
 
 static inline bool trail_has(const trail *tr, dem_index node)
 {
-    return tr->last[node] >= 0;
+    return tr->place[node] >= 0;
 }
 
-/** The motion of a node that goes to the end: its last piece. */
-const trail_motion *trail_last(const trail *tr, dem_index node);
+static inline const trail_motion *trail_of(const trail *tr, dem_index node)
+{
+    return &tr->list[tr->place[node]].motion;
+}
 
-/** Makes a motion that of a node from motion->from on; the first of a node is that of the whole step. */
-dem_status trail_add(trail *tr, dem_index node, const trail_motion *motion);
+/** Makes a motion that of a node from motion->from on. */
+dem_status trail_turn(trail *tr, dem_index node, const trail_motion *motion);
+
+/** Keeps the end of the step of a node, which is about to change though its motion has not. */
+dem_status trail_keep(trail *tr, dem_index node);
 
 /** Adds a change to the state at the end and its derivative. */
 void trail_move_end(trail *tr, dem_index node, const trail_jump *jump);
 
+/** Of a node whose motion has changed, from its last change on. */
 vec2 trail_position(const trail *tr, double t, dem_index node);
 vec2 trail_velocity(const trail *tr, double t, dem_index node);
+
+/** Position and velocity of a motion at s, 0 to 1. */
+static inline void trail_at(const trail_motion *m, double s, double x[2], double v[2])
+{
+    for (int c = 0; c < 2; c++) {
+        const double *a = m->x[c], *b = m->v[c];
+        x[c] = a[0] + s * (a[1] + s * (a[2] + s * (a[3] + s * (a[4] + s * a[5]))));
+        v[c] = b[0] + s * (b[1] + s * (b[2] + s * (b[3] + s * (b[4] + s * b[5]))));
+    }
+}
 
 /** The same motion written from a later time on. */
 trail_motion trail_later(const trail_motion *m, double from, double end);
