@@ -46,8 +46,8 @@ static void print_damping(FILE *out, double of_masses, double of_springs)
 static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
 {
     const dem_model_size size = dem_model_sizes(model);
-    (void)fprintf(out, "impacts    window %.4g s%s, vertices ", fmax(o->window, 0.0),
-                  o->window > 0.0 ? "" : " (each by itself)");
+    (void)fprintf(out, "impacts    %s, window %.4g s%s, vertices ", o->contact == DEM_CONTACT_LOCAL ? "local" : "exact",
+                  fmax(o->window, 0.0), o->window > 0.0 ? "" : " (each by itself)");
     if (o->vertices)
         (void)fprintf(out, "on: %lld may touch %lld edges\n", (long long)size.n_vertices,
                       (long long)size.n_contact_edges);

@@ -254,7 +254,7 @@ static void print_energy(const report *r, dem_energy e)
 
 static void print_events(FILE *out, const dem_counts *c)
 {
-    (void)fprintf(out, "events     %lld stops: %lld impacts, %lld on vertices, %lld early, %lld late, %lld behind\n",
+    (void)fprintf(out, "events     %lld times: %lld impacts, %lld on vertices, %lld early, %lld late, %lld behind\n",
                   (long long)c->events, (long long)c->impacts, (long long)c->vertex_impacts, (long long)c->early,
                   (long long)c->late, (long long)c->behind);
     (void)fprintf(out, "lasting    %lld closings, %lld releases, %lld slips, %lld sticks, %lld ends passed\n",

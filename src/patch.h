@@ -7,42 +7,26 @@
 #ifndef DEM_PATCH_H
 #define DEM_PATCH_H
 
+#include "ball.h"
 #include "method.h"
 #include "path.h"
-#include "sites.h"
 
-enum { PATCH_STAGES = 6, PATCH_RINGS = 6 };
-
-/** A node of the patch, or a pair of the books. */
-typedef struct patch_node {
-    dem_index place;     /* in a state */
-    bool grouped;        /* it takes part in closed contacts */
-    int held;            /* components that a boundary prescribes */
-    trail_motion motion; /* without the event, from there on */
-} patch_node;
-
-/** Closed contacts that share nodes, in the ring where they begin. */
-typedef struct patch_group {
-    dem_index group;
-    int ring;
-} patch_group;
+enum { PATCH_STAGES = 6 };
 
 typedef struct patch {
-    contact_sites *sites;
-    const unsigned char *held;             /* [n_nodes] as boundaries have it */
+    ball ball;                             /* the change spreads over all its rings but the frame */
+    const unsigned char *held;             /* [n_nodes] components that boundaries prescribe, as they have it */
     double position_error, velocity_error; /* what counts as an error of 1 */
     method_table table;
-    int n_rings;       /* that the change spreads over */
-    signed char *ring; /* [n_nodes] of a node of the patch; -1: it is none */
-    dem_index n, n_books, capacity;
-    patch_node *nodes; /* [n] by rings, the last as a frame that stays as it is; then the books [n_books] */
-    double *block;     /* those that follow, [n + n_books][2]: */
+    double t, h;       /* s, of the event; from it to the end of the step */
+    dem_index n_books; /* pairs of the books that change, behind the nodes of the ball */
+    dem_index capacity;
+    dem_index *book;                                             /* [n_books] their places in a state */
+    trail_motion *motions;                                       /* of the nodes, without the event, from there on */
+    double *block;                                               /* those that follow, [n + n_books][2]: */
     double *x[PATCH_STAGES], *v[PATCH_STAGES], *a[PATCH_STAGES]; /* at each stage, without the event: and x'' */
     double *dx[PATCH_STAGES + 1], *dv[PATCH_STAGES + 1], *da[PATCH_STAGES + 1]; /* the change, and at the end */
-    dem_index end[PATCH_RINGS + 2];                                             /* nodes of ring r or nearer */
-    dem_index n_groups, group_capacity;
-    patch_group *groups; /* [n_groups] with nodes in the patch */
-    double t, h;         /* s, of the event; from it to the end of the step */
+    double *changed[3];                                                         /* x, v, x'' with it at a stage */
 } patch;
 
 /** Borrows the sites, and held. Free with patch_destroy(). */

@@ -110,43 +110,44 @@ void path_state(const path *p, double t, double *y)
     }
 }
 
-/* The same in powers of s: the integral of the velocity's cubic, and the bump. */
-static void quintic(const path *p, dem_index k, double x[TRAIL_TERMS], double v[TRAIL_TERMS])
+/* The same in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
+static void quintic(const path *p, dem_index i, trail_motion *m)
 {
     const dem_index n = 2 * p->n_nodes;
-    const double h = p->t1 - p->t0, d = defect(p, k, h), jump = p->y1[n + k] - p->y0[n + k];
-    const double a0 = h * p->f0[n + k], a1 = h * p->f1[n + k];
-    const double c[TRAIL_TERMS] = {
-        p->y0[n + k], a0, 3.0 * jump - 2.0 * a0 - a1 + 30.0 * d / h, a0 + a1 - 2.0 * jump - 60.0 * d / h,
-        30.0 * d / h, 0.0};
-    x[0] = p->y0[k];
-    for (int q = 0; q < TRAIL_TERMS; q++) {
-        v[q] = c[q];
-        if (q + 1 < TRAIL_TERMS) x[q + 1] = h * c[q] / (q + 1);
+    const double h = p->t1 - p->t0, per_h = 1.0 / h;
+    for (int d = 0; d < 2; d++) {
+        const dem_index k = 2 * i + d;
+        const double bump = 30.0 * per_h * defect(p, k, h), jump = p->y1[n + k] - p->y0[n + k];
+        const double a0 = h * p->f0[n + k], a1 = h * p->f1[n + k];
+        const double v[TRAIL_TERMS] = {
+            p->y0[n + k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump, bump, 0.0};
+        m->c[0][d] = p->y0[k];
+        for (int q = 0; q < TRAIL_TERMS; q++) m->c[q][2 + d] = v[q];
+        for (int q = 1; q < TRAIL_TERMS; q++) m->c[q][d] = h / q * v[q - 1];
     }
 }
 
-static void parabolas(const path *p, dem_index k, double x[TRAIL_TERMS], double v[TRAIL_TERMS])
+static void parabolas(const path *p, dem_index i, trail_motion *m)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = p->t1 - p->t0;
-    for (int q = 0; q < TRAIL_TERMS; q++) x[q] = v[q] = 0.0;
-    x[0] = p->y0[k];
-    x[1] = h * p->y0[n + k];
-    x[2] = p->y1[k] - x[0] - x[1];
-    v[0] = p->y0[n + k];
-    v[1] = h * p->f0[n + k];
-    v[2] = p->y1[n + k] - v[0] - v[1];
+    for (int d = 0; d < 2; d++) {
+        const dem_index k = 2 * i + d;
+        m->c[0][d] = p->y0[k];
+        m->c[1][d] = h * p->y0[n + k];
+        m->c[2][d] = p->y1[k] - m->c[0][d] - m->c[1][d];
+        m->c[0][2 + d] = p->y0[n + k];
+        m->c[1][2 + d] = h * p->f0[n + k];
+        m->c[2][2 + d] = p->y1[n + k] - m->c[0][2 + d] - m->c[1][2 + d];
+    }
 }
 
 trail_motion path_motion(const path *p, dem_index i)
 {
     trail_motion m = {.from = p->t0};
-    for (int c = 0; c < 2; c++) {
-        if (p->parabolic)
-            parabolas(p, 2 * i + c, m.x[c], m.v[c]);
-        else
-            quintic(p, 2 * i + c, m.x[c], m.v[c]);
-    }
+    if (p->parabolic)
+        parabolas(p, i, &m);
+    else
+        quintic(p, i, &m);
     return m;
 }

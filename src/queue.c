@@ -122,9 +122,14 @@ static void keep_site(queue *q, dem_index k)
     q->sites[q->n_sites++] = (queue_site){k, q->contact->sites.list[k]};
 }
 
+static dem_index n_moving(const queue *q)
+{
+    return q->patch.ball.end[q->patch.ball.n_rings - 1];
+}
+
 static bool moves(const queue *q, dem_index node)
 {
-    return q->patch.ring[node] >= 0 && q->patch.ring[node] <= q->patch.n_rings;
+    return ball_has(&q->patch.ball, node, q->patch.ball.n_rings - 1);
 }
 
 /* Does something to every site that has a node in the patch which moves. */
@@ -132,8 +137,8 @@ static void each_site(queue *q, void (*act)(queue *q, dem_index k))
 {
     const contact_sites *c = &q->contact->sites;
     const surface *s = &c->scene.model->surface;
-    for (dem_index j = 0; j < q->patch.end[q->patch.n_rings]; j++) {
-        const dem_index i = q->patch.nodes[j].place;
+    for (dem_index j = 0; j < n_moving(q); j++) {
+        const dem_index i = q->patch.ball.nodes[j].i;
         if (c->of_node[i] >= 0) act(q, c->of_node[i]);
         for (dem_index p = s->row[i]; p < s->row[i + 1] && c->n > c->scene.model->n_sites; p++) {
             const dem_index k = sites_of_edge(c, s->at[p]);
@@ -184,8 +189,8 @@ static double furthest(const queue *q)
 {
     const path *step = q->step;
     double way = q->contact->way;
-    for (dem_index j = 0; j < q->patch.end[q->patch.n_rings]; j++) {
-        const dem_index i = q->patch.nodes[j].place;
+    for (dem_index j = 0; j < n_moving(q); j++) {
+        const dem_index i = q->patch.ball.nodes[j].i;
         if (q->contact->sites.of_node[i] < 0) continue;
         way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1, step->n_nodes + i)));
     }
@@ -206,7 +211,8 @@ static dem_status take(queue *q, dem_index k)
     TRY(patch_close(&q->patch, q->step, &q->trail, q->state, &error));
     q->error += error;
     c->way = furthest(q);
-    for (dem_index g = 0; g < q->patch.n_groups; g++) contact_weigh(c, q->step, q->patch.groups[g].group, q->state);
+    for (dem_index g = 0; g < q->patch.ball.n_groups; g++)
+        contact_weigh(c, q->step, q->patch.ball.groups[g].group, q->state);
     each_site(q, look_again);
     return DEM_OK;
 }

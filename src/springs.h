@@ -20,6 +20,12 @@ typedef struct springs {
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 
+/** E_ij (d - d0)/d0 of a spring of length d, over d: times the vector between its ends it is its force, (1). */
+static inline double springs_pull(double stiffness, double rest_length, double length)
+{
+    return stiffness * (length - rest_length) / (rest_length * length);
+}
+
 /** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
 static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
 {
@@ -27,9 +33,7 @@ static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
-        const double length = vec2_norm(d), rest = s->rest_length[p];
-        force = vec2_along(force, s->stiffness[p] * (length - rest) / (rest * length),
-                           d); /* E_ij (d - d0)/d0, along d/|d| */
+        force = vec2_along(force, springs_pull(s->stiffness[p], s->rest_length[p], vec2_norm(d)), d);
     }
     return force;
 }

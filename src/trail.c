@@ -101,59 +101,57 @@ static double share(const trail *tr, const trail_motion *m, double t)
 
 vec2 trail_position(const trail *tr, double t, dem_index node)
 {
-    double x[2], v[2];
+    double at[4];
     const trail_motion *m = trail_of(tr, node);
-    trail_at(m, share(tr, m, t), x, v);
-    return vec2_at(x, 0);
+    trail_at(m, share(tr, m, t), at);
+    return vec2_at(at, 0);
 }
 
 vec2 trail_velocity(const trail *tr, double t, dem_index node)
 {
-    double x[2], v[2];
+    double at[4];
     const trail_motion *m = trail_of(tr, node);
-    trail_at(m, share(tr, m, t), x, v);
-    return vec2_at(v, 0);
+    trail_at(m, share(tr, m, t), at);
+    return vec2_at(at, 1);
 }
 
 /* c(s + r u) in powers of u: Taylor's shift, then the scale. */
-static void expand(double c[TRAIL_TERMS], double s, double r)
-{
-    double power = 1.0;
-    for (int k = 0; k < TRAIL_TERMS; k++)
-        for (int j = TRAIL_TERMS - 2; j >= k; j--) c[j] += s * c[j + 1];
-    for (int k = 0; k < TRAIL_TERMS; k++, power *= r) c[k] *= power;
-}
-
 trail_motion trail_later(const trail_motion *m, double from, double end)
 {
     trail_motion later = *m;
     const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
+    double power = 1.0 - s;
     later.from = from;
     if (s == 0.0) return later;
-    for (int c = 0; c < 2; c++) {
-        expand(later.x[c], s, 1.0 - s);
-        expand(later.v[c], s, 1.0 - s);
-    }
+    for (int k = 0; k < TRAIL_TERMS; k++)
+        for (int j = TRAIL_TERMS - 2; j >= k; j--)
+            for (int q = 0; q < 4; q++) later.c[j][q] += s * later.c[j + 1][q];
+    for (int k = 1; k < TRAIL_TERMS; k++, power *= 1.0 - s)
+        for (int q = 0; q < 4; q++) later.c[k][q] *= power;
     return later;
 }
 
-/* Quintic Hermite through (x, v, a) and (x + dx, v + dv, a + da), in powers of s. */
-static void bend(double x[TRAIL_TERMS], double v[TRAIL_TERMS], double h, const double at[3], const double by[3])
-{
-    const double v0 = h * at[1], a0 = h * h * at[2];
-    const double D = by[0] - v0 - 0.5 * a0, V = h * by[1] - a0, A = h * h * by[2];
-    const double c[TRAIL_TERMS] = {
-        at[0], v0, 0.5 * a0, 10.0 * D - 4.0 * V + 0.5 * A, -15.0 * D + 7.0 * V - A, 6.0 * D - 3.0 * V + 0.5 * A};
-    for (int k = 0; k < TRAIL_TERMS; k++) {
-        x[k] += c[k];
-        if (k > 0 && h > 0.0) v[k - 1] += k * c[k] / h;
-    }
-    if (!(h > 0.0)) v[0] += at[1];
-}
-
+/* Quintic Hermite through (x, v, a) and (x + dx, v + dv, a + da). */
 void trail_bend(trail_motion *m, double end, const trail_jump *at, const trail_jump *by)
 {
-    const double h = end - m->from;
-    bend(m->x[0], m->v[0], h, (const double[]){at->x.x, at->v.x, at->a.x}, (const double[]){by->x.x, by->v.x, by->a.x});
-    bend(m->x[1], m->v[1], h, (const double[]){at->x.y, at->v.y, at->a.y}, (const double[]){by->x.y, by->v.y, by->a.y});
+    const double h = end - m->from, per_h = h > 0.0 ? 1.0 / h : 0.0;
+    const vec2 v0 = vec2_scale(h, at->v), a0 = vec2_scale(h * h, at->a);
+    const vec2 D = vec2_along(vec2_sub(by->x, v0), -0.5, a0), V = vec2_along(vec2_scale(h, by->v), -1.0, a0);
+    const vec2 A = vec2_scale(h * h, by->a);
+    const vec2 c[TRAIL_TERMS] = {at->x,
+                                 v0,
+                                 vec2_scale(0.5, a0),
+                                 vec2_along(vec2_along(vec2_scale(10.0, D), -4.0, V), 0.5, A),
+                                 vec2_along(vec2_along(vec2_scale(-15.0, D), 7.0, V), -1.0, A),
+                                 vec2_along(vec2_along(vec2_scale(6.0, D), -3.0, V), 0.5, A)};
+    for (int k = 0; k < TRAIL_TERMS; k++) {
+        const vec2 slope = k + 1 < TRAIL_TERMS ? vec2_scale(per_h * (k + 1), c[k + 1]) : (vec2){0.0, 0.0};
+        m->c[k][0] += c[k].x;
+        m->c[k][1] += c[k].y;
+        m->c[k][2] += slope.x;
+        m->c[k][3] += slope.y;
+    }
+    if (h > 0.0) return;
+    m->c[0][2] += at->v.x;
+    m->c[0][3] += at->v.y;
 }

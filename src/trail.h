@@ -10,11 +10,11 @@
 
 enum { TRAIL_TERMS = 6 };
 
-/** Motion of a node from a time to the end of the step: coefficients of powers of s = (t - from)/(end - from). */
+/** Motion of a node from a time to the end of the step: coefficients of powers of s = (t - from)/(end - from) for its
+ *  position, m, and its velocity, m/s: x, y, x', y' of each power side by side, for vector instructions. */
 typedef struct trail_motion {
-    double from;              /* s */
-    double x[2][TRAIL_TERMS]; /* m */
-    double v[2][TRAIL_TERMS]; /* m/s */
+    double from; /* s */
+    double c[TRAIL_TERMS][4];
 } trail_motion;
 
 /** Change of a state at one node: of position, velocity and acceleration. */
@@ -71,14 +71,12 @@ void trail_move_end(trail *tr, dem_index node, const trail_jump *jump);
 vec2 trail_position(const trail *tr, double t, dem_index node);
 vec2 trail_velocity(const trail *tr, double t, dem_index node);
 
-/** Position and velocity of a motion at s, 0 to 1. */
-static inline void trail_at(const trail_motion *m, double s, double x[2], double v[2])
+/** Position and velocity of a motion at s, 0 to 1: x, y, x', y'. */
+static inline void trail_at(const trail_motion *m, double s, double out[4])
 {
-    for (int c = 0; c < 2; c++) {
-        const double *a = m->x[c], *b = m->v[c];
-        x[c] = a[0] + s * (a[1] + s * (a[2] + s * (a[3] + s * (a[4] + s * a[5]))));
-        v[c] = b[0] + s * (b[1] + s * (b[2] + s * (b[3] + s * (b[4] + s * b[5]))));
-    }
+    for (int q = 0; q < 4; q++) out[q] = m->c[TRAIL_TERMS - 1][q];
+    for (int k = TRAIL_TERMS - 2; k >= 0; k--)
+        for (int q = 0; q < 4; q++) out[q] = m->c[k][q] + s * out[q];
 }
 
 /** The same motion written from a later time on. */

@@ -322,14 +322,15 @@ typedef struct dem_counts {
     dem_index steps;              /**< accepted by the integrator */
     dem_index rejected;           /**< by its error test */
     dem_index evaluations;        /**< of the right-hand side (4) */
-    dem_index events;             /**< stops at contact events */
+    dem_index events;             /**< times of contact events */
     dem_index impacts;            /**< of nodes on segments and of edges on vertices */
     dem_index vertex_impacts;     /**< of edges on vertices */
     dem_index early;              /**< of all impacts, those taken together with another one within the window */
     dem_index closings, releases; /**< contacts that began and ceased to last */
     dem_index slips, sticks;      /**< lasting contacts that began to slide, that stopped or turned back */
     dem_index passings;           /**< of a segment's or an edge's end by a lasting contact */
-    dem_index late;    /**< contact events that the root finder had not seen, found by the check after each step */
+    dem_index
+        late; /**< contact events that the root finder of DEM_CONTACT_EXACT had not seen, found by the check after each step */
     dem_index retries; /**< attempts repeated with a smaller step after a non-finite force */
     dem_index behind;  /**< nodes that have passed round the end of an open obstacle, now */
 } dem_counts;
@@ -429,6 +430,7 @@ typedef struct dem_observer {
     dem_status (*frame)(void *context, const dem_simulation *simulation); /**< state interpolated to the frame */
     dem_status (*step)(void *context, const dem_simulation *simulation);  /**< after every accepted step and at t = 0 */
     dem_status (*event)(void *context, const dem_simulation *simulation, const dem_event *event);
+    /**< after every contact event; the simulation shows the state of that instant */
     void *context;
 } dem_observer;
 

@@ -2,10 +2,12 @@
 /* What contact detection costs per accepted step without event, in units of one evaluation of the forces by the plain
  * loop over CSR: a body of COLUMNS x ROWS nodes is pressed on a ground of SEGMENTS segments, flat or with bumps of
  * ROUGHNESS times the spacing, and every step without event counts in which its lower face is in contact. The functions
- * are timed where simulation.c calls them; what ARKODE does with the values of the guards is not counted.
- * `bench_contact [COLUMNS ROWS SEGMENTS SECONDS ROUGHNESS]` */
+ * are timed where simulation.c calls them; what ARKODE does with the values of the guards of 'exact' is not counted.
+ * `bench_contact COLUMNS ROWS SEGMENTS SECONDS ROUGHNESS METHOD` */
+#include <string.h>
+
 #include "bench.h"
-#include "contact.h"
+#include "queue.h"
 
 enum { most = 100000 };
 
@@ -58,14 +60,20 @@ static dem_model *make_model(long columns, long rows, long segments, double roug
 
 /* ---- the functions of contact detection, timed ---- */
 
-static double spent[3]; /* s, in this step */
+enum { PARTS = 5 };
+
+static double spent[PARTS]; /* s, in this step */
 
 void __real_contact_guards(contact *c, double t, const double *y, double *g);
 bool __real_contact_check(contact *c, path *p, bool rooted, double *state);
 void __real_contact_follow(contact *c, const path *p, const double *y);
+void __real_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+dem_status __real_queue_show(queue *q, double t);
 void __wrap_contact_guards(contact *c, double t, const double *y, double *g);
 bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state);
 void __wrap_contact_follow(contact *c, const path *p, const double *y);
+void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+dem_status __wrap_queue_show(queue *q, double t);
 
 void __wrap_contact_guards(contact *c, double t, const double *y, double *g)
 {
@@ -82,11 +90,26 @@ bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state)
     return late;
 }
 
+void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+{
+    const double start = seconds(CLOCK_MONOTONIC);
+    __real_queue_start(q, step, y1, f1, state);
+    spent[2] += seconds(CLOCK_MONOTONIC) - start;
+}
+
+dem_status __wrap_queue_show(queue *q, double t)
+{
+    const double start = seconds(CLOCK_MONOTONIC);
+    const dem_status status = __real_queue_show(q, t);
+    spent[3] += seconds(CLOCK_MONOTONIC) - start;
+    return status;
+}
+
 void __wrap_contact_follow(contact *c, const path *p, const double *y)
 {
     const double start = seconds(CLOCK_MONOTONIC);
     __real_contact_follow(c, p, y);
-    spent[2] += seconds(CLOCK_MONOTONIC) - start;
+    spent[4] += seconds(CLOCK_MONOTONIC) - start;
 }
 
 /* ---- the run ---- */
@@ -94,7 +117,7 @@ void __wrap_contact_follow(contact *c, const path *p, const double *y)
 typedef struct tally {
     const dem_model *model;
     dem_index columns, events, contacts;
-    double part[3][most], contact[most], force[most], sum;
+    double part[PARTS][most], contact[most], force[most], sum;
     size_t n;
 } tally;
 
@@ -110,39 +133,42 @@ static dem_status after_step(void *context, const dem_simulation *simulation)
         for (dem_index i = 0; i < t->model->lattice.n_nodes; i++)
             t->sum += springs_force(&t->model->springs, i, state.x).x;
         t->force[t->n] = seconds(CLOCK_MONOTONIC) - start;
-        for (int k = 0; k < 3; k++) t->part[k][t->n] = spent[k];
-        t->contact[t->n++] = spent[0] + spent[1] + spent[2];
+        t->contact[t->n] = 0.0;
+        for (int k = 0; k < PARTS; k++) t->contact[t->n] += t->part[k][t->n] = spent[k];
+        t->n++;
         t->contacts = state.n_contacts;
     }
     t->events = counts.events;
-    spent[0] = spent[1] = spent[2] = 0.0;
+    for (int k = 0; k < PARTS; k++) spent[k] = 0.0;
     return DEM_OK;
 }
 
 int main(int argc, char **argv)
 {
-    const long columns = argc > 1 ? atol(argv[1]) : 447, rows = argc > 2 ? atol(argv[2]) : 224,
-               segments = argc > 3 ? atol(argv[3]) : 10000;
+    if (argc != 7) return 1;
+    const long columns = atol(argv[1]), rows = atol(argv[2]), segments = atol(argv[3]);
     static tally t;
-    dem_model *model = make_model(columns, rows, segments, argc > 5 ? atof(argv[5]) : 0.0);
+    dem_model *model = make_model(columns, rows, segments, atof(argv[5]));
     const dem_observer observer = {.step = after_step, .context = &t};
     dem_options options = dem_options_default();
     dem_simulation *simulation;
+    options.contact = strcmp(argv[6], "exact") == 0 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
     options.gravity[1] = -1e4; /* presses it down */
     options.mass_damping = 1e5;
     t.model = model;
     t.columns = columns;
     ask(dem_simulation_create(&simulation, model, &options));
     ask(dem_simulation_observe(simulation, &observer));
-    ask(dem_simulation_advance(simulation, argc > 4 ? atof(argv[4]) : 1e-4));
+    ask(dem_simulation_advance(simulation, atof(argv[4])));
     const dem_counts counts = dem_simulation_counts(simulation);
     const double force = median(t.force, t.n), contact_time = median(t.contact, t.n);
     (void)printf("%lld nodes, %ld segments, %lld contacts on %ld columns, %lld steps, %lld events, %zu steps counted\n",
                  (long long)model->lattice.n_nodes, segments, (long long)t.contacts, columns, (long long)counts.steps,
                  (long long)counts.events, t.n);
-    (void)printf("forces %.3f ms, contact %.3f ms (guards %.3f, check %.3f, follow %.3f), ratio %.4f (sum %g)\n",
+    (void)printf("forces %.3f ms, contact %.3f ms (guards %.3f, check %.3f, look %.3f, show %.3f, follow %.3f), ",
                  1e3 * force, 1e3 * contact_time, 1e3 * median(t.part[0], t.n), 1e3 * median(t.part[1], t.n),
-                 1e3 * median(t.part[2], t.n), contact_time / force, t.sum);
+                 1e3 * median(t.part[2], t.n), 1e3 * median(t.part[3], t.n), 1e3 * median(t.part[4], t.n));
+    (void)printf("ratio %.4f (sum %g)\n", contact_time / force, t.sum);
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
     return 0;

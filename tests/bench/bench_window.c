@@ -72,6 +72,7 @@ static run take(const char *inputs, const char *name, double spacing, double eta
     d.obstacles[0].restitution = eta;
     must(dem_model_create(&model, &d.lattice, d.obstacles, d.n_obstacles) == DEM_OK, name);
     d.options.rtol = rtol;
+    d.options.contact = DEM_CONTACT_EXACT;
     d.options.window = r.window = kappa / dem_model_omega_max(model);
     must(dem_simulation_create(&simulation, model, &d.options) == DEM_OK, name);
     must(dem_simulation_observe(simulation, &observer) == DEM_OK, name);

@@ -186,8 +186,8 @@ class Check(Case):
         may_touch, obstacles, segments = numbers("contact    # nodes may touch # obstacle of # segments", out)
         self.assertTrue(0 < may_touch < nodes)
         self.assertEqual((obstacles, segments), (1, 8))
-        window, vertices, edges = numbers("impacts    window # s, vertices on: # may touch # edges",
-                                          out.replace(" (each by itself)", ""))
+        window, vertices, edges = numbers(
+            "impacts    local, window # s (each by itself), vertices on: # may touch # edges", out)
         self.assertTrue(window >= 0 and vertices >= 0 and edges >= 0)
         spacing, omega_max, v_scale, skin = numbers(
             "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, skin # m", out)
@@ -396,7 +396,7 @@ class Run(Case):
         _, up, *friction, contacts = numbers(
             "obstacle   1: impulse (#, #) N s, by friction (#, #) N s, # contacts", log)
         self.assertTrue(up > 0 and friction == [0, 0] and contacts == 0)
-        counts = numbers("events     # stops: # impacts, # on vertices, # early, # late, # behind", log)
+        counts = numbers("events     # times: # impacts, # on vertices, # early, # late, # behind", log)
         self.assertTrue(counts[0] > 0 and counts[1] > 0 and all(count >= 0 for count in counts))
         lasting = numbers("lasting    # closings, # releases, # slips, # sticks, # ends passed", log)
         self.assertTrue(lasting[0] > 0 and lasting[0] == lasting[1], "nothing touches at the end")

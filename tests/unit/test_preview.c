@@ -201,10 +201,11 @@ static void the_preview_tells_the_rules_of_impact(void **state)
     dem_options options = dem_options_default();
     for (int on = 0; on <= 1; on++) {
         options.window = on ? 2.5e-5 : 0.0, options.vertices = on;
+        options.contact = on ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
         logged *l = new_floors(1, &floor, &options);
         print_header(l);
-        assert_non_null(strstr(l->text, on ? "\nimpacts    window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
-                                           : "\nimpacts    window 0 s (each by itself), vertices off\n"));
+        assert_non_null(strstr(l->text, on ? "\nimpacts    exact, window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
+                                           : "\nimpacts    local, window 0 s (each by itself), vertices off\n"));
         assert_false(has_line(l->text, "friction") || has_line(l->text, "damping"));
         drop_logged(l);
     }

@@ -410,7 +410,7 @@ static void every_kind_of_event_is_told(void **state)
     report_summary(&l->report, l->run.simulation);
     other_counts = NULL;
     read_log(l);
-    assert_non_null(strstr(l->text, "\nevents     11 stops: 12 impacts, 13 on vertices, 14 early, 20 late, 21 behind\n"
+    assert_non_null(strstr(l->text, "\nevents     11 times: 12 impacts, 13 on vertices, 14 early, 20 late, 21 behind\n"
                                     "lasting    15 closings, 16 releases, 17 slips, 18 sticks, 19 ends passed\n"));
     assert_non_null(strstr(l->text, " 22 retried, "));
     drop_logged(l);
