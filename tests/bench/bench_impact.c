@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rectangle of 8 x 13 cm falls on a flat floor (W2): 10 m/s, tilted by 0.03, every impact elastic and by itself.
+/* A rectangle of 8 x 13 cm falls on a flat floor (W2): 10 m/s, tilted by 0.03, every impact by itself.
  *
- *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE]   runs, the state at the end into FILE
- *      bench_impact SPACING lammps FILE                                       the body as a data file of LAMMPS
+ *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE [ETA FRICTION DAMPING]]
+ *      bench_impact SPACING lammps FILE
  *
  * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step, times
- * omega_max; SKIN is in spacings. Prints: nodes, springs, evaluations, steps, impacts, late ones; the least CPU time
- * of a run in s and what of it went into finding contact events inside steps and into taking them, method local. */
+ * omega_max; SKIN is in spacings, DAMPING the damping time in s. The state at the end goes into FILE. Elastic, without
+ * friction and undamped unless the last three say else. Prints: nodes, springs, evaluations, steps, events, impacts, late
+ * ones; the least CPU time of a run in s and what of it went into finding contact events inside steps and into taking
+ * them, method local. With `lammps`: the body as a data file of LAMMPS. */
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +17,10 @@
 
 static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
 static const double least_time = 0.5; /* s */
+
+typedef struct law {
+    double restitution, friction, damping_time;
+} law;
 
 /* Its lowest node is a fifth of a spacing above the floor. */
 static dem_lattice make_body(double spacing)
@@ -31,12 +37,13 @@ static dem_lattice make_body(double spacing)
     return body;
 }
 
-static dem_model *compile(double spacing)
+static dem_model *compile(double spacing, law l)
 {
     static const double points[] = {-1.0, 0.0, 1.0, 0.0};
-    const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = 1.0};
+    const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = l.restitution, .friction = l.friction};
     dem_lattice body = make_body(spacing);
     dem_model *model;
+    if (l.damping_time > 0.0) plate_damp(&body, l.damping_time);
     ask(dem_model_create(&model, &body, &floor, 1));
     dem_lattice_free(&body);
     return model;
@@ -100,16 +107,17 @@ static void print(const dem_simulation *simulation, times t)
 {
     const dem_counts counts = dem_simulation_counts(simulation);
     const dem_model_size sizes = dem_model_sizes(dem_simulation_model(simulation));
-    (void)printf("nodes %lld\nsprings %lld\nevaluations %lld\nsteps %lld\nimpacts %lld\nlate %lld\n"
+    (void)printf("nodes %lld\nsprings %lld\nevaluations %lld\nsteps %lld\nevents %lld\nimpacts %lld\nlate %lld\n"
                  "cpu %.6f\nfind %.6f\ntake %.6f\n",
                  (long long)sizes.n_nodes, (long long)sizes.n_springs, (long long)counts.evaluations,
-                 (long long)counts.steps, (long long)counts.impacts, (long long)counts.late, t.all, t.find, t.take);
+                 (long long)counts.steps, (long long)counts.events, (long long)counts.impacts, (long long)counts.late,
+                 t.all, t.find, t.take);
 }
 
 int main(int argc, char **argv)
 {
-    must(argc == 4 || argc == 9 || argc == 10,
-         "bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE] or SPACING lammps FILE");
+    must(argc == 4 || argc == 9 || argc == 10 || argc == 13,
+         "SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE [ETA FRICTION DAMPING]] or SPACING lammps FILE");
     const double spacing = atof(argv[1]), t_end = atof(argv[2]);
     if (argc == 4) {
         dem_lattice body = make_body(spacing);
@@ -117,7 +125,8 @@ int main(int argc, char **argv)
         dem_lattice_free(&body);
         return 0;
     }
-    dem_model *model = compile(spacing);
+    dem_model *model =
+        compile(spacing, argc == 13 ? (law){atof(argv[10]), atof(argv[11]), atof(argv[12])} : (law){1.0});
     const dem_options options = read_options(argv + 4, model);
     const int turns = atoi(argv[3]);
     dem_simulation *simulation = NULL;
@@ -130,7 +139,7 @@ int main(int argc, char **argv)
         if (now.all < least.all) least = now;
     }
     print(simulation, least);
-    if (argc == 10) plate_write_state(simulation, argv[9]);
+    if (argc > 9) plate_write_state(simulation, argv[9]);
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
     return 0;

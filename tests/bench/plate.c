@@ -94,6 +94,12 @@ void plate_triangulate(dem_lattice *l, dem_index columns)
     l->flags = NULL;
 }
 
+void plate_damp(dem_lattice *l, double time)
+{
+    l->viscosity = zeros(l->n_springs, sizeof *l->viscosity);
+    for (dem_index k = 0; k < l->n_springs; k++) l->viscosity[k] = time * l->stiffness[k];
+}
+
 void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const char *path)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};

@@ -15,6 +15,9 @@ dem_lattice plate_make(dem_index columns, dem_index rows, double spacing);
 /** Adds the triangles, so that the nodes on their boundary may touch. */
 void plate_triangulate(dem_lattice *l, dem_index columns);
 
+/** Gives every spring this damping time, s. */
+void plate_damp(dem_lattice *l, double time);
+
 /** A data file for LAMMPS, in a box wider by `pad` all round; prints what a run needs beside it: springs, constant,
  *  length and period. */
 void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const char *path);
