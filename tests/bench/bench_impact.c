@@ -6,8 +6,8 @@
  *
  * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step, times
  * omega_max; SKIN is in spacings, DAMPING the damping time in s. The state at the end goes into FILE. Elastic, without
- * friction and undamped unless the last three say else. Prints: nodes, springs, evaluations, steps, events, impacts, late
- * ones; the least CPU time of a run in s and what of it went into finding contact events inside steps and into taking
+ * friction and undamped unless the last three say else. Prints: nodes, springs, evaluations, steps, events, impacts,
+ * late ones; the least CPU time of a run in s and what of it went into finding contact events inside steps and into taking
  * them, method local. With `lammps`: the body as a data file of LAMMPS. */
 #include <math.h>
 #include <string.h>
@@ -21,6 +21,8 @@ static const double least_time = 0.5; /* s */
 typedef struct law {
     double restitution, friction, damping_time;
 } law;
+
+static const law elastic = {.restitution = 1.0};
 
 /* Its lowest node is a fifth of a spacing above the floor. */
 static dem_lattice make_body(double spacing)
@@ -125,8 +127,7 @@ int main(int argc, char **argv)
         dem_lattice_free(&body);
         return 0;
     }
-    dem_model *model =
-        compile(spacing, argc == 13 ? (law){atof(argv[10]), atof(argv[11]), atof(argv[12])} : (law){1.0});
+    dem_model *model = compile(spacing, argc == 13 ? (law){atof(argv[10]), atof(argv[11]), atof(argv[12])} : elastic);
     const dem_options options = read_options(argv + 4, model);
     const int turns = atoi(argv[3]);
     dem_simulation *simulation = NULL;
