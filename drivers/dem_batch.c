@@ -231,12 +231,14 @@ static int run_where_free(const deck *d, dem_simulation *simulation, const char 
     return EXIT_TAKEN;
 }
 
-static int build_and_run(const command *c, const deck *d)
+/* The model has a copy of the deck's lattice, which is not needed any more. */
+static int build_and_run(const command *c, deck *d)
 {
     dem_model *model = NULL;
     dem_simulation *simulation = NULL;
     dem_status status = dem_model_create(&model, &d->lattice, d->obstacles, d->n_obstacles);
     dem_options options = d->options;
+    dem_lattice_free(&d->lattice);
     if (status == DEM_OK && d->residual > 0.0 && options.mass_damping == 0.0)
         options.mass_damping = relaxation_damping(model);
     if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "commit.h"
+#include "memory.h"
 #include "pace.h"
 #include "wall.h"
 
@@ -214,12 +215,18 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_options o = dem_simulation_options(simulation);
     const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
-    const double state_bytes = (double)size.n_nodes * (4.0 * 8.0 * 24.0 + 300.0) + (double)size.n_springs * 2.0 * 44.0;
-    (void)fprintf(
-        out,
-        "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output, %.3g MB of memory\n",
-        steps, (int)pace_method(simulation).evaluations, frames,
-        1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)), 1e-6 * state_bytes);
+    (void)fprintf(out, "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output\n",
+                  steps, (int)pace_method(simulation).evaluations, frames,
+                  1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)));
+}
+
+/* All that is set up by now: a run takes no more, but for what HDF5 buffers. */
+static void print_memory(FILE *out, const dem_simulation *simulation)
+{
+    const double bytes = memory_in_use();
+    const dem_index n_nodes = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
+    if (bytes > 0.0)
+        (void)fprintf(out, "memory     at most %.4g MB, %.4g bytes a node\n", 1e-6 * bytes, bytes / (double)n_nodes);
 }
 
 static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
@@ -263,6 +270,7 @@ void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, c
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
     print_measured(out, d, model);
     print_estimates(out, d, simulation);
+    print_memory(out, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);
 }

@@ -45,8 +45,8 @@ typedef struct ball {
 dem_status ball_create(ball *out, contact_sites *sites, int n_rings);
 void ball_destroy(ball *b);
 
-/** Gathers the nodes round a site. Ring 0 is what an event there may change at once: its nodes, and where obstacles have
- *  vertices those of the edges at them. */
+/** Gathers the nodes round a site. Ring 0 is what an event there may change at once: its nodes, and where obstacles
+ *  have vertices those of the edges at them. */
 dem_status ball_gather(ball *b, dem_index site);
 
 /** Finds the groups again, after contacts have opened or closed. */

@@ -125,15 +125,16 @@ static const struct energy {
 };
 enum { N_ENERGIES = sizeof energies / sizeof energies[0] };
 
-/* Where the data of frame k begin that have no array above. */
+/* Where the data of frame k begin. Arrays of one size begin at the same places: they share a dataset, under the name of
+ * each; a frame of a small body is written in half the time. */
 static const struct offset {
     const char *name;
     int rank;
     enum of of;
 } offsets[] = {
-    {STEPS "PartOffsets", 1, NONE},           {STEPS "CellOffsets", 2, NONE},
-    {STEPS "ConnectivityIdOffsets", 2, NONE}, {STEPS "PointDataOffsets/id", 1, NONE},
-    {STEPS "PointDataOffsets/body", 1, NONE},
+    {STEPS "PartOffsets", 1, NONE},   {STEPS "FieldDataOffsets/contacts", 1, ONE},
+    {STEPS "PointOffsets", 1, NODES}, {STEPS "CellDataOffsets/broken", 1, SPRINGS},
+    {STEPS "CellOffsets", 2, NONE},
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
 
@@ -170,13 +171,27 @@ static dem_status create_row(const hdf5_file *file, const char *name, hdf5_kind 
     return hdf5_create(file, &rows);
 }
 
+/* Of rank 1, which come in the order of `of`. */
+static dem_status share_offset(const hdf5_file *file, const char *name, enum of of)
+{
+    return strcmp(name, offsets[of].name) != 0 ? hdf5_link(file, name, offsets[of].name) : DEM_OK;
+}
+
+static dem_status create_offsets(const hdf5_file *file)
+{
+    for (int o = 0; o < N_OFFSETS; o++) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
+    TRY(share_offset(file, STEPS "PointDataOffsets/id", NONE));
+    TRY(share_offset(file, STEPS "PointDataOffsets/body", NONE));
+    return hdf5_link(file, STEPS "ConnectivityIdOffsets", STEPS "CellOffsets");
+}
+
 static dem_status create_arrays(const frames *f, const hdf5_file *file)
 {
     for (int a = 0; a < N_ARRAYS; a++) {
         const hdf5_rows rows = array_rows(f, &arrays[a]);
         if (!is_wanted(f, &arrays[a])) continue;
         TRY(hdf5_create(file, &rows));
-        TRY(create_row(file, arrays[a].offset, HDF5_I64, 1));
+        TRY(share_offset(file, arrays[a].offset, arrays[a].of));
     }
     return DEM_OK;
 }
@@ -185,9 +200,8 @@ static dem_status create_rows(const hdf5_file *file)
 {
     for (int e = 0; e < N_ENERGIES; e++) {
         TRY(create_row(file, energies[e].name, HDF5_F64, 1));
-        TRY(create_row(file, energies[e].offset, HDF5_I64, 1));
+        TRY(share_offset(file, energies[e].offset, ONE));
     }
-    for (int o = 0; o < N_OFFSETS; o++) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
     TRY(create_row(file, STEPS "Values", HDF5_F64, 1));
     TRY(create_row(file, STEPS "NumberOfParts", HDF5_I64, 1));
     return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &(dem_index){0});
@@ -212,6 +226,7 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
     const grid g = {f->n_nodes, f->n_springs, lattice->ends};
     TRY(grid_write(file, &g, f->deflate));
     TRY(write_nodes(f, file, lattice));
+    TRY(create_offsets(file));
     TRY(create_arrays(f, file));
     return create_rows(file);
 }
@@ -249,11 +264,6 @@ static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows r
     return hdf5_append(file, &rows, (hsize_t)f->n, 1, value);
 }
 
-static dem_status append_offset(const frames *f, const hdf5_file *file, hdf5_rows rows, enum of of)
-{
-    return append_row(f, file, rows, &(dem_index){f->n * count_of(f, of)});
-}
-
 static dem_status append_arrays(const frames *f, const hdf5_file *file, const view *v)
 {
     if (f->fields & ANY_STRESS) dem_simulation_stress(v->simulation, f->stress);
@@ -264,7 +274,6 @@ static dem_status append_arrays(const frames *f, const hdf5_file *file, const vi
         if (!is_wanted(f, a)) continue;
         a->fill(f, v);
         TRY(hdf5_append(file, &rows, (hsize_t)f->n * count, count, f->scratch));
-        TRY(append_offset(f, file, frame_rows(a->offset, HDF5_I64, 1), a->of));
     }
     return DEM_OK;
 }
@@ -283,17 +292,16 @@ static dem_status append_energies(const frames *f, const hdf5_file *file, const 
                                        e->projection,
                                        e->boundary,
                                        (double)state->n_contacts};
-    for (int k = 0; k < N_ENERGIES; k++) {
+    for (int k = 0; k < N_ENERGIES; k++)
         TRY(append_row(f, file, frame_rows(energies[k].name, HDF5_F64, 1), &values[k]));
-        TRY(append_offset(f, file, frame_rows(energies[k].offset, HDF5_I64, 1), ONE));
-    }
     return DEM_OK;
 }
 
 static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
 {
     for (int o = 0; o < N_OFFSETS; o++)
-        TRY(append_offset(f, file, frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank), offsets[o].of));
+        TRY(append_row(f, file, frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank),
+                       &(dem_index){f->n * count_of(f, offsets[o].of)}));
     TRY(append_row(f, file, frame_rows(STEPS "NumberOfParts", HDF5_I64, 1), &(dem_index){1}));
     return append_row(f, file, frame_rows(STEPS "Values", HDF5_F64, 1), &t);
 }
@@ -333,12 +341,8 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
     (void)snprintf(name, sizeof name, GRID "%s/%s", constant->set, constant->name);
     (void)snprintf(offset, sizeof offset, STEPS "%sOffsets/%s", constant->set, constant->name);
     const hdf5_rows rows = {name, constant->kind, width > 1 ? 2 : 1, {width}, 0, f->deflate};
-    dem_index *zeros = calloc((size_t)f->n + 1, sizeof *zeros);
-    CHECK_MEMORY(zeros);
-    dem_status status = hdf5_write(file, rows, (hsize_t)count, values);
-    if (status == DEM_OK) status = hdf5_write(file, frame_rows(offset, HDF5_I64, 1), (hsize_t)f->n, zeros);
-    free(zeros);
-    return status;
+    TRY(hdf5_write(file, rows, (hsize_t)count, values));
+    return share_offset(file, offset, NONE);
 }
 
 dem_status frames_verify(const frames *f, const hdf5_file *file)

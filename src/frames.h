@@ -39,7 +39,8 @@ hsize_t frames_bytes(const frames *f);
 /** Adds what is seen of the simulation as frame f->n; it counts once the file is closed, and f->n raised. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation);
 
-/** Adds an array to all frames that are there.  \param values  [number of nodes or springs][components] */
+/** Adds an array to all frames that are there, in a file that frames_create() has seen.
+ *  \param values  [number of nodes or springs][components] */
 dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
                                  const double *values);
 

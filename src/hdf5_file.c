@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -329,6 +330,15 @@ dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows)
     if (layout >= 0) (void)H5Pclose(layout);
     (void)H5Pclose(links);
     (void)H5Sclose(space);
+    return status;
+}
+
+dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target)
+{
+    const hid_t links = make_parents();
+    const bool linked = H5Lcreate_hard(file->id, target, file->id, name, links, H5P_DEFAULT) >= 0;
+    const dem_status status = linked ? DEM_OK : hdf5_fail(file, name, "cannot be linked");
+    (void)H5Pclose(links);
     return status;
 }
 

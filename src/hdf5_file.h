@@ -50,6 +50,9 @@ hid_t hdf5_memory_type(hdf5_kind kind);
 /** Makes the dataset, without rows. */
 dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows);
 
+/** Gives a dataset another name. */
+dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target);
+
 /** Stores `count` rows from row `first` on, which then are the last ones. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
 

@@ -123,38 +123,78 @@ void kernel_destroy(kernel *k)
 /* ---- evaluation ---- */
 
 /* Takes an array [n][2] into the layout's order. */
-static void pack(const kernel *k, const double *from, double *to)
+static void pack_share(const kernel *k, int t, const double *from, double *to)
 {
     const layout *l = &k->model->layout;
-    THREADS_EACH(k->n_threads)
-    for (dem_index q = 0; q < l->n_nodes; q++) vec2_put(to, q, vec2_at(from, l->order[q]));
+    const dem_index end = threads_share(l->n_nodes, k->n_threads, t + 1);
+    for (dem_index q = threads_share(l->n_nodes, k->n_threads, t); q < end; q++)
+        vec2_put(to, q, vec2_at(from, l->order[q]));
 }
 
-static void unpack(const kernel *k, const double *from, double *to)
+static void pack(const kernel *k, const double *from, double *to)
+{
+    THREADS_RUN(k->n_threads, t, pack_share(k, t, from, to));
+}
+
+static void unpack_share(const kernel *k, int t, const double *from, double *to)
 {
     const layout *l = &k->model->layout;
-    THREADS_EACH(k->n_threads)
-    for (dem_index q = 0; q < l->n_nodes; q++) vec2_put(to, l->order[q], vec2_at(from, q));
+    const dem_index end = threads_share(l->n_nodes, k->n_threads, t + 1);
+    for (dem_index q = threads_share(l->n_nodes, k->n_threads, t); q < end; q++)
+        vec2_put(to, l->order[q], vec2_at(from, q));
+}
+
+/* The blocks of a thread. */
+typedef struct share {
+    dem_index first, last;
+} share;
+
+static share share_of(const kernel *k, int t)
+{
+    const dem_index n = k->model->layout.n_blocks;
+    return (share){threads_share(n, k->n_threads, t), threads_share(n, k->n_threads, t + 1)};
+}
+
+static void sweep_share(kernel *k, int t, const sweep *s)
+{
+    const share b = share_of(k, t);
+    k->sums[t] = b.first < b.last ? k->sweep(s, b.first, b.last, k->rings + (size_t)t * k->ring_size) : 0.0;
 }
 
 static double sweep_blocks(kernel *k, const sweep *s)
 {
     double sum = 0.0;
-    THREADS_EACH(k->n_threads)
-    for (int t = 0; t < k->n_threads; t++) {
-        const dem_index first = threads_share(s->layout->n_blocks, k->n_threads, t);
-        const dem_index last = threads_share(s->layout->n_blocks, k->n_threads, t + 1);
-        k->sums[t] = first < last ? k->sweep(s, first, last, k->rings + (size_t)t * k->ring_size) : 0.0;
-    }
+    THREADS_RUN(k->n_threads, t, sweep_share(k, t, s));
     for (int t = 0; t < k->n_threads; t++) sum += k->sums[t];
     return sum;
+}
+
+static void drift(const kernel *k, const sweep_leap *p, dem_index first, dem_index last)
+{
+    const dem_index at = 2 * first;
+    const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
+    k->bulk->drift(p->x1 + at, p->v1 + at, start, p->h, 2 * (last - first));
+}
+
+/* What others than its own thread read of a share of blocks, and nodes in no block. */
+static void drift_ends(const kernel *k, int t, const sweep_leap *p)
+{
+    const layout *l = &k->model->layout;
+    const share b = share_of(k, t);
+    const dem_index low = b.first + l->ahead < b.last ? b.first + l->ahead : b.last;
+    const dem_index high = b.last - l->ahead > low ? b.last - l->ahead : low;
+    drift(k, p, LAYOUT_LANES * b.first, LAYOUT_LANES * low);
+    drift(k, p, LAYOUT_LANES * high, t + 1 < k->n_threads ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
 /* One row by itself; what it adds to the sum. */
 static double accelerate_row(const kernel *k, const model_load *load, const kernel_state *y, dem_index i)
 {
+    const sweep_leap *p = y->leap;
+    if (p != NULL) drift(k, p, i, i + 1);
     const vec2 a = model_acceleration(k->model, load, i, y->x, y->v);
     vec2_put(y->a, i, a);
+    if (p != NULL) k->bulk->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
     return a.x + a.y;
 }
 
@@ -169,7 +209,7 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
 static dem_index next_guarded(const kernel *k, dem_index q)
 {
     const dem_index end = LAYOUT_LANES * k->model->layout.n_blocks;
-    if (k->model->layout.corners.n == 0) return end;
+    if (k->model->layout.corners.entries.n == 0) return end;
     while (q < end && !(k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES & 1))
         q += k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES ? 1 : LAYOUT_LANES - q % LAYOUT_LANES;
     return q < end ? q : end;
@@ -192,6 +232,11 @@ static double accelerate_rest(const kernel *k, const model_load *load, const ker
     return sum;
 }
 
+bool kernel_may_leap(const kernel *k, const model_load *load)
+{
+    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && load->boundaries == NULL;
+}
+
 double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
@@ -204,7 +249,9 @@ double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *
                .v = y->v,
                .u = y->u,
                .a = y->a,
-               .guarded = k->guarded};
+               .guarded = k->guarded,
+               .leap = y->leap};
+    if (y->leap != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->leap));
     if (k->packed != NULL) {
         pack(k, y->x, k->packed + n);
         if (l->damped || load->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);
@@ -215,7 +262,7 @@ double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *
         s.u = NULL;
     }
     double sum = sweep_blocks(k, &s);
-    if (k->packed != NULL) unpack(k, s.a, y->a);
+    if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     return sum + accelerate_rest(k, load, y);
 }
@@ -235,10 +282,7 @@ double kernel_stiffening(kernel *k, const double *x)
     if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
     const sweep s = {.layout = l, .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
-    THREADS_EACH(k->n_threads)
-    for (int t = 0; t < k->n_threads; t++)
-        k->sweep_guard(&s, threads_share(l->n_blocks, k->n_threads, t),
-                       threads_share(l->n_blocks, k->n_threads, t + 1));
+    THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         added = fmax(added, guard_bound(k, x, q));
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, x, q));

@@ -4,6 +4,8 @@
 #ifndef DEM_KERNEL_H
 #define DEM_KERNEL_H
 
+#include <stdbool.h>
+
 #include "bulk.h"
 #include "model.h"
 #include "sweep.h"
@@ -30,11 +32,16 @@ void kernel_destroy(kernel *k);
 /** A state and its derivative, [n_nodes][2] each. */
 typedef struct kernel_state {
     const double *x, *v;
-    double *u; /* velocities, as v; NULL: not wanted */
-    double *a; /* accelerations, free of contact */
+    double *u;              /* velocities, as v; NULL: not wanted */
+    double *a;              /* accelerations, free of contact */
+    const sweep_leap *leap; /* NULL: none. Else x and v are its x1 and v1, which are filled as well */
 } kernel_state;
 
-/** Fills u and a.  \return a sum over them that is not finite if one of them is not */
+/** Whether accelerations depend on nothing but positions, so that there may be a leap. */
+bool kernel_may_leap(const kernel *k, const model_load *load);
+
+/** Fills u and a, and does the leap's step, to the bits that bulk's drift and kick give before and after.
+ *  \return a sum over them that is not finite if one of them is not */
 double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y);
 
 /** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "aligned.h"
 #include "order.h"
 #include "status.h"
 
@@ -37,7 +36,9 @@ typedef struct builder {
     item *items;    /* [LAYOUT_LANES][most] */
     dem_index n[LAYOUT_LANES], next[LAYOUT_LANES];
     bool taken[LAYOUT_LANES]; /* by the group in hand */
-    bool by_slot;             /* groups are the next items of all lanes, wherever they are */
+    dem_index n_entries, entry_capacity;
+    layout_entry *entries; /* [n_entries] of the block in hand */
+    bool by_slot;          /* groups are the next items of all lanes, wherever they are */
     dem_index n_streams, stream_capacity;
     int64_t *key, *used; /* [n_streams] what a stream of the ring was used for, and the last block that did */
 } builder;
@@ -65,11 +66,19 @@ static dem_status grow(void **array, dem_index *capacity, dem_index n, size_t si
     return DEM_OK;
 }
 
-static dem_status add_entry(layout_part *part, layout_entry entry)
+static dem_status add_entry(builder *b, layout_entry entry)
 {
-    TRY(grow((void **)&part->entries, &part->capacity, part->n, sizeof *part->entries));
-    part->entries[part->n++] = entry;
+    TRY(grow((void **)&b->entries, &b->entry_capacity, b->n_entries, sizeof *b->entries));
+    b->entries[b->n_entries++] = entry;
     return DEM_OK;
+}
+
+/* What has been added is what the block does. */
+static dem_status close_block(builder *b, layout_part *part, dem_index block)
+{
+    const dem_index n = b->n_entries;
+    b->n_entries = 0;
+    return pool_find(&part->entries, b->entries, n, &part->span[block]);
 }
 
 static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
@@ -78,67 +87,6 @@ static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
     TRY(grow((void **)&l->lists, &l->list_capacity, l->n_lists, LAYOUT_LANES * sizeof *l->lists));
     memcpy(l->lists + LAYOUT_LANES * l->n_lists, index, LAYOUT_LANES * sizeof *index);
     *number = (int32_t)(LAYOUT_LANES * l->n_lists++);
-    return DEM_OK;
-}
-
-/* ---- sets of coefficients ---- */
-
-static dem_index slot_of(const layout_sets *sets, const double *values)
-{
-    const size_t size = (size_t)sets->width * LAYOUT_LANES;
-    uint64_t hash = 0, word;
-    for (size_t k = 0; k < size; k++) {
-        memcpy(&word, values + k, sizeof word);
-        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 29;
-    }
-    dem_index slot = (dem_index)(hash & (uint64_t)(sets->n_slots - 1));
-    while (sets->slots[slot] >= 0 &&
-           memcmp(sets->values + (size_t)sets->slots[slot] * size, values, size * sizeof *values) != 0)
-        slot = (slot + 1) & (sets->n_slots - 1);
-    return slot;
-}
-
-static dem_status rehash(layout_sets *sets)
-{
-    const dem_index n_slots = sets->n_slots > 0 ? 2 * sets->n_slots : 64;
-    int32_t *slots = malloc((size_t)n_slots * sizeof *slots);
-    CHECK(slots != NULL, DEM_ERROR_MEMORY, "out of memory for the layout of springs");
-    free(sets->slots);
-    sets->slots = slots;
-    sets->n_slots = n_slots;
-    for (dem_index k = 0; k < n_slots; k++) slots[k] = -1;
-    for (dem_index k = 0; k < sets->n; k++)
-        slots[slot_of(sets, sets->values + k * sets->width * LAYOUT_LANES)] = (int32_t)k;
-    return DEM_OK;
-}
-
-static dem_status find_set(layout_sets *sets, const double *values, int32_t *number)
-{
-    const size_t size = (size_t)sets->width * LAYOUT_LANES;
-    if (2 * sets->n >= sets->n_slots) TRY(rehash(sets));
-    int32_t *slot = &sets->slots[slot_of(sets, values)];
-    if (*slot < 0) {
-        TRY(grow((void **)&sets->values, &sets->capacity, sets->n, size * sizeof *values));
-        memcpy(sets->values + (size_t)sets->n * size, values, size * sizeof *values);
-        *slot = (int32_t)sets->n++;
-    }
-    CHECK((size_t)sets->n * size < INT32_MAX, DEM_ERROR_MODEL, "too many kinds of springs");
-    *number = *slot * (int32_t)size;
-    return DEM_OK;
-}
-
-/* As many as there are, aligned; no more are sought. */
-static dem_status settle_sets(layout_sets *sets)
-{
-    const size_t size = (size_t)sets->n * (size_t)sets->width * LAYOUT_LANES;
-    double *values = aligned_zeros(size);
-    CHECK(values != NULL, DEM_ERROR_MEMORY, "out of memory for the layout of springs");
-    if (size > 0) memcpy(values, sets->values, size * sizeof *values);
-    free(sets->values);
-    free(sets->slots);
-    sets->values = values;
-    sets->slots = NULL;
     return DEM_OK;
 }
 
@@ -238,15 +186,18 @@ static uint8_t kind_of(const builder *b, bool gathered)
     return mask_of(b) == whole ? LAYOUT_ADD : LAYOUT_MASKED;
 }
 
-/* Coefficients of the group; lanes that take no part have the leader's. */
-static dem_status set_of(builder *b, layout_sets *sets, const item *leader, int32_t *number)
+/* Where the coefficients of the group are; lanes that take no part have the leader's. */
+static dem_status set_of(builder *b, pool *sets, dem_index width, const item *leader, int32_t *place)
 {
     double values[most_widths * LAYOUT_LANES];
+    pool_span span;
     for (int q = 0; q < LAYOUT_LANES; q++) {
         const item *a = b->taken[q] ? taken_of(b, q) : leader;
-        for (dem_index k = 0; k < sets->width; k++) values[k * LAYOUT_LANES + layout_lane(q)] = a->set[k];
+        for (dem_index k = 0; k < width; k++) values[k * LAYOUT_LANES + layout_lane(q)] = a->set[k];
     }
-    return find_set(sets, values, number);
+    TRY(pool_find(sets, values, width * LAYOUT_LANES, &span));
+    *place = span.first;
+    return DEM_OK;
 }
 
 static bool in_range(const builder *b, int32_t first)
@@ -313,19 +264,19 @@ static dem_status lay_springs(builder *b, dem_index block)
     choose_groups(b);
     for (const item *leader = take_group(b); leader != NULL; leader = take_group(b), slot++) {
         const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base);
-        layout_entry e = {.at = 2 * leader->base, .mask = mask_of(b), .kind = kind_of(b, gathered)};
+        layout_entry e = {.at = 2 * (leader->base - row), .mask = mask_of(b), .kind = kind_of(b, gathered)};
         TRY(find_stream(b, gathered ? -1 - slot : leader->base - row, block, &stream));
         CHECK(2 * (stream + 1) * (l->ring_rows + LAYOUT_LANES) < INT32_MAX, DEM_ERROR_MODEL,
               "too many springs at a node");
-        const int32_t place = (int32_t)(stream * (l->ring_rows + LAYOUT_LANES)) + at_row;
-        e.to = 2 * place;
+        const int32_t start = (int32_t)(stream * (l->ring_rows + LAYOUT_LANES));
+        e.to = 2 * start;
         if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
-        TRY(set_of(b, &l->bonds, leader, &e.set));
-        TRY(add_entry(&l->springs, e));
+        TRY(set_of(b, &l->bonds, l->damped ? 3 : 2, leader, &e.set));
+        TRY(add_entry(b, e));
         for (int lane = 0; lane < LAYOUT_LANES; lane++)
-            if (b->taken[lane]) b->force[taken_of(b, lane)->spring] = place + lane;
+            if (b->taken[lane]) b->force[taken_of(b, lane)->spring] = start + at_row + lane;
     }
-    return DEM_OK;
+    return close_block(b, &l->springs, block);
 }
 
 /* ---- terms ---- */
@@ -354,19 +305,27 @@ static void list_terms(builder *b, dem_index block)
 static dem_status lay_terms(builder *b, dem_index block)
 {
     layout *l = b->l;
+    const int32_t at_row = (int32_t)(LAYOUT_LANES * block & (l->ring_rows - 1));
     list_terms(b, block);
     choose_groups(b);
     for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
         const bool gathered = !side_by_side(b, leader);
-        layout_entry e = {.at = 2 * leader->base, .to = upper_of(b), .mask = mask_of(b), .kind = kind_of(b, gathered)};
+        layout_entry e = {.at = 2 * (leader->base - at_row), .mask = mask_of(b), .kind = kind_of(b, gathered)};
+        e.to = upper_of(b);
         if (e.kind == LAYOUT_ADD && leader->negative) e.kind = LAYOUT_SUBTRACT;
         if (gathered) TRY(list_operand(b, offsetof(item, at), 0, 0, &e.at));
-        TRY(add_entry(&l->terms, e));
+        TRY(add_entry(b, e));
     }
-    return DEM_OK;
+    return close_block(b, &l->terms, block);
 }
 
 /* ---- corners of triangles ---- */
+
+static void look_ahead(layout *l, dem_index block, int32_t place)
+{
+    const dem_index way = place / LAYOUT_LANES - block, ahead = (way > 0 ? way : -way) + 1;
+    if (ahead > l->ahead) l->ahead = ahead;
+}
 
 static void list_corners(builder *b, dem_index block)
 {
@@ -376,6 +335,8 @@ static void list_corners(builder *b, dem_index block)
         b->n[lane] = t->row[i + 1] - t->row[i];
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
             const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
+            look_ahead(b->l, block, next);
+            look_ahead(b->l, block, last);
             const double onset = t->guard[p] > 0.0 ? TRIANGLES_GUARD_ONSET * t->rest_area[p] : -INFINITY;
             b->items[lane * b->most + p - t->row[i]] =
                 (item){.at = next,
@@ -396,14 +357,14 @@ static dem_status lay_corners(builder *b, dem_index block)
     rewind_items(b);
     for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
         const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base) || !in_range(b, leader->last);
-        layout_entry e = {.at = 2 * leader->base, .to = 2 * leader->last, .mask = mask_of(b)};
+        layout_entry e = {.at = 2 * (leader->base - row), .to = 2 * (leader->last - row), .mask = mask_of(b)};
         e.kind = kind_of(b, gathered);
         if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
         if (gathered) TRY(list_operand(b, offsetof(item, to), row, 1, &e.to));
-        TRY(set_of(b, &l->areas, leader, &e.set));
-        TRY(add_entry(&l->corners, e));
+        TRY(set_of(b, &l->areas, 3, leader, &e.set));
+        TRY(add_entry(b, e));
     }
-    return DEM_OK;
+    return close_block(b, &l->corners, block);
 }
 
 /* ---- all blocks ---- */
@@ -425,14 +386,11 @@ static dem_status lay_blocks(builder *b)
         }
         TRY(lay_terms(b, block));
         TRY(lay_corners(b, block));
-        CHECK(l->terms.n < INT32_MAX && l->corners.n < INT32_MAX, DEM_ERROR_MODEL, "too many springs");
-        l->springs.row[block + 1] = (int32_t)l->springs.n;
-        l->terms.row[block + 1] = (int32_t)l->terms.n;
-        l->corners.row[block + 1] = (int32_t)l->corners.n;
     }
     l->ring_length = b->n_streams * (l->ring_rows + LAYOUT_LANES);
-    TRY(settle_sets(&l->bonds));
-    return settle_sets(&l->areas);
+    pool *const pools[] = {&l->springs.entries, &l->terms.entries, &l->corners.entries, &l->bonds, &l->areas};
+    for (size_t k = 0; k < sizeof pools / sizeof *pools; k++) TRY(pool_settle(pools[k]));
+    return DEM_OK;
 }
 
 /* An order by distance, if neighbours are far apart as they are numbered and nearer so. */
@@ -455,6 +413,7 @@ static dem_status choose_order(builder *b)
         }
     }
     l->reach = (span + LAYOUT_LANES - 1) / LAYOUT_LANES;
+    l->ahead = l->reach + 1; /* other lanes of an entry read up to seven nodes further */
     for (l->ring_rows = LAYOUT_LANES; l->ring_rows < LAYOUT_LANES * (l->reach + 2);) l->ring_rows *= 2;
     return DEM_OK;
 }
@@ -470,10 +429,10 @@ static dem_status allocate(builder *b)
     }
     b->items = malloc(LAYOUT_LANES * ((size_t)b->most + 1) * sizeof *b->items);
     b->force = malloc(((size_t)b->s->n_springs + 1) * sizeof *b->force);
-    l->springs.row = calloc(n, sizeof *l->springs.row);
-    l->terms.row = calloc(n, sizeof *l->terms.row);
-    l->corners.row = calloc(n, sizeof *l->corners.row);
-    CHECK(b->items && b->force && l->springs.row && l->terms.row && l->corners.row, DEM_ERROR_MEMORY,
+    l->springs = (layout_part){calloc(n, sizeof(pool_span)), {.unit = sizeof(layout_entry)}};
+    l->terms = (layout_part){calloc(n, sizeof(pool_span)), {.unit = sizeof(layout_entry)}};
+    l->corners = (layout_part){calloc(n, sizeof(pool_span)), {.unit = sizeof(layout_entry)}};
+    CHECK(b->items && b->force && l->springs.span && l->terms.span && l->corners.span, DEM_ERROR_MEMORY,
           "out of memory for %lld springs", (long long)b->s->n_springs);
     return choose_order(b);
 }
@@ -488,8 +447,7 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t)
     CHECK(s->n_nodes < INT32_MAX / 2 && s->n_springs < INT32_MAX / 2, DEM_ERROR_MODEL,
           "%lld nodes and %lld springs are more than the library takes", (long long)s->n_nodes,
           (long long)s->n_springs);
-    l.bonds.width = l.damped ? 3 : 2;
-    l.areas.width = 3;
+    l.bonds.unit = l.areas.unit = sizeof(double);
     dem_status status = allocate(&b);
     if (status == DEM_OK) status = lay_blocks(&b);
     free(b.items);
@@ -497,6 +455,7 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t)
     free(b.place);
     free(b.key);
     free(b.used);
+    free(b.entries);
     if (status == DEM_OK)
         *out = l;
     else
@@ -506,8 +465,8 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t)
 
 static void free_part(layout_part *part)
 {
-    free(part->row);
-    free(part->entries);
+    free(part->span);
+    pool_free(&part->entries);
 }
 
 void layout_free(layout *l)
@@ -515,11 +474,9 @@ void layout_free(layout *l)
     free_part(&l->springs);
     free_part(&l->terms);
     free_part(&l->corners);
+    pool_free(&l->bonds);
+    pool_free(&l->areas);
     free(l->order);
     free(l->lists);
-    free(l->bonds.values);
-    free(l->bonds.slots);
-    free(l->areas.values);
-    free(l->areas.slots);
     *l = (layout){0};
 }

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "pool.h"
 #include "springs.h"
 #include "triangles.h"
 
@@ -26,29 +27,22 @@ typedef enum layout_kind {
     LAYOUT_GATHERED  /**< `at`, and `to` of corners, are lists of one operand for each lane */
 } layout_kind;
 
-/** What the lanes of a block do at the same time. Operands are places in arrays of pairs, in numbers from their start;
- *  where they lie side by side `at` is that of lane 0. */
+/** What the lanes of a block do at the same time. Operands are places in arrays of pairs, in numbers: where they lie
+ *  side by side that of lane 0, counted from that of the block's first node, so that blocks which do the same have the
+ *  same entries; else numbers of lists, in which places are counted from the start. */
 typedef struct layout_entry {
     int32_t at;    /* of springs: upper node; of terms: force in the ring; of corners: next node */
-    int32_t to;    /* of springs: force in the ring; of corners: last node; of terms: mask of the upper nodes */
+    int32_t to;    /* of springs: force in the ring; of terms: mask of the upper nodes; of corners: last node */
     int32_t set;   /* where its coefficients are */
     uint16_t mask; /* two bits for each lane that takes part */
-    uint8_t kind;
+    uint16_t kind;
 } layout_entry;
 
 /** Entries by block. */
 typedef struct layout_part {
-    int32_t *row; /* [n_blocks + 1] */
-    dem_index n, capacity;
-    layout_entry *entries; /* [n] */
+    pool_span *span; /* [n_blocks] */
+    pool entries;
 } layout_part;
-
-/** Sets of coefficients, [n][width][LAYOUT_LANES]; equal ones are held once. */
-typedef struct layout_sets {
-    dem_index n, capacity, width, n_slots;
-    double *values;
-    int32_t *slots; /* [n_slots] hash table; -1: free */
-} layout_sets;
 
 typedef struct layout {
     dem_index n_nodes;
@@ -60,9 +54,10 @@ typedef struct layout {
     layout_part corners; /* its triangles */
     dem_index n_lists, list_capacity;
     int32_t *lists;        /* [n_lists][LAYOUT_LANES] operands */
-    layout_sets bonds;     /* stiffness, rest length; viscosity */
-    layout_sets areas;     /* rest area, area below which the guard acts, area stiffness */
+    pool bonds;            /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
+    pool areas;            /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
     dem_index reach;       /* blocks: none collects from one that is further below */
+    dem_index ahead;       /* blocks: none reads positions that are further away */
     dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */
     dem_index ring_length; /* forces in the ring */
 } layout;

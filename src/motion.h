@@ -6,6 +6,13 @@
 #include "bulk.h"
 #include "path.h"
 
+/** A step of Verlet's method from y0 with derivative f0 to y1 with f1, of which the second halves count. */
+typedef struct motion_leap {
+    double t1, h; /* s */
+    const double *y0, *f0;
+    double *y1, *f1;
+} motion_leap;
+
 typedef struct motion {
     dem_index n_nodes;  /* y has 4 n_nodes entries */
     dem_index n_books;  /* the last of these nodes are integrated along, and have no part in the error */
@@ -14,6 +21,10 @@ typedef struct motion {
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An engine that knows v may leave
      *  u out if nothing is prescribed. Returns 0, or 1 if something is not finite. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
+    /** Does the step of all nodes but the books, whose positions and velocities at its end are given, and fills their
+     *  rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not from this
+     *  state. NULL: from none. */
+    int (*leap)(const motion_leap *step, void *context);
     void (*guards)(double t, const double *y, double *g, void *context);
     /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */
     double (*stiffening)(const double *y, void *context);

@@ -137,6 +137,24 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     return 1;
 }
 
+/* Where nothing but springs, triangles and weight acts. */
+static int leap(const motion_leap *step, void *context)
+{
+    dem_simulation *s = context;
+    const model_load *load = &s->contact.sites.scene.rule.load;
+    const dem_index n = unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const sweep_leap nodes = {
+        .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
+    const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .leap = &nodes};
+    if (!kernel_may_leap(&s->kernel, load) || s->contact.sites.reactions.n_groups > 0) return -1;
+    const double sum = kernel_accelerate(&s->kernel, load, &y);
+    contact_constrain(&s->contact, y.x, y.a);
+    fill_rates(s, y.x, y.a + n_real, 0.0);
+    if (isfinite(sum)) return 0;
+    (void)name_culprit(s, step->t1, y.x, y.a);
+    return 1;
+}
+
 static void guards(double t, const double *y, double *g, void *context)
 {
     dem_simulation *s = context;
@@ -431,6 +449,7 @@ static dem_status set_up(dem_simulation *s)
                             .n_guards = model->obstacles.n > 0 && !is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
                             .prescribes = boundaries_move(&s->boundaries),
                             .derivative = derivative,
+                            .leap = s->boundaries.n == 0 ? leap : NULL,
                             .guards = guards,
                             .stiffening = stiffening,
                             .context = s,

@@ -21,7 +21,7 @@ static bool runs_from(const dem_index *corner, dem_index i, dem_index j)
            (corner[2] == i && corner[0] == j);
 }
 
-/* Boundary edges from start to end, in the order of their lower nodes, into ends; returns how many. */
+/* Boundary edges from start to end, in the order of their lower nodes, into ends, or NULL; returns how many. */
 static dem_index find_edges(const dem_lattice *l, const sides *list, dem_index *ends)
 {
     dem_index n = 0;
@@ -30,8 +30,10 @@ static dem_index find_edges(const dem_lattice *l, const sides *list, dem_index *
             const dem_index j = list->list[p].upper;
             if (!sides_edge_is_boundary(list, i, p) || !may_touch(l, i, j)) continue;
             const bool forward = runs_from(&l->triangles[3 * list->list[p].triangle], i, j);
-            ends[2 * n] = forward ? i : j;
-            ends[2 * n + 1] = forward ? j : i;
+            if (ends != NULL) {
+                ends[2 * n] = forward ? i : j;
+                ends[2 * n + 1] = forward ? j : i;
+            }
             n++;
         }
     return n;
@@ -117,14 +119,14 @@ static dem_status sort_edges(surface *s, const dem_lattice *l)
 
 static dem_status allocate(surface *s, const dem_lattice *l)
 {
-    const size_t most = 6 * (size_t)l->n_triangles + 1;
-    s->ends = malloc(most * sizeof *s->ends);
-    s->at = malloc(most * sizeof *s->at);
-    s->next = malloc(most * sizeof *s->next);
-    s->previous = malloc(most * sizeof *s->previous);
+    const size_t n = (size_t)s->n_edges;
+    s->ends = malloc((2 * n + 1) * sizeof *s->ends);
+    s->at = malloc((2 * n + 1) * sizeof *s->at);
+    s->next = malloc((n + 1) * sizeof *s->next);
+    s->previous = malloc((n + 1) * sizeof *s->previous);
     s->row = calloc((size_t)l->n_nodes + 1, sizeof *s->row);
     CHECK(s->ends && s->at && s->next && s->previous && s->row, DEM_ERROR_MEMORY,
-          "out of memory for the boundary of %lld triangles", (long long)l->n_triangles);
+          "out of memory for %lld boundary edges", (long long)s->n_edges);
     return DEM_OK;
 }
 
@@ -132,13 +134,16 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice)
 {
     surface s = {0};
     sides list = {0};
-    dem_status status = allocate(&s, lattice);
-    if (status == DEM_OK && lattice->n_triangles > 0) {
-        status = sides_create(&list, lattice);
-        if (status == DEM_OK) s.n_edges = find_edges(lattice, &list, s.ends);
-        if (status == DEM_OK) status = sort_edges(&s, lattice);
-        sides_free(&list);
+    dem_status status = sides_create(&list, lattice);
+    if (status == DEM_OK) {
+        s.n_edges = find_edges(lattice, &list, NULL);
+        status = allocate(&s, lattice);
     }
+    if (status == DEM_OK) {
+        (void)find_edges(lattice, &list, s.ends);
+        status = sort_edges(&s, lattice);
+    }
+    sides_free(&list);
     if (status == DEM_OK)
         *out = s;
     else

@@ -8,16 +8,18 @@
 
 #define INLINE static inline __attribute__((always_inline)) /* so that `damped` is known where loops are compiled */
 
-INLINE pairs fetch(const double *array, const int32_t *lists, int32_t at, bool gathered)
+/* `here` is where operands that lie side by side are counted from. */
+INLINE pairs fetch(const layout *l, const double *array, const double *here, int32_t at, bool gathered)
 {
-    return gathered ? pairs_gather(array, lists + at) : pairs_load(array + at);
+    return gathered ? pairs_gather(array, l->lists + at) : pairs_load(here + at);
 }
 
 /* The first eight places of a stream are repeated behind its end, so that any eight in a row can be read. */
-INLINE void repeat(const layout *l, dem_index block, double *ring)
+INLINE void repeat(const layout *l, pool_span span, double *ring)
 {
-    for (int32_t p = l->springs.row[block]; p < l->springs.row[block + 1]; p++) {
-        double *place = ring + l->springs.entries[p].to;
+    const layout_entry *entries = l->springs.entries.items;
+    for (int32_t p = span.first; p < span.end; p++) {
+        double *place = ring + entries[p].to;
         pairs_store(place + 2 * l->ring_rows, pairs_load(place));
     }
 }
@@ -26,42 +28,44 @@ INLINE void repeat(const layout *l, dem_index block, double *ring)
 INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, double *ring)
 {
     const layout *l = s->layout;
-    const layout_entry *e = l->springs.entries + l->springs.row[block],
-                       *end = l->springs.entries + l->springs.row[block + 1];
-    const int32_t *lists = l->lists;
-    const double *sets = l->bonds.values, *positions = s->x, *velocities = s->v;
-    const dem_index row = LAYOUT_LANES * block;
-    const pairs x = pairs_load(positions + 2 * row), v = damped ? pairs_load(velocities + 2 * row) : x;
-    double *damping = ring + 2 * l->ring_length;
-    for (; e < end; e++) {
+    const pool_span span = l->springs.span[block];
+    const layout_entry *entries = l->springs.entries.items;
+    const double *sets = l->bonds.items;
+    const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
+    const double *positions = s->x + 2 * row, *velocities = damped ? s->v + 2 * row : NULL;
+    const pairs x = pairs_load(positions), v = damped ? pairs_load(velocities) : x;
+    double *out = ring + 2 * at_row, *damping = ring + 2 * l->ring_length;
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = sets + e->set;
-        const pairs d = pairs_sub(fetch(positions, lists, e->at, gathered), x);
+        const pairs d = pairs_sub(fetch(l, s->x, positions, e->at, gathered), x);
         const lanes square = pairs_dot(d, d), length = lanes_sqrt(square), rest = lanes_load(set + LAYOUT_LANES);
         const lanes stretch = lanes_mul(lanes_load(set), lanes_sub(length, rest));
-        pairs_store(ring + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
+        pairs_store(out + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
         if (!damped) continue;
-        const pairs dv = pairs_sub(fetch(velocities, lists, e->at, gathered), v);
+        const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
         const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
-        pairs_store(damping + e->to, pairs_scale(lanes_div(rate, lanes_mul(rest, square)), d));
+        pairs_store(damping + 2 * at_row + e->to, pairs_scale(lanes_div(rate, lanes_mul(rest, square)), d));
     }
-    if ((row & (l->ring_rows - 1)) != 0) return;
-    repeat(l, block, ring);
-    if (damped) repeat(l, block, damping);
+    if (at_row != 0) return;
+    repeat(l, span, ring);
+    if (damped) repeat(l, span, damping);
 }
 
 /* Each node's sum over its row. */
 INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
 {
-    const layout_entry *e = l->terms.entries + l->terms.row[block], *end = l->terms.entries + l->terms.row[block + 1];
+    const pool_span span = l->terms.span[block];
+    const layout_entry *entries = l->terms.entries.items;
+    const double *here = ring + 2 * (LAYOUT_LANES * block & (l->ring_rows - 1));
     pairs sum = pairs_both(0.0, 0.0);
-    for (; e < end; e++) {
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         if (e->kind == LAYOUT_SUBTRACT) {
-            sum = pairs_sub(sum, pairs_load(ring + e->at));
+            sum = pairs_sub(sum, pairs_load(here + e->at));
         } else if (e->kind == LAYOUT_ADD) {
-            sum = pairs_add(sum, pairs_load(ring + e->at));
+            sum = pairs_add(sum, pairs_load(here + e->at));
         } else {
-            const pairs force = fetch(ring, l->lists, e->at, e->kind == LAYOUT_GATHERED);
+            const pairs force = fetch(l, ring, here, e->at, e->kind == LAYOUT_GATHERED);
             sum = pairs_add(sum, pairs_mask(pairs_negate(force, (unsigned)e->to), e->mask));
         }
     }
@@ -80,13 +84,15 @@ INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
 INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
 {
     const layout *l = s->layout;
-    const pairs x = pairs_load(s->x + 2 * LAYOUT_LANES * block), turn = pairs_both(-0.5, 0.5);
+    const pool_span span = l->corners.span[block];
+    const layout_entry *entries = l->corners.entries.items;
+    const double *sets = l->areas.items, *here = s->x + 2 * LAYOUT_LANES * block;
+    const pairs x = pairs_load(here), turn = pairs_both(-0.5, 0.5);
     pairs sum = pairs_both(0.0, 0.0);
-    for (int32_t p = l->corners.row[block]; p < l->corners.row[block + 1]; p++) {
-        const layout_entry *e = &l->corners.entries[p];
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
-        const double *set = l->areas.values + e->set;
-        const pairs next = fetch(s->x, l->lists, e->at, gathered), last = fetch(s->x, l->lists, e->to, gathered);
+        const double *set = sets + e->set;
+        const pairs next = fetch(l, s->x, here, e->at, gathered), last = fetch(l, s->x, here, e->to, gathered);
         const lanes twice = pairs_cross(pairs_sub(next, x), pairs_sub(last, x));
         const lanes area = lanes_mul(lanes_all(0.5), twice), rest = lanes_load(set);
         const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES));
@@ -109,7 +115,8 @@ INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const doub
     pairs force = sum_terms(l, block, ring);
     if (damped) force = pairs_add(force, sum_terms(l, block, ring + 2 * l->ring_length));
     unsigned guarded = 0;
-    if (l->corners.row[block] < l->corners.row[block + 1]) force = pairs_add(force, sum_corners(s, block, &guarded));
+    if (l->corners.span[block].first < l->corners.span[block].end)
+        force = pairs_add(force, sum_corners(s, block, &guarded));
     s->guarded[block] = (uint8_t)guarded;
     const pairs inverse_mass = pairs_spread(s->inverse_mass + row);
     pairs a = pairs_add(pairs_both(s->gravity.x, s->gravity.y), pairs_mul(inverse_mass, force));
@@ -118,18 +125,38 @@ INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const doub
     return pairs_unless_zero(inverse_mass, a);
 }
 
-/* Blocks below the first are evaluated only. Nodes collect a block behind, when what was left has reached the cache. */
-INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, double *ring)
+/* x1 = x0 + h v',  v' = v0 + h/2 a0 */
+INLINE void drift(const sweep_leap *p, dem_index block)
 {
-    const dem_index reach = s->layout->reach;
+    const dem_index at = 2 * LAYOUT_LANES * block;
+    const pairs h = pairs_both(p->h, p->h), half_h = pairs_both(0.5 * p->h, 0.5 * p->h);
+    const pairs half = pairs_add(pairs_load(p->v0 + at), pairs_mul(half_h, pairs_load(p->a0 + at)));
+    pairs_store(p->x1 + at, pairs_add(pairs_load(p->x0 + at), pairs_mul(h, half)));
+}
+
+/* v1 = (v' + h/2 a0) + h/2 (a1 - a0): in two parts, as where a1 needs v1 extrapolated. */
+INLINE void kick(const sweep_leap *p, dem_index block, pairs a1)
+{
+    const dem_index at = 2 * LAYOUT_LANES * block;
+    const pairs half_h = pairs_both(0.5 * p->h, 0.5 * p->h), a0 = pairs_load(p->a0 + at), push = pairs_mul(half_h, a0);
+    const pairs extrapolated = pairs_add(pairs_add(pairs_load(p->v0 + at), push), push);
+    pairs_store(p->v1 + at, pairs_add(extrapolated, pairs_mul(half_h, pairs_sub(a1, a0))));
+}
+
+/* Blocks below the first are evaluated only. Nodes collect a block behind, when what was left has reached the cache. */
+INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, bool leaps, double *ring)
+{
+    const dem_index reach = s->layout->reach, ahead = s->layout->ahead;
     pairs sum = pairs_both(0.0, 0.0);
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
+        if (leaps && block >= first && block + ahead < last - ahead) drift(s->leap, block + ahead);
         if (block < last) evaluate_springs(s, block, damped, ring);
         if (block <= first) continue;
         const dem_index at = 2 * LAYOUT_LANES * (block - 1);
         const pairs a = accelerate(s, block - 1, damped, ring);
         pairs_store(s->a + at, a);
         sum = pairs_add(sum, a);
+        if (leaps) kick(s->leap, block - 1, a);
         if (s->u == NULL) continue;
         const pairs v = pairs_load(s->v + at);
         pairs_store(s->u + at, v);
@@ -149,7 +176,8 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 
 double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
 {
-    return s->layout->damped ? run(s, first, last, true, ring) : run(s, first, last, false, ring);
+    if (s->leap != NULL) return run(s, first, last, false, true, ring);
+    return s->layout->damped ? run(s, first, last, true, false, ring) : run(s, first, last, false, false, ring);
 }
 
 #endif

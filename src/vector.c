@@ -132,6 +132,14 @@ static double *apart_from(N_Vector z, const double *const *in, int n)
     return vector_fresh(z);
 }
 
+static void combine_share(const vector_space *s, int t, double *out, int n, const double *c, const double *const *in)
+{
+    const dem_index first = threads_share(s->length, s->n_threads, t);
+    const double *from[most_terms];
+    for (int k = 0; k < n; k++) from[k] = in[k] + first;
+    s->bulk->combine(out + first, n, c, from, threads_share(s->length, s->n_threads, t + 1) - first);
+}
+
 static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
     double factor[most_terms];
@@ -154,13 +162,7 @@ static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
         return 0;
     }
     double *out = apart_from(z, in, m);
-    THREADS_EACH(s->n_threads)
-    for (int t = 0; t < s->n_threads; t++) {
-        const dem_index first = threads_share(s->length, s->n_threads, t);
-        const double *from[most_terms];
-        for (int k = 0; k < m; k++) from[k] = in[k] + first;
-        s->bulk->combine(out + first, m, factor, from, threads_share(s->length, s->n_threads, t + 1) - first);
-    }
+    THREADS_RUN(s->n_threads, t, combine_share(s, t, out, m, factor, in));
     return 0;
 }
 
@@ -182,16 +184,17 @@ static double scale_of(double size)
     return scale;
 }
 
+static void square_share(const vector_space *s, int t, const double *x, const double *w, double scale)
+{
+    const dem_index first = threads_share(s->length, s->n_threads, t);
+    s->sums[t] = (bulk_sum){0};
+    s->bulk->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
+}
+
 static bulk_sum square(const vector_space *s, const double *x, const double *w, double scale)
 {
     bulk_sum sum = {0};
-    THREADS_EACH(s->n_threads)
-    for (int t = 0; t < s->n_threads; t++) {
-        const dem_index first = threads_share(s->length, s->n_threads, t);
-        s->sums[t] = (bulk_sum){0};
-        s->bulk->square(&s->sums[t], x + first, w + first, scale,
-                        threads_share(s->length, s->n_threads, t + 1) - first);
-    }
+    THREADS_RUN(s->n_threads, t, square_share(s, t, x, w, scale));
     for (int t = 0; t < s->n_threads; t++) bulk_add(&sum, &s->sums[t]);
     return sum;
 }

@@ -120,27 +120,28 @@ static int evaluate(verlet *V, double t, const double *y, double *f)
     return V->problem.derivative(t, y, u, a, V->problem.context);
 }
 
-static void drift(verlet *V, double h)
+/* A part of the numbers of positions, and of velocities. */
+typedef struct stretch {
+    dem_index at, size;
+} stretch;
+
+static stretch share_of(const verlet *V, int t)
 {
-    const motion *p = &V->problem;
-    const dem_index n = 2 * p->n_nodes;
-    THREADS_EACH(p->n_threads)
-    for (int t = 0; t < p->n_threads; t++) {
-        const dem_index at = threads_share(n, p->n_threads, t), end = threads_share(n, p->n_threads, t + 1);
-        const double *const start[3] = {V->y0 + at, V->y0 + n + at, V->f0 + n + at};
-        p->bulk->drift(V->y1 + at, V->y1 + n + at, start, h, end - at);
-    }
+    const dem_index n = 2 * V->problem.n_nodes, at = threads_share(n, V->problem.n_threads, t);
+    return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
 }
 
-static void kick(verlet *V, double h)
+static void drift_stretch(verlet *V, double h, stretch s)
 {
-    const motion *p = &V->problem;
-    const dem_index n = 2 * p->n_nodes;
-    THREADS_EACH(p->n_threads)
-    for (int t = 0; t < p->n_threads; t++) {
-        const dem_index at = n + threads_share(n, p->n_threads, t), end = n + threads_share(n, p->n_threads, t + 1);
-        p->bulk->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, end - at);
-    }
+    const dem_index n = 2 * V->problem.n_nodes;
+    const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
+    V->problem.bulk->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
+}
+
+static void kick_stretch(verlet *V, double h, stretch s)
+{
+    const dem_index at = 2 * V->problem.n_nodes + s.at;
+    V->problem.bulk->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
 }
 
 /* A velocity that the derivative does not take over as it is, is prescribed. */
@@ -152,15 +153,32 @@ static void kick_free(verlet *V, double h)
         v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
 }
 
+/* All nodes at once where that can be, and the books: 0, 1 on failure, or -1. */
+static int leap(verlet *V, double h)
+{
+    const motion *p = &V->problem;
+    const motion_leap step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
+    const stretch books = {2 * (p->n_nodes - p->n_books), 2 * p->n_books};
+    if (p->leap == NULL) return -1;
+    drift_stretch(V, h, books);
+    const int flag = p->leap(&step, p->context);
+    if (flag < 0) return flag;
+    V->counts.evaluations++;
+    kick_stretch(V, h, books);
+    return flag;
+}
+
 static int kick_drift_kick(verlet *V, double h)
 {
-    drift(V, h);
     V->t1 = V->t + h;
+    const int flag = leap(V, h);
+    if (flag >= 0) return flag;
+    THREADS_RUN(V->problem.n_threads, t, drift_stretch(V, h, share_of(V, t)));
     if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
     if (V->problem.prescribes)
         kick_free(V, h);
     else
-        kick(V, h);
+        THREADS_RUN(V->problem.n_threads, t, kick_stretch(V, h, share_of(V, t)));
     return 0;
 }
 

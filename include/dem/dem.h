@@ -329,8 +329,7 @@ typedef struct dem_counts {
     dem_index closings, releases; /**< contacts that began and ceased to last */
     dem_index slips, sticks;      /**< lasting contacts that began to slide, that stopped or turned back */
     dem_index passings;           /**< of a segment's or an edge's end by a lasting contact */
-    dem_index
-        late; /**< contact events that the root finder of DEM_CONTACT_EXACT had not seen, found by the check after each step */
+    dem_index late;    /**< events that the root finder of DEM_CONTACT_EXACT had not seen, but the check of a step */
     dem_index retries; /**< attempts repeated with a smaller step after a non-finite force */
     dem_index behind;  /**< nodes that have passed round the end of an open obstacle, now */
 } dem_counts;

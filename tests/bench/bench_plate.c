@@ -67,7 +67,7 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
     double *state = aligned_zeros(2 * (size_t)n), *a = aligned_zeros(2 * (size_t)n), least = INFINITY;
     must(state != NULL && a != NULL, "out of memory");
     memcpy(state, model->lattice.position, 2 * (size_t)n * sizeof *state);
-    const kernel_state y = {state, state, NULL, a};
+    const kernel_state y = {.x = state, .v = state, .a = a};
     kernel k;
     ask(kernel_create(&k, model, kind, 1));
     for (int turn = 0; turn < 7; turn++) {

@@ -170,7 +170,7 @@ class Check(Case):
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
                          ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "stability", "kernel",
-                          "formula", "constants", "frequency", "estimate"])
+                          "formula", "constants", "frequency", "estimate", "memory"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -210,10 +210,26 @@ class Check(Case):
         highest, slack = numbers("frequency  highest # rad/s, the bound is # times that", out)
         self.assertAlmostEqual(highest * slack, omega_max, delta=1e-3 * omega_max)
         self.assertTrue(1 <= slack < 1.25)
-        steps, _, frames, _, _ = numbers("estimate   at least # steps of # evaluations, # frames, about # MB of "
-                                         "output, # MB of memory", out)
+        steps, _, frames, _ = numbers("estimate   at least # steps of # evaluations, # frames, about # MB of output", out)
         self.assertTrue(abs(steps - t_end / step) <= 2)
         self.assertEqual(frames, 9)
+
+    def test_memory(self):
+        """What is given out is about what becomes resident: less vectors in reserve, which stay untouched."""
+        self.put(coarse(spacing="0.6e-3", t_end="1e-6", clearance="0.1"))
+        checked, _ = numbers("memory     at most # MB, # bytes a node", self.call(0, "--check", "deck.nml"))
+        process = subprocess.Popen([DEM_BATCH, "deck.nml"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        with process:
+            out = process.stdout.read()
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(process.returncode, 0)
+        nodes, *_ = numbers("lattice    # nodes, # springs, # triangles, # body, mass # kg", out)
+        megabytes, each = numbers("memory     at most # MB, # bytes a node", out)
+        self.assertAlmostEqual(megabytes * 1e6 / nodes, each, delta=1e-3 * each)
+        self.assertLess(checked, megabytes)  # a run has frames and peaks besides
+        resident = 1024e-6 * used.ru_maxrss - 12  # less code, libraries and HDF5; what was freed may not be given back
+        self.assertTrue(0.7 * megabytes < resident < 1.25 * megabytes)
 
     def test_steps_of_one_length(self):
         self.put(coarse() + "&solver method = 'rk4' /\n")

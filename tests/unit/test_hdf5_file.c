@@ -161,6 +161,24 @@ static void what_is_appended_are_the_last_rows(void **state)
     finish(&file);
 }
 
+static void a_linked_dataset_has_the_same_rows_under_both_names(void **state)
+{
+    (void)state;
+    const double value[3] = {1.0, -2.0, 3.0};
+    const hdf5_rows rows = {"/a/rows", HDF5_F64, 1, {0, 0}, 4, 0};
+    hdf5_file file = open_new();
+    assert_ok(hdf5_create(&file, &rows));
+    assert_ok(hdf5_link(&file, "/b/same", "/a/rows"));
+    assert_ok(hdf5_append(&file, &rows, 0, 3, value));
+    finish(&file);
+    file = open_again();
+    expect_values(&file, "/a/rows", value, 3);
+    expect_values(&file, "/b/same", value, 3);
+    assert_int_equal(hdf5_link(&file, "/c", "/none"), DEM_ERROR_IO);
+    assert_message_has(": /c: cannot be linked (");
+    finish(&file);
+}
+
 static void numbers_are_stored_little_endian_in_their_own_width(void **state)
 {
     (void)state;
@@ -648,6 +666,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         CASE(rows_come_back_as_they_were_appended),
         CASE(what_is_appended_are_the_last_rows),
+        CASE(a_linked_dataset_has_the_same_rows_under_both_names),
         CASE(numbers_are_stored_little_endian_in_their_own_width),
         CASE(a_chunk_has_the_rows_asked_for),
         CASE(deflated_rows_take_less_room_and_come_back_the_same),

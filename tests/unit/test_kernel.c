@@ -61,7 +61,7 @@ static void check_kernel(scene *s, const model_load *load, dem_kernel kind, int 
     assert_ok(kernel_create(&k, s->model, kind, n_threads));
     for (int round = 0; round < 2; round++) { /* what the first has left in the ring does not matter */
         const dem_index n = s->model->lattice.n_nodes;
-        const kernel_state y = {s->x, s->v, round ? s->u : NULL, s->a};
+        const kernel_state y = {.x = s->x, .v = s->v, .u = round ? s->u : NULL, .a = s->a};
         for (dem_index c = 0; c < 2 * n; c++) s->a[c] = s->u[c] = NAN;
         assert_true(isfinite(kernel_accelerate(&k, load, &y)));
         if (round) assert_memory_equal(s->u, s->v, 2 * (size_t)n * sizeof *s->v);
@@ -74,6 +74,43 @@ static void check_kernel(scene *s, const model_load *load, dem_kernel kind, int 
         }
     }
     kernel_destroy(&k);
+}
+
+/* v' = v0 + h/2 a0, x1 = x0 + h v', v1 = (v' + h/2 a0) + h/2 (a1 - a0), number by number. */
+static void check_leap(scene *s, const model_load *load, dem_kernel kind, int n_threads)
+{
+    const dem_index n = 2 * s->model->lattice.n_nodes;
+    const double h = 0.1 * dem_model_spacing(s->model) / 10.0;
+    double *a0 = copy_doubles(s->v, n), *x1 = copy_doubles(s->x, n), *v1 = copy_doubles(s->v, n);
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    for (dem_index c = 0; c < n; c++) {
+        a0[c] = about_zero(s->random, 10.0 / h);
+        x1[c] = v1[c] = s->a[c] = 1.0;
+    }
+    const sweep_leap leap = {h, s->x, s->v, a0, x1, v1};
+    const kernel_state y = {.x = x1, .v = v1, .a = s->a, .leap = &leap};
+    assert_true(isfinite(kernel_accelerate(&k, load, &y)));
+    for (dem_index c = 0; c < n; c++) assert_close(x1[c], s->x[c] + h * (s->v[c] + 0.5 * h * a0[c]), 0.0);
+    for (dem_index c = 0; c < n; c++) {
+        const vec2 a = model_acceleration(s->model, load, c / 2, x1, s->v);
+        const double a1 = c % 2 ? a.y : a.x, half = s->v[c] + 0.5 * h * a0[c];
+        assert_close(s->a[c], a1, 0.0);
+        assert_close(v1[c], half + 0.5 * h * a0[c] + 0.5 * h * (a1 - a0[c]), 0.0);
+    }
+    kernel_destroy(&k);
+    free(a0);
+    free(x1);
+    free(v1);
+}
+
+static bool may_leap(const scene *s, const model_load *load)
+{
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
+    const bool may = kernel_may_leap(&k, load);
+    kernel_destroy(&k);
+    return may;
 }
 
 /* sqrt(1 + largest bound/omega_max^2), node by node. */
@@ -100,6 +137,7 @@ static void check_load(scene *s, const model_load *load)
         for (int n_threads = 1; n_threads <= 3; n_threads++)
             if (dem_kernel_check(kind) == DEM_OK) {
                 check_kernel(s, load, kind, n_threads);
+                if (may_leap(s, load)) check_leap(s, load, kind, n_threads);
                 check_stiffening(s, kind, n_threads);
             }
 }
@@ -340,6 +378,53 @@ static void fixed_and_pushed_nodes_agree(void **state)
     dem_lattice_free(&lattice);
 }
 
+/* Springs along rows only, triangles between rows: these reach further. */
+static void triangles_may_reach_further_than_springs(void **state)
+{
+    const model_load load = {.gravity = {0.5, -9.81}};
+    dem_material material = rubber;
+    (void)state;
+    material.poissons_ratio = 0.2;
+    dem_lattice lattice = make_solid(0.6, 0.6, &material);
+    dem_index kept = 0;
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        const dem_index *ends = lattice.ends + 2 * k;
+        if (ends[1] - ends[0] != 1 && ends[0] - ends[1] != 1) continue;
+        memmove(lattice.ends + 2 * kept, ends, 2 * sizeof *ends);
+        lattice.rest_length[kept] = lattice.rest_length[k];
+        lattice.stiffness[kept++] = lattice.stiffness[k];
+    }
+    lattice.n_springs = kept;
+    scene s = make_scene(&lattice, 0.1);
+    assert_int_equal(s.model->layout.reach, 1);
+    assert_true(may_leap(&s, &load));
+    check_load(&s, &load);
+    free_scene(&s);
+    dem_lattice_free(&lattice);
+}
+
+/* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
+static void what_depends_on_more_than_positions_does_not_leap(void **state)
+{
+    const boundaries pushes = {0};
+    const model_load plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dem_material material = rubber;
+        if (k == 1) material.damping_time = 1e-5;
+        dem_lattice lattice = make_solid(k == 2 ? 0.6 : 0.2, k == 2 ? 0.4 : 0.1, &material);
+        dem_index *number = shuffled(lattice.n_nodes);
+        if (k == 2) swap_nodes(&lattice, number);
+        scene s = make_scene(&lattice, 0.1);
+        assert_int_equal(may_leap(&s, &plain), k == 0);
+        assert_false(may_leap(&s, &drag));
+        assert_false(may_leap(&s, &pushed));
+        free_scene(&s);
+        dem_lattice_free(&lattice);
+        free(number);
+    }
+}
+
 static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
 {
     const model_load load = {.gravity = {0.0, -9.81}};
@@ -350,7 +435,7 @@ static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
         kernel k;
         if (dem_kernel_check(kind) != DEM_OK) continue;
         assert_ok(kernel_create(&k, s.model, kind, 2));
-        const kernel_state y = {s.x, s.v, s.u, s.a};
+        const kernel_state y = {.x = s.x, .v = s.v, .u = s.u, .a = s.a};
         for (dem_index i = 0; i < lattice.n_nodes; i++) {
             double *const number = i % 3 == 0 ? &s.v[2 * i] : &s.x[2 * i], kept = *number;
             *number = i & 1 ? (double)NAN : (double)INFINITY;
@@ -450,6 +535,8 @@ int main(void)
         cmocka_unit_test(random_springs_agree),
         cmocka_unit_test(a_hub_of_many_springs_agrees),
         cmocka_unit_test(fixed_and_pushed_nodes_agree),
+        cmocka_unit_test(triangles_may_reach_further_than_springs),
+        cmocka_unit_test(what_depends_on_more_than_positions_does_not_leap),
         cmocka_unit_test(a_number_that_is_not_finite_shows_in_the_sum),
         cmocka_unit_test(the_guard_stiffens_what_it_squeezes),
         cmocka_unit_test(kernels_have_names),

@@ -35,6 +35,7 @@ static stress_case *begin(dem_index most)
     stored_open(&c->stored);
     options_of_file.double_precision = 1;
     assert_ok(frames_init(&c->frames, c->run.model, &options_of_file));
+    assert_ok(frames_create(&c->frames, &c->stored.file, dem_model_lattice(c->run.model)));
     c->frames.n = 2;
     c->report = (peaks_report){c->peaks, dem_model_lattice(c->run.model), most};
     return c;

@@ -307,14 +307,19 @@ static void assert_same(const snapshot *a, const snapshot *b)
 }
 
 /* A run to the end in one go. */
-static snapshot run_whole(const dem_model *model)
+static snapshot run_with(const dem_model *model, const dem_options *options)
 {
-    const dem_options options = dem_options_default();
-    dem_simulation *simulation = simulate(model, &options);
+    dem_simulation *simulation = simulate(model, options);
     assert_ok(dem_simulation_advance(simulation, t_whole));
     const snapshot s = snap(simulation);
     dem_simulation_destroy(simulation);
     return s;
+}
+
+static snapshot run_whole(const dem_model *model)
+{
+    const dem_options options = dem_options_default();
+    return run_with(model, &options);
 }
 
 static void a_run_cut_anywhere_is_the_whole_run_bit_for_bit(void **state)
@@ -340,21 +345,54 @@ static void kernels_and_threads_leave_no_trace_in_the_run(void **state)
 {
     (void)state;
     dem_model *model = make_falling(0.7);
-    const snapshot usual = run_whole(model);
-    for (dem_kernel kind = DEM_KERNEL_AUTO; kind <= DEM_KERNEL_AVX512; kind++)
-        for (int threads = 1; threads <= 3; threads++) {
+    for (int verlet = 0; verlet < 2; verlet++) {
+        dem_options options = dem_options_default();
+        if (verlet) options.method = DEM_METHOD_VERLET;
+        const snapshot usual = run_with(model, &options);
+        for (dem_kernel kind = DEM_KERNEL_AUTO; kind <= DEM_KERNEL_AVX512; kind++)
+            for (int threads = 1; threads <= 3; threads++) {
+                options.kernel = kind;
+                options.threads = threads;
+                if (dem_kernel_check(kind) != DEM_OK) continue;
+                dem_simulation *simulation = simulate(model, &options);
+                assert_true(kind == DEM_KERNEL_AUTO || dem_simulation_options(simulation).kernel == kind);
+                assert_ok(dem_simulation_advance(simulation, t_whole));
+                const snapshot other = snap(simulation);
+                assert_same(&other, &usual);
+                dem_simulation_destroy(simulation);
+            }
+    }
+    dem_model_destroy(model);
+}
+
+/* A force of nothing on a node inside: steps of Verlet's method are taken part by part then, and not in one pass. */
+static void steps_in_one_pass_are_those_in_parts(void **state)
+{
+    (void)state;
+    for (int elastic = 0; elastic < 2; elastic++) { /* without restitution contacts last, and end */
+        dem_model *model = make_falling(0.7 * elastic);
+        snapshot run[2];
+        dem_obstacle_load load[2];
+        dem_index inside = 0;
+        while (dem_model_lattice(model)->flags[inside] & DEM_NODE_CONTACT) inside++;
+        const dem_boundary nothing = {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &inside};
+        for (int in_parts = 0; in_parts < 2; in_parts++) {
             dem_options options = dem_options_default();
-            options.kernel = kind;
-            options.threads = threads;
-            if (dem_kernel_check(kind) != DEM_OK) continue;
+            options.method = DEM_METHOD_VERLET;
+            options.boundaries = &nothing;
+            options.n_boundaries = in_parts;
             dem_simulation *simulation = simulate(model, &options);
-            assert_true(kind == DEM_KERNEL_AUTO || dem_simulation_options(simulation).kernel == kind);
             assert_ok(dem_simulation_advance(simulation, t_whole));
-            const snapshot other = snap(simulation);
-            assert_same(&other, &usual);
+            run[in_parts] = snap(simulation);
+            load[in_parts] = dem_simulation_obstacle(simulation, 0);
             dem_simulation_destroy(simulation);
         }
-    dem_model_destroy(model);
+        assert_true(run[0].counts.impacts > 3);
+        if (!elastic) assert_true(run[0].counts.releases > 0);
+        assert_same(&run[0], &run[1]);
+        assert_memory_equal(&load[0], &load[1], sizeof load[0]);
+        dem_model_destroy(model);
+    }
 }
 
 static void two_simulations_of_a_model_do_not_disturb_each_other(void **state)
@@ -873,6 +911,7 @@ int main(void)
         cmocka_unit_test(the_scale_of_speed_is_that_of_the_drop_or_of_sound),
         cmocka_unit_test(a_run_cut_anywhere_is_the_whole_run_bit_for_bit),
         cmocka_unit_test(kernels_and_threads_leave_no_trace_in_the_run),
+        cmocka_unit_test(steps_in_one_pass_are_those_in_parts),
         cmocka_unit_test(two_simulations_of_a_model_do_not_disturb_each_other),
         cmocka_unit_test(the_energy_ledger_closes),
         cmocka_unit_test(frames_come_at_multiples_of_the_interval_from_start_to_end),

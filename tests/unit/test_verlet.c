@@ -110,6 +110,70 @@ static void a_step_is_a_kick_a_drift_and_a_kick(void **state)
     assert_close(y[3], 2.0 - g * h, 1e-15);
 }
 
+/* ---- steps in one pass ---- */
+
+/* A book beside the node: its rate is the node's height. */
+static int move_with_book(double t, const double *y, double *u, double *a, void *context)
+{
+    const double node[4] = {y[0], y[1], y[4], y[5]};
+    a[2] = y[1];
+    a[3] = 1.0;
+    return move(t, node, u, a, context);
+}
+
+/* From every other state; `v1` and `f1` of the book are left to the engine and to the rates. */
+static int leap_from_above(const motion_leap *s, void *context)
+{
+    const double h = s->h;
+    double y1[4];
+    if (s->y0[1] < 0.0) return -1;
+    for (int c = 0; c < 2; c++) {
+        const double half = s->y0[4 + c] + 0.5 * h * s->f0[4 + c];
+        s->y1[c] = y1[c] = s->y0[c] + h * half;
+        y1[2 + c] = half + 0.5 * h * s->f0[4 + c];
+    }
+    const int flag = move(s->t1, y1, NULL, s->f1 + 4, context);
+    for (int c = 0; c < 2; c++) s->y1[4 + c] = y1[2 + c] + 0.5 * h * (s->f1[4 + c] - s->f0[4 + c]);
+    s->f1[6] = s->y1[1];
+    s->f1[7] = 1.0;
+    return flag;
+}
+
+static void a_step_in_one_pass_is_that_in_parts(void **state)
+{
+    const double start[8] = {0.4, 1.0, 7.0, -7.0, -0.3, 2.0, 3.0, 5.0}, h = 0.05;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        world worlds[2] = {plain, plain};
+        path p[2];
+        verlet *V[2];
+        if (k == 1) worlds[0].fails_after = worlds[1].fails_after = 7.5 * h;
+        for (int leaps = 0; leaps < 2; leaps++) {
+            const motion problem = {.n_nodes = 2,
+                                    .n_books = 1,
+                                    .bulk = &bulk_portable,
+                                    .n_threads = 1,
+                                    .derivative = move_with_book,
+                                    .leap = leaps ? leap_from_above : NULL,
+                                    .context = &worlds[leaps],
+                                    .fixed_step = h};
+            assert_ok(verlet_create(&V[leaps], &problem, 0.0, start));
+            bool rooted;
+            for (int step = 0; step < (k == 0 ? 40 : 7); step++) assert_ok(verlet_step(V[leaps], &p[leaps], &rooted));
+            if (k == 1) assert_int_equal(verlet_step(V[leaps], &p[leaps], &rooted), DEM_ERROR_INTEGRATOR);
+        }
+        if (k == 0) assert_memory_equal(p[0].y1, p[1].y1, sizeof start);
+        if (k == 0) assert_true(p[0].y1[1] < 0.0); /* both ways have been gone */
+        assert_int_equal(worlds[0].calls, worlds[1].calls);
+        const dem_counts a = verlet_counts(V[0]), b = verlet_counts(V[1]);
+        assert_memory_equal(&a, &b, sizeof a);
+        verlet_destroy(V[0]);
+        verlet_destroy(V[1]);
+    }
+}
+
+/* ---- its laws ---- */
+
 /* With damping too, whose velocity is extrapolated: halving the step quarters the difference, to what the next order
  * adds. */
 static void the_order_is_two_with_forces_of_any_kind(void **state)
@@ -377,6 +441,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_step_is_a_kick_a_drift_and_a_kick),
+        cmocka_unit_test(a_step_in_one_pass_is_that_in_parts),
         cmocka_unit_test(the_order_is_two_with_forces_of_any_kind),
         cmocka_unit_test(it_runs_backwards),
         cmocka_unit_test(the_stability_bound_is_that_of_the_characteristic_equation),
