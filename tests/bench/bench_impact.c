@@ -7,8 +7,8 @@
  * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step, times
  * omega_max; SKIN is in spacings, DAMPING the damping time in s. The state at the end goes into FILE. Elastic, without
  * friction and undamped unless the last three say else. Prints: nodes, springs, evaluations, steps, events, impacts,
- * late ones; the least CPU time of a run in s and what of it went into finding contact events inside steps and into taking
- * them, method local. With `lammps`: the body as a data file of LAMMPS. */
+ * late ones; the least CPU time of a run in s and, of method local, what of it went into finding contact events inside
+ * steps and into taking them. With `lammps`: the body as a data file of LAMMPS. */
 #include <math.h>
 #include <string.h>
 
