@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A triangle in cells where there are boundary nodes looks at those in its range of x, by which they are sorted. */
+/* Triangles look at the boundary nodes in the cells that they reach into. */
 #include "overlap.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "sides.h"
 #include "status.h"
@@ -21,13 +20,15 @@ dem_status overlap_create(overlap *out, const dem_lattice *lattice)
     unsigned char *flags = malloc((size_t)lattice->n_nodes);
     o.nodes = malloc((size_t)lattice->n_nodes * sizeof *o.nodes);
     o.n_cells = lattice->n_triangles;
-    o.taken = malloc((size_t)o.n_cells);
-    dem_status status = flags != NULL && o.nodes != NULL && o.taken != NULL
+    o.first = malloc((size_t)o.n_cells * sizeof *o.first);
+    dem_status status = flags != NULL && o.nodes != NULL && o.first != NULL
                             ? sides_contact_flags(flags, lattice)
                             : status_fail(DEM_ERROR_MEMORY, "out of memory");
     for (dem_index i = 0; i < lattice->n_nodes && status == DEM_OK; i++)
         if (flags[i] & DEM_NODE_CONTACT) o.nodes[o.n++] = i;
     free(flags);
+    o.next = malloc(((size_t)o.n + 1) * sizeof *o.next);
+    if (status == DEM_OK && o.next == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory");
     if (status == DEM_OK)
         *out = o;
     else
@@ -38,34 +39,10 @@ dem_status overlap_create(overlap *out, const dem_lattice *lattice)
 void overlap_destroy(overlap *o)
 {
     free(o->nodes);
-    free(o->taken);
+    free(o->first);
+    free(o->next);
     o->nodes = NULL;
-    o->taken = NULL;
-}
-
-/* By insertion: from look to look the order hardly changes. */
-static void sort_nodes(overlap *o, const double *x)
-{
-    for (dem_index p = 1; p < o->n; p++) {
-        const dem_index i = o->nodes[p];
-        dem_index q = p;
-        for (; q > 0 && x[2 * o->nodes[q - 1]] > x[2 * i]; q--) o->nodes[q] = o->nodes[q - 1];
-        o->nodes[q] = i;
-    }
-}
-
-/* The first of the sorted nodes that is not to the left of `left`. */
-static dem_index seek(const overlap *o, const double *x, double left)
-{
-    dem_index low = 0, high = o->n;
-    while (low < high) {
-        const dem_index middle = low + (high - low) / 2;
-        if (x[2 * o->nodes[middle]] < left)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    o->first = o->next = NULL;
 }
 
 /* ---- cells ---- */
@@ -88,7 +65,7 @@ static dem_index row_of(const overlap *o, double y)
 }
 
 /* As many cells as there are triangles, or fewer, over all boundary nodes. */
-static void mark_cells(overlap *o, const double *x)
+static void fill_cells(overlap *o, const double *x)
 {
     double right = -INFINITY, high = -INFINITY;
     o->left = o->low = INFINITY;
@@ -107,21 +84,13 @@ static void mark_cells(overlap *o, const double *x)
         o->rows = o->n_cells / o->columns;
         o->cells_per_length = fmin((double)o->columns / width, (double)o->rows / height);
     }
-    memset(o->taken, 0, (size_t)o->n_cells);
-    for (dem_index p = 0; p < o->n; p++) {
+    for (dem_index c = 0; c < o->n_cells; c++) o->first[c] = -1;
+    for (dem_index p = o->n - 1; p >= 0; p--) {
         const vec2 at = vec2_at(x, o->nodes[p]);
-        o->taken[row_of(o, at.y) * o->columns + column_of(o, at.x)] = 1;
+        int32_t *first = &o->first[row_of(o, at.y) * o->columns + column_of(o, at.x)];
+        o->next[p] = *first;
+        *first = (int32_t)p;
     }
-}
-
-/* Whether there may be boundary nodes in a box. */
-static bool any_in(const overlap *o, vec2 least, vec2 most)
-{
-    const dem_index first = column_of(o, least.x), last = column_of(o, most.x), top = row_of(o, most.y);
-    for (dem_index row = row_of(o, least.y); row <= top; row++)
-        for (dem_index column = first; column <= last; column++)
-            if (o->taken[row * o->columns + column]) return true;
-    return false;
 }
 
 /* ---- triangles ---- */
@@ -160,19 +129,19 @@ static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double 
 {
     const dem_index *corner = &lattice->triangles[3 * k];
     const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]);
-    const vec2 least = {least_of(a.x, b.x, c.x), least_of(a.y, b.y, c.y)};
-    const vec2 most = {most_of(a.x, b.x, c.x), most_of(a.y, b.y, c.y)};
-    if (!any_in(o, least, most)) return;
-    for (dem_index p = seek(o, x, least.x); p < o->n && x[2 * o->nodes[p]] <= most.x; p++)
-        if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
+    const dem_index first = column_of(o, least_of(a.x, b.x, c.x)), last = column_of(o, most_of(a.x, b.x, c.x));
+    const dem_index top = row_of(o, most_of(a.y, b.y, c.y));
+    for (dem_index row = row_of(o, least_of(a.y, b.y, c.y)); row <= top; row++)
+        for (dem_index column = first; column <= last; column++)
+            for (int32_t p = o->first[row * o->columns + column]; p >= 0; p = o->next[p])
+                if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
 }
 
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x)
 {
     o->found.now = 0;
     if (o->n == 0) return;
-    sort_nodes(o, x);
-    mark_cells(o, x);
+    fill_cells(o, x);
     for (dem_index k = 0; k < lattice->n_triangles; k++) look_in(o, lattice, k, t, x);
     if (o->found.now > o->found.most) o->found.most = o->found.now;
 }

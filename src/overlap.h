@@ -7,10 +7,10 @@
 #include <dem/dem.h>
 
 typedef struct overlap {
-    dem_index n, *nodes; /* [n] on the boundary of the triangulation, ascending in x when last looked at */
+    dem_index n, *nodes; /* [n] on the boundary of the triangulation */
     dem_index n_cells, columns, rows;
-    unsigned char *taken;               /* [n_cells] cells of a grid over them that have one, */
-    double left, low, cells_per_length; /* m, where it begins; 1/m */
+    int32_t *first, *next; /* [n_cells], [n] nodes in the cells of a grid over them all, as lists; -1: none */
+    double left, low, cells_per_length; /* m, where the grid begins; 1/m */
     dem_overlap found;
 } overlap;
 

@@ -7,15 +7,15 @@
 
 #include "status.h"
 
-enum { END = PATCH_STAGES, LAST = PATCH_STAGES - 2 }; /* the end of the step, and a stage that is there as well */
+enum { END = PATCH_STAGES }; /* the end of the step, behind the stages */
 
-dem_status patch_create(patch *out, contact_sites *sites, const unsigned char *held, double position_error,
-                        double velocity_error)
+dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule)
 {
     const bool damped = sites->scene.model->springs.viscosity != NULL;
-    patch p = {.held = held, .position_error = position_error, .velocity_error = velocity_error};
-    TRY(method_load(&p.table, DEM_METHOD_FEHLBERG45));
-    TRY(ball_create(&p.ball, sites, 1 + (damped ? PATCH_STAGES : PATCH_STAGES / 2)));
+    patch p = {.rule = *rule};
+    TRY(method_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
+    while (p.table.c[p.last] != 1.0) p.last++;
+    TRY(ball_create(&p.ball, sites, 1 + (damped ? p.table.stages : p.table.stages / 2)));
     *out = p;
     return DEM_OK;
 }
@@ -44,7 +44,8 @@ static dem_index n_moving(const patch *p)
  * back on its surface; damped springs one more for each. */
 static int reach(const patch *p, int stage)
 {
-    const int rings = last_ring(p) == PATCH_STAGES ? stage + 1 : 1 + stage / 2;
+    const int before = stage == END ? p->table.stages : stage;
+    const int rings = last_ring(p) == p->table.stages ? before + 1 : 1 + before / 2;
     return rings < last_ring(p) ? rings : last_ring(p);
 }
 
@@ -109,6 +110,13 @@ static dem_status add_rate(patch *p, dem_index place, int stage, double sign, ve
     return DEM_OK;
 }
 
+/* Whether there is anything but contacts in the books. */
+static bool has_powers(const patch *p)
+{
+    const contact_scene *scene = &p->ball.sites->scene;
+    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || scene->rule.load.mass_damping > 0.0;
+}
+
 /* What damping takes at a node, and boundaries put in, W; of these what no event changes is left out. */
 static vec2 node_powers(const patch *p, dem_index i, const double *x, const double *v)
 {
@@ -120,7 +128,7 @@ static vec2 node_powers(const patch *p, dem_index i, const double *x, const doub
                   0.0};
     if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
     if (load->boundaries != NULL) power.y += vec2_dot(boundaries_force(load->boundaries, i, v[load->clock]), vi);
-    const int held = p->held != NULL ? p->held[i] : 0;
+    const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
     if (held != 0) {
         const vec2 a = model_acceleration(model, load, i, x, v);
         if (held & DEM_COMPONENT_X) power.y -= model->lattice.mass[i] * a.x * vi.x;
@@ -148,7 +156,7 @@ static dem_status add_rates(patch *p, int stage, double sign, const double *y)
                 totals[0].x += of.power;
             }
     }
-    if (p->held != NULL || c->scene.model->springs.viscosity != NULL || c->scene.rule.load.mass_damping > 0.0)
+    if (has_powers(p))
         for (dem_index j = 0; j < p->ball.end[rings]; j++) {
             const vec2 powers = node_powers(p, p->ball.nodes[j].i, y, v);
             totals[0].y += powers.x;
@@ -162,7 +170,7 @@ static dem_status add_rates(patch *p, int stage, double sign, const double *y)
 
 static double stage_time(const patch *p, const path *step, int stage)
 {
-    return stage == LAST ? step->t1 : p->t + p->table.c[stage] * p->h;
+    return stage == p->last ? step->t1 : p->t + p->table.c[stage] * p->h;
 }
 
 /* Puts the time into a state, for those who are driven by it. */
@@ -185,12 +193,18 @@ static void fetch_stage(patch *p, int stage, dem_index n)
     }
 }
 
+/* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the books. */
+static bool needs_state(const patch *p)
+{
+    return !p->ball.plain || p->ball.n_groups > 0 || has_powers(p);
+}
+
 static dem_status open_stage(patch *p, const path *step, int stage, double *y)
 {
     const ball_state s = {p->x[stage], p->v[stage], y};
     const dem_index n = p->ball.end[reach(p, stage) + 1];
     fetch_stage(p, stage, n);
-    ball_put(&p->ball, &s, n);
+    if (needs_state(p)) ball_put(&p->ball, &s, n);
     put_time(p, step, stage, y);
     ball_accelerate(&p->ball, reach(p, stage), &s, p->a[stage]);
     return add_rates(p, stage, -1.0, y);
@@ -201,12 +215,12 @@ static dem_status open_end(patch *p, const path *step)
 {
     for (dem_index j = 0; j < p->ball.n; j++) {
         const dem_index i = p->ball.nodes[j].i;
-        vec2_put(p->x[LAST], j, vec2_at(step->y1, i));
-        vec2_put(p->v[LAST], j, vec2_at(step->y1, step->n_nodes + i));
-        vec2_put(p->a[LAST], j, vec2_at(step->f1, step->n_nodes + i));
+        vec2_put(p->x[p->last], j, vec2_at(step->y1, i));
+        vec2_put(p->v[p->last], j, vec2_at(step->y1, step->n_nodes + i));
+        vec2_put(p->a[p->last], j, vec2_at(step->f1, step->n_nodes + i));
     }
     TRY(add_rates(p, END, -1.0, step->y1));
-    return add_rates(p, LAST, -1.0, step->y1);
+    return add_rates(p, p->last, -1.0, step->y1);
 }
 
 /* The state at the event. What it is due by has the bits that it was found with. */
@@ -238,8 +252,8 @@ dem_status patch_open(patch *p, const path *step, dem_index site, double t, doub
     TRY(reserve(p, p->ball.n, 0));
     for (dem_index j = 0; j < p->ball.n; j++) p->motions[j] = motion_of(p, step, p->ball.nodes[j].i);
     TRY(open_end(p, step));
-    for (int stage = 0; stage < PATCH_STAGES; stage++)
-        if (stage != LAST) TRY(open_stage(p, step, stage, state));
+    for (int stage = 0; stage < p->table.stages; stage++)
+        if (stage != p->last) TRY(open_stage(p, step, stage, state));
     open_start(p, step, state);
     return DEM_OK;
 }
@@ -250,10 +264,10 @@ dem_status patch_open(patch *p, const path *step, dem_index site, double t, doub
 static void combine(const patch *p, int stage, double *const rates[], double *const change[], dem_index first,
                     dem_index last)
 {
-    const double *weights = stage == END ? p->table.b : p->table.a + stage * PATCH_STAGES;
+    const double *weights = stage == END ? p->table.b : p->table.a + stage * p->table.stages;
     double *restrict to = change[stage];
     memcpy(to + 2 * first, change[0] + 2 * first, 2 * (size_t)(last - first) * sizeof *to);
-    for (int q = 0; q < stage; q++) {
+    for (int q = 0; q < stage && q < p->table.stages; q++) {
         const double *restrict rate = rates[q], weight = p->h * weights[q];
         for (dem_index k = 2 * first; k < 2 * last && weight != 0.0; k++) to[k] += weight * rate[k];
     }
@@ -278,18 +292,18 @@ static void add_change(const double *before, const double *change, dem_index n, 
 /* Rates of the change at a stage. */
 static dem_status change_stage(patch *p, const path *step, int stage, double *y)
 {
-    const int at = stage == END ? LAST : stage, rings = reach(p, stage);
+    const int at = stage == END ? p->last : stage, rings = reach(p, stage);
     const dem_index n = p->ball.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
     const ball_state s = {p->changed[0], p->changed[1], y};
     add_change(p->x[at], p->dx[stage], n, n_changed, p->changed[0]);
     add_change(p->v[at], p->dv[stage], n, n_changed, p->changed[1]);
-    ball_put(&p->ball, &s, n);
+    if (needs_state(p)) ball_put(&p->ball, &s, n);
     put_time(p, step, at, y);
     ball_accelerate(&p->ball, rings, &s, p->changed[2]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++)
         p->da[stage][k] = k < 2 * p->ball.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
-    for (dem_index k = 0; k < 2 * n_moving(p) && p->held != NULL; k++)
-        if (p->held[p->ball.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
+    for (dem_index k = 0; k < 2 * n_moving(p) && p->rule.held != NULL; k++)
+        if (p->rule.held[p->ball.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
     return add_rates(p, stage, 1.0, y);
 }
 
@@ -313,18 +327,18 @@ static double squared_error(const patch *p)
 {
     const dem_index n = p->ball.sites->scene.model->lattice.n_nodes;
     double weights[PATCH_STAGES], x_sum = 0.0, v_sum = 0.0;
-    for (int q = 0; q < PATCH_STAGES; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
+    for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++) {
         double x = 0.0, v = 0.0;
-        for (int q = 0; q < PATCH_STAGES; q++) {
+        for (int q = 0; q < p->table.stages; q++) {
             x += weights[q] * p->dv[q][k];
             v += weights[q] * p->da[q][k];
         }
         x_sum += x * x;
         v_sum += v * v;
     }
-    return (x_sum / (p->position_error * p->position_error) + v_sum / (p->velocity_error * p->velocity_error)) /
-           (4.0 * (double)n);
+    const double x_scale = p->rule.position_error, v_scale = p->rule.velocity_error;
+    return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / (4.0 * (double)n);
 }
 
 dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error)
@@ -335,9 +349,10 @@ dem_status patch_close(patch *p, const path *step, trail *tr, double *state, dou
         vec2_put(p->dx[0], j, vec2_sub(vec2_at(state, i), vec2_at(p->x[0], j)));
         vec2_put(p->dv[0], j, vec2_sub(vec2_at(state, step->n_nodes + i), vec2_at(p->v[0], j)));
     }
-    for (int stage = 0; stage <= END; stage++) {
-        if (stage > 0) advance(p, stage);
-        TRY(change_stage(p, step, stage, state));
+    for (int stage = 0; stage <= p->table.stages; stage++) {
+        const int at = stage < p->table.stages ? stage : END;
+        if (stage > 0) advance(p, at);
+        TRY(change_stage(p, step, at, state));
     }
     for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->ball.nodes[j].i, &p->motions[j]));
     for (dem_index b = 0; b < p->n_books; b++) {

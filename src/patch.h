@@ -3,7 +3,7 @@
  *   d'' = a(x + d, contacts after) - a(x, contacts before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
  * damped). So it is integrated on a patch of 3 (6) rings round the event, by one step of Fehlberg's pair; outside it
- * is 0 to the bit. */
+ * is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. */
 #ifndef DEM_PATCH_H
 #define DEM_PATCH_H
 
@@ -13,11 +13,18 @@
 
 enum { PATCH_STAGES = 6 };
 
+/** How a change is integrated. */
+typedef struct patch_rule {
+    int order;                             /* of the method that the step is of */
+    double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
+    const unsigned char *held; /* [n_nodes] components that boundaries prescribe, as they have it; or NULL */
+} patch_rule;
+
 typedef struct patch {
-    ball ball;                             /* the change spreads over all its rings but the frame */
-    const unsigned char *held;             /* [n_nodes] components that boundaries prescribe, as they have it */
-    double position_error, velocity_error; /* what counts as an error of 1 */
+    ball ball; /* the change spreads over all its rings but the frame */
+    patch_rule rule;
     method_table table;
+    int last;          /* stage at the end of the step */
     double t, h;       /* s, of the event; from it to the end of the step */
     dem_index n_books; /* pairs of the books that change, behind the nodes of the ball */
     dem_index capacity;
@@ -29,9 +36,8 @@ typedef struct patch {
     double *changed[3];                                                         /* x, v, x'' with it at a stage */
 } patch;
 
-/** Borrows the sites, and held. Free with patch_destroy(). */
-dem_status patch_create(patch *out, contact_sites *sites, const unsigned char *held, double position_error,
-                        double velocity_error);
+/** Borrows the sites, and what the rule points at. Free with patch_destroy(). */
+dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule);
 void patch_destroy(patch *p);
 
 /** Before an event at a site: gathers the patch and what moves it, and puts the state of its nodes at t into `state`

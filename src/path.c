@@ -73,9 +73,9 @@ static bool turned(const path *p, dem_index i)
 
 vec2 path_position(const path *p, double t, dem_index i)
 {
-    if (t == p->t0) return vec2_at(p->y0, i);
     if (t == p->t1) return vec2_at(p->y1, i);
     if (turned(p, i)) return trail_position(p->trail, t, i);
+    if (t == p->t0) return vec2_at(p->y0, i);
     const basis b = basis_at(p, t);
     return (vec2){position(p, &b, 2 * i), position(p, &b, 2 * i + 1)};
 }
@@ -83,27 +83,31 @@ vec2 path_position(const path *p, double t, dem_index i)
 vec2 path_velocity(const path *p, double t, dem_index i)
 {
     const dem_index n = p->n_nodes;
-    if (t == p->t0) return vec2_at(p->y0, n + i);
     if (t == p->t1) return vec2_at(p->y1, n + i);
     if (turned(p, i)) return trail_velocity(p->trail, t, i);
+    if (t == p->t0) return vec2_at(p->y0, n + i);
     const basis b = basis_at(p, t);
     return (vec2){velocity(p, &b, 2 * i), velocity(p, &b, 2 * i + 1)};
 }
 
-void path_state(const path *p, double t, double *y)
+/* As if no event inside had changed it. */
+static void interpolate(const path *p, double t, double *y)
 {
     const dem_index n = 2 * p->n_nodes;
-    const size_t size = 2 * (size_t)n * sizeof *y;
-    if (t == p->t0 || t == p->t1) {
-        memcpy(y, t == p->t0 ? p->y0 : p->y1, size);
-        return;
-    }
     const basis b = basis_at(p, t);
     for (dem_index k = 0; k < n; k++) {
         y[k] = position(p, &b, k);
         y[n + k] = velocity(p, &b, k);
     }
-    for (dem_index i = 0; i < p->n_nodes && p->trail != NULL; i++) {
+}
+
+void path_state(const path *p, double t, double *y)
+{
+    if (t == p->t0 || t == p->t1)
+        memcpy(y, t == p->t0 ? p->y0 : p->y1, 4 * (size_t)p->n_nodes * sizeof *y);
+    else
+        interpolate(p, t, y);
+    for (dem_index i = 0; i < p->n_nodes && p->trail != NULL && t != p->t1; i++) {
         if (!trail_has(p->trail, i)) continue;
         vec2_put(y, i, trail_position(p->trail, t, i));
         vec2_put(y, p->n_nodes + i, trail_velocity(p->trail, t, i));

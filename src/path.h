@@ -25,7 +25,8 @@ vec2 path_velocity(const path *p, double t, dem_index i);
 /** The motion of a node over the whole step, as if no event inside had changed it. */
 trail_motion path_motion(const path *p, dem_index i);
 
-/** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit. */
+/** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at t0 has
+ *  changed there. */
 void path_state(const path *p, double t, double *y);
 
 #endif

@@ -24,11 +24,11 @@ static dem_status allocate(queue *q, const dem_model *model)
     return books_create(&q->books, model->obstacles.n);
 }
 
-dem_status queue_create(queue *out, contact *c, const unsigned char *held, bool controlled, const double error[2])
+dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool controlled)
 {
     queue q = {.contact = c, .most = controlled ? 1.0 : (double)INFINITY};
     dem_status status = allocate(&q, c->sites.scene.model);
-    if (status == DEM_OK) status = patch_create(&q.patch, &c->sites, held, error[0], error[1]);
+    if (status == DEM_OK) status = patch_create(&q.patch, &c->sites, rule);
     if (status == DEM_OK)
         *out = q;
     else
@@ -229,7 +229,7 @@ static bool has_moved(const queue *q, dem_index group)
 static void renew(const queue *q, dem_index i, const double *y)
 {
     const contact_sites *c = &q->contact->sites;
-    const unsigned held = q->patch.held != NULL ? q->patch.held[i] : 0;
+    const unsigned held = q->patch.rule.held != NULL ? q->patch.rule.held[i] : 0;
     const double *v = y + scene_velocities(&c->scene);
     double *a = q->trail.f1 + scene_velocities(&c->scene);
     const bool grouped = sites_group_at(c, i) >= 0;

@@ -38,9 +38,9 @@ typedef struct queue {
     dem_index n_stops; /* times at which something happened */
 } queue;
 
-/** Borrows the contact. `controlled`: the step is rejected for an error above 1. `error`: of positions, m, and
- *  velocities, m/s, that count as 1. `held` as patch_create() has it. Free with queue_destroy(). */
-dem_status queue_create(queue *out, contact *c, const unsigned char *held, bool controlled, const double error[2]);
+/** Borrows the contact, and what the rule points at. `controlled`: a step is rejected for an error above 1. Free with
+ *  queue_destroy(). */
+dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool controlled);
 void queue_destroy(queue *q);
 
 /** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given

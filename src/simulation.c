@@ -263,7 +263,7 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 static double shortening(const queue *q, dem_status status)
 {
     const double error = queue_error(q);
-    if (error > 1.0) return fmax(least_factor, safety / sqrt(sqrt(error)));
+    if (!(error <= 1.0)) return fmax(least_factor, safety / sqrt(sqrt(error))); /* not finite: as much as may be */
     return status == DEM_ERROR_CONTACT ? least_factor : 1.0;
 }
 
@@ -280,6 +280,8 @@ static dem_status take_local_step(dem_simulation *s)
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
         queue_undo(&s->queue);
+        CHECK(status != DEM_OK || attempt < most_attempts, DEM_ERROR_INTEGRATOR,
+              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach", s->path.t0);
         if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return status;
         TRY(engine_redo(&s->engine, factor));
     }
@@ -442,8 +444,10 @@ static dem_status set_up(dem_simulation *s)
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(contact_create(&s->contact, model, &rule));
     TRY(contact_admissible(&s->contact, s->y));
-    const double error[2] = {o->rtol * o->spacing, o->rtol * o->v_scale};
-    TRY(queue_create(&s->queue, &s->contact, s->boundaries.held, !(o->fixed_step > 0.0), error));
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
+    const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
+    TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
     const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
                             .n_books = n_books(model),
                             .n_guards = model->obstacles.n > 0 && !is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,

@@ -5,9 +5,8 @@
  * argument, 5 mm by default. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "../../drivers/deck.h"
+#include "coarse.h"
 #include "support.h"
 
 static double spacing = 5e-3;
@@ -42,37 +41,13 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-/* The deck of that name at the coarse spacing. */
-static void read_deck(deck *d, const char *name)
-{
-    char path[4096], *at, text[8192];
-    namelist_errors errors = {0};
-    (void)snprintf(path, sizeof path, "%s/%s.nml", inputs, name);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    const size_t n = fread(text, 1, sizeof text - 1, file);
-    text[n] = '\0';
-    (void)fclose(file);
-    at = strstr(text, "2.5e-3");
-    assert_non_null(at);
-    char number[7];
-    (void)snprintf(number, sizeof number, "%6.4f", spacing);
-    memcpy(at, number, 6);
-    (void)snprintf(path, sizeof path, "depth_%s_%.0f.nml", name, 1e5 * spacing);
-    file = fopen(path, "w");
-    assert_true(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
-    if (deck_read(d, path, &errors) != DECK_OK) fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
-    namelist_errors_free(&errors);
-    (void)remove(path);
-}
-
 /* Runs the deck with another restitution and tolerance; returns the closure of the ledger over the initial kinetic
  * energy. */
 static double run_deck(const char *name, double restitution, double rtol)
 {
     deck d;
     support_run run;
-    read_deck(&d, name);
+    coarse_read(&d, inputs, name, spacing);
     watch w = {.d = &d};
     const dem_observer observer = {.interval = 1e-6, .frame = look, .step = look, .context = &w};
     d.obstacles[0].restitution = restitution;
