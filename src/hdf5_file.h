@@ -6,6 +6,7 @@
 
 #include <dem/dem.h>
 
+#define H5_USE_110_API /* what functions are called, in every version from 1.10 on */
 #include <hdf5.h>
 
 /** Number types. In memory HDF5_F32 is double too, HDF5_I8 is int64_t; the others are what they say. */

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run is the same to the last bit whoever watches it: random bodies alone, again, with 2 and 3 threads, cut into
+ * parts, and with observers that ask for everything at events, frames and steps, or for nothing. `test_bits [CASES
+ * [FIRST_SEED]]`. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+static long n_cases = 10, first_seed = 1;
+
+/* All that can be seen of a simulation, as bytes. */
+typedef struct picture {
+    size_t n;
+    unsigned char *bytes;
+} picture;
+
+static void put(picture *p, const void *from, size_t n)
+{
+    p->bytes = realloc(p->bytes, p->n + n + 1);
+    assert_non_null(p->bytes);
+    memcpy(p->bytes + p->n, from, n);
+    p->n += n;
+}
+
+static picture take_picture(const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    picture p = {0};
+    dem_state s;
+    dem_simulation_state(simulation, &s);
+    const dem_counts counts = dem_simulation_counts(simulation);
+    put(&p, &s.t, sizeof s.t);
+    put(&p, s.x, 2 * (size_t)size.n_nodes * sizeof *s.x);
+    put(&p, s.v, 2 * (size_t)size.n_nodes * sizeof *s.v);
+    put(&p, &s.energy, sizeof s.energy);
+    put(&p, &counts, sizeof counts);
+    for (dem_index k = 0; k < s.n_contacts; k++) put(&p, &s.contacts[k].force, 2 * sizeof(double));
+    for (dem_index k = 0; k < size.n_obstacles; k++) {
+        const dem_obstacle_load load = dem_simulation_obstacle(simulation, k);
+        put(&p, load.impulse, sizeof load.impulse);
+        put(&p, load.friction_impulse, sizeof load.friction_impulse);
+    }
+    return p;
+}
+
+/* ---- observers ---- */
+
+/* Asks for everything, and that twice the same. */
+static dem_status ask(void *context, const dem_simulation *simulation)
+{
+    picture once = take_picture(simulation), twice = take_picture(simulation);
+    long *n = context;
+    assert_int_equal(once.n, twice.n);
+    assert_memory_equal(once.bytes, twice.bytes, once.n);
+    free(once.bytes);
+    free(twice.bytes);
+    ++*n;
+    return DEM_OK;
+}
+
+/* What an impact has done has been done to what is shown then. */
+static dem_status ask_at_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    dem_state s;
+    dem_simulation_state(simulation, &s);
+    assert_close(s.t, event->t, 0.0);
+    return ask(context, simulation);
+}
+
+static dem_status ask_nothing(void *context, const dem_simulation *simulation)
+{
+    (void)simulation;
+    ++*(long *)context;
+    return DEM_OK;
+}
+
+static dem_status hear_nothing(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    (void)event;
+    return ask_nothing(context, simulation);
+}
+
+static const dem_observer observers[] = {
+    {.interval = 0.0},
+    {.interval = 1e-5, .frame = ask_nothing, .step = ask_nothing, .event = hear_nothing},
+    {.interval = 3e-6, .frame = ask},
+    {.interval = 0.0, .event = ask_at_event},
+    {.interval = 7e-6, .frame = ask, .step = ask, .event = ask_at_event},
+};
+enum { n_observers = sizeof observers / sizeof *observers };
+
+/* ---- runs ---- */
+
+typedef struct manner {
+    int observer, threads, cuts;
+} manner;
+
+static picture run_scene(unsigned long seed, dem_method method, manner how)
+{
+    scene sc;
+    support_run run;
+    long told = 0;
+    scene_random(&sc, seed);
+    sc.options.contact = DEM_CONTACT_LOCAL;
+    sc.options.method = method;
+    sc.options.threads = how.threads;
+    dem_observer observer = observers[how.observer];
+    observer.context = &told;
+    support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
+    assert_ok(dem_simulation_observe(run.simulation, &observer));
+    const double t_end = 0.5 * sc.t_end;
+    for (int k = 1; k <= how.cuts; k++) assert_ok(dem_simulation_advance(run.simulation, t_end * k / (how.cuts + 1.0)));
+    assert_ok(dem_simulation_advance(run.simulation, t_end));
+    assert_true(told > 0 || observer.interval == 0.0);
+    const picture p = take_picture(run.simulation);
+    support_close(&run);
+    scene_free(&sc);
+    return p;
+}
+
+static void check_manner(unsigned long seed, dem_method method, const picture *alone, manner how)
+{
+    picture p = run_scene(seed, method, how);
+    if (p.n != alone->n || memcmp(p.bytes, alone->bytes, p.n) != 0)
+        fail_msg("seed %lu, method %d: observer %d, %d threads, %d cuts leave a trace", seed, (int)method, how.observer,
+                 how.threads, how.cuts);
+    free(p.bytes);
+}
+
+/* Each by Fehlberg's method; some by methods with steps of one length, Verlet's parabolas among them. */
+static void nobody_leaves_a_trace(void **state)
+{
+    static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_RK4};
+    (void)state;
+    for (long k = 0; k < n_cases; k++)
+        for (int m = 0; m < (k % 4 == 0 ? 3 : 1); m++) {
+            const unsigned long seed = (unsigned long)(first_seed + k);
+            picture alone = run_scene(seed, methods[m], (manner){0, 1, 0});
+            check_manner(seed, methods[m], &alone, (manner){0, 1, 0});
+            check_manner(seed, methods[m], &alone, (manner){0, 1, 37});
+            check_manner(seed, methods[m], &alone, (manner){0, 2, 0});
+            check_manner(seed, methods[m], &alone, (manner){4, 3, 5});
+            for (int o = 1; o < n_observers; o++) check_manner(seed, methods[m], &alone, (manner){o, 1, 0});
+            free(alone.bytes);
+        }
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_leaves_a_trace)};
+    if (argc > 1) n_cases = atol(argv[1]);
+    if (argc > 2) first_seed = atol(argv[2]);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
