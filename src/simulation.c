@@ -258,13 +258,23 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 
 /* ---- the loop ---- */
 
-/* What the next try of a step is shortened by: its error is too large, or contacts fail in it, which they may if it is
- * much too long. */
+/* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
+ * too long. */
 static double shortening(const queue *q, dem_status status)
 {
     const double error = queue_error(q);
-    if (!(error <= 1.0)) return fmax(least_factor, safety / sqrt(sqrt(error))); /* not finite: as much as may be */
-    return status == DEM_ERROR_CONTACT ? least_factor : 1.0;
+    if (status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR) return least_factor;
+    return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
+}
+
+/* Takes back a step that will not do: the next goes from its start. */
+static dem_status give_up(dem_simulation *s, dem_status status)
+{
+    if (status == DEM_OK)
+        status = status_fail(DEM_ERROR_INTEGRATOR,
+                             "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
+                             s->t);
+    return first_of(status, engine_restart(&s->engine, s->t, s->y));
 }
 
 /* A step with all contact events inside it, which may reject it. */
@@ -280,9 +290,7 @@ static dem_status take_local_step(dem_simulation *s)
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
         queue_undo(&s->queue);
-        CHECK(status != DEM_OK || attempt < most_attempts, DEM_ERROR_INTEGRATOR,
-              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach", s->path.t0);
-        if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return status;
+        if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return give_up(s, status);
         TRY(engine_redo(&s->engine, factor));
     }
 }
@@ -352,7 +360,7 @@ static dem_status commit_local_step(dem_simulation *s)
     if (moved)
         TRY(engine_restart(&s->engine, s->t, s->y));
     else if (corrected)
-        TRY(engine_resume(&s->engine));
+        TRY(engine_resume(&s->engine, queue_reach(&s->queue)));
     return tell_step(s);
 }
 

@@ -766,6 +766,63 @@ static void a_storm_of_impacts_ends_the_run(void **state)
     dem_model_destroy(model);
 }
 
+/* What comes after a step that contacts have refused is the same step again. */
+static void a_run_that_a_storm_has_ended_does_not_go_on_without_contacts(void **state)
+{
+    static const dem_method methods[2] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
+    const double v[2] = {0.0, -100.0};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        dem_options options = point_options();
+        dem_state now;
+        options.method = methods[k / 2];
+        options.max_step = 0.3;
+        options.fixed_step = k == 0 ? 0.0 : (k == 1 ? 0.3 : 0.05);
+        options.max_impacts = 1;
+        dem_model *model = make_point(v, 0.02);
+        dem_simulation *simulation = simulate(model, &options);
+        assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
+        dem_simulation_state(simulation, &now);
+        const double t = now.t, x[2] = {now.x[1], now.v[1]};
+        for (int again = 0; again < 3; again++) {
+            assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
+            dem_simulation_state(simulation, &now);
+            assert_close(now.t, t, 0.0);
+            assert_close(now.x[1], x[0], 0.0);
+            assert_close(now.v[1], x[1], 0.0);
+        }
+        dem_simulation_destroy(simulation);
+        dem_model_destroy(model);
+    }
+}
+
+/* Node 0 hits the floor at 1 s; the other end of a spring far too stiff for the step follows. */
+static void a_contact_event_after_which_the_motion_overflows_ends_the_run(void **state)
+{
+    const double x[4] = {0.0, 1.0, 0.0, 2.0}, v[4] = {0.0, -1.0, 0.0, -1.0}, mass[2] = {1.0, 1.0};
+    const dem_index ends[2] = {0, 1};
+    const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 1.0};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    dem_model *model;
+    dem_state now;
+    (void)state;
+    options.gravity[1] = 0.0;
+    options.fixed_step = 4.0;
+    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1e100, NULL);
+    support_start(&lattice, NULL, v);
+    assert_ok(dem_model_create(&model, &lattice, &ground, 1));
+    dem_lattice_free(&lattice);
+    dem_simulation *simulation = simulate(model, &options);
+    assert_int_equal(dem_simulation_advance(simulation, 3.0), DEM_ERROR_INTEGRATOR);
+    assert_non_null(strstr(dem_status_message(), "the motion near node 0 after a contact event at t = 1.0"));
+    dem_simulation_state(simulation, &now);
+    assert_close(now.t, 0.0, 0.0);
+    assert_close(now.v[1], -1.0, 0.0);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+}
+
 /* ---- stops at impacts ---- */
 
 static void stop_at_impact(double clearance)
@@ -834,6 +891,8 @@ int main(void)
         cmocka_unit_test(fixed_nodes_do_not_move),
         cmocka_unit_test(nodes_that_coincide_end_the_run_with_the_node_named),
         cmocka_unit_test(a_storm_of_impacts_ends_the_run),
+        cmocka_unit_test(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts),
+        cmocka_unit_test(a_contact_event_after_which_the_motion_overflows_ends_the_run),
         cmocka_unit_test(a_stop_within_a_batch_of_impacts_leaves_no_trace),
         cmocka_unit_test(a_stop_at_an_impact_at_the_start_leaves_no_trace),
     };
