@@ -377,8 +377,11 @@ dem_status integrator_restart(integrator *I, double t, const double *y)
     return reset(I);
 }
 
-dem_status integrator_resume(integrator *I)
+dem_status integrator_resume(integrator *I, double longest)
 {
+    double next;
+    if (isfinite(longest) && ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS && next > longest)
+        CHECK(ARKodeSetInitStep(I->arkode, longest) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return reset(I);
 }
 

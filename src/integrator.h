@@ -33,8 +33,9 @@ double *integrator_state(const integrator *i);
 /** Goes on from another state, or from its own as it has been changed, with step size and history kept. */
 dem_status integrator_restart(integrator *i, double t, const double *y);
 
-/** Goes on from the end of the step just settled as it has been changed, whose derivative is known. */
-dem_status integrator_resume(integrator *i);
+/** Goes on from the end of the step just settled as it has been changed, whose derivative is known; the
+ *  first step is no longer than this, s. */
+dem_status integrator_resume(integrator *i, double longest);
 
 /** Steps, rejections, evaluations and retries so far; the rest is 0. */
 dem_counts integrator_counts(const integrator *i);

@@ -24,6 +24,7 @@ typedef struct queue {
     bool settled;       /* and the end of the step is */
     bool quiet;         /* nothing happens in the step */
     double error;       /* of all patches, squared */
+    double ahead;       /* what it would be if the events had come right at the start of the step, squared */
     double most;        /* of it; beyond it the step is to be rejected, and nothing more is done */
     double *due;        /* [n sites] s, when something happens at a site; infinity: nothing */
     dem_index *waiting; /* [n sites] sites that may be due */
@@ -54,6 +55,10 @@ dem_status queue_show(queue *q, double t);
 
 /** How far beyond what is allowed the error of the step is that comes from its events: 1 is just allowed. */
 double queue_error(const queue *q);
+
+/** How long the next step may be, s, for what the events have done; infinity if that sets no bound. Its own estimate
+ *  may not tell. */
+double queue_reach(const queue *q);
 
 /** Takes all back: contacts, books and the end of the step are as they were. */
 void queue_undo(queue *q);

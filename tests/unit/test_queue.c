@@ -489,6 +489,28 @@ static void an_error_beyond_what_is_allowed_ends_the_step(void **state)
     }
 }
 
+/* Struck at a fifth of the step, the pair could go on for as long with an error (5/4)^6 times as large; where that is
+ * too much the next step has to be shorter. */
+static void what_events_have_done_bounds_the_next_step(void **state)
+{
+    double error = 0.0;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const double one = k == 0 ? 1.0 : error * (k == 1 ? 1.5 : 30.0), tolerance[2] = {one, one};
+        dem_lattice lattice;
+        rig r;
+        open_pair(&r, &lattice, tolerance);
+        swing(&r, &lattice, 0.16);
+        assert_true(isinf(queue_reach(&r.q)) != 0);
+        show(&r, 0.16);
+        if (k == 0) error = queue_error(&r.q);
+        if (k == 1) assert_true(queue_error(&r.q) < 1.0 && queue_reach(&r.q) < 0.16 && queue_reach(&r.q) > 0.08);
+        if (k == 2) assert_true(isinf(queue_reach(&r.q)) != 0);
+        dem_lattice_free(&lattice);
+        close_rig(&r);
+    }
+}
+
 /* More bounces than are allowed: DEM_ERROR_CONTACT, and all can be taken back. */
 static void a_storm_can_be_taken_back(void **state)
 {
@@ -546,6 +568,7 @@ int main(void)
         cmocka_unit_test(the_neighbours_events_are_looked_for_anew),
         cmocka_unit_test(times_and_motion_converge_with_the_step),
         cmocka_unit_test(an_error_beyond_what_is_allowed_ends_the_step),
+        cmocka_unit_test(what_events_have_done_bounds_the_next_step),
         cmocka_unit_test(a_storm_can_be_taken_back),
         cmocka_unit_test(the_next_step_begins_anew),
     };

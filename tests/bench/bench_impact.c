@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A rectangle of 8 x 13 cm falls on a flat floor (W2): 10 m/s, tilted by 0.03, every impact by itself.
+ *
+ *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE [ETA FRICTION DAMPING]]
+ *      bench_impact SPACING lammps FILE
+ *
+ * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step, times
+ * omega_max; SKIN is in spacings, DAMPING the damping time in s. The state at the end goes into FILE. Elastic, without
+ * friction and undamped unless the last three say else. Prints: nodes, springs, evaluations, steps, events, impacts,
+ * late ones; the least CPU time of a run in s and, of method local, what of it went into finding contact events inside
+ * steps and into taking them. With `lammps`: the body as a data file of LAMMPS. */
+#include <math.h>
+#include <string.h>
+
+#include "plate.h"
+#include "queue.h"
+
+static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
+static const double least_time = 0.5; /* s */
+
+typedef struct law {
+    double restitution, friction, damping_time;
+} law;
+
+static const law elastic = {.restitution = 1.0};
+
+/* Its lowest node is a fifth of a spacing above the floor. */
+static dem_lattice make_body(double spacing)
+{
+    const dem_index columns = llround(width / spacing) + 1, rows = llround(height / (spacing * sqrt(3.0) / 2.0)) + 1;
+    dem_lattice body = plate_make(columns, rows, spacing);
+    double lift[2] = {0.0, INFINITY};
+    plate_triangulate(&body, columns);
+    dem_lattice_move(&body, tilt, (const double[2]){0.0, 0.0});
+    for (dem_index i = 0; i < body.n_nodes; i++) lift[1] = fmin(lift[1], body.x[2 * i + 1]);
+    lift[1] = 0.2 * spacing - lift[1];
+    dem_lattice_move(&body, 0.0, lift);
+    ask(dem_lattice_launch(&body, speed));
+    return body;
+}
+
+static dem_model *compile(double spacing, law l)
+{
+    static const double points[] = {-1.0, 0.0, 1.0, 0.0};
+    const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = l.restitution, .friction = l.friction};
+    dem_lattice body = make_body(spacing);
+    dem_model *model;
+    if (l.damping_time > 0.0) plate_damp(&body, l.damping_time);
+    ask(dem_model_create(&model, &body, &floor, 1));
+    dem_lattice_free(&body);
+    return model;
+}
+
+static dem_options read_options(char **argv, const dem_model *model)
+{
+    dem_options options = dem_options_default();
+    ask(dem_method_find(&options.method, argv[0]));
+    options.contact = strcmp(argv[1], "exact") == 0 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+    must(options.contact == DEM_CONTACT_EXACT || strcmp(argv[1], "local") == 0, "CONTACT is exact or local");
+    options.rtol = atof(argv[2]);
+    options.max_step = atof(argv[3]) / dem_model_omega_max(model);
+    if (options.method == DEM_METHOD_VERLET) options.fixed_step = options.max_step;
+    options.skin = atof(argv[4]) * dem_model_spacing(model);
+    options.window = 0.0;
+    return options;
+}
+
+/* ---- what local contact does, timed where simulation.c calls it ---- */
+
+typedef struct times {
+    double all, find, take; /* s */
+} times;
+
+static times spent;
+
+void __real_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+dem_status __real_queue_show(queue *q, double t);
+void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+dem_status __wrap_queue_show(queue *q, double t);
+
+void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+{
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    __real_queue_start(q, step, y1, f1, state);
+    spent.find += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+}
+
+dem_status __wrap_queue_show(queue *q, double t)
+{
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const dem_status status = __real_queue_show(q, t);
+    spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    return status;
+}
+
+/* ---- runs ---- */
+
+static times take(dem_simulation **simulation, const dem_model *model, const dem_options *options, double t_end)
+{
+    ask(dem_simulation_create(simulation, model, options));
+    spent = (times){0};
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    ask(dem_simulation_advance(*simulation, t_end));
+    spent.all = seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    return spent;
+}
+
+static void print(const dem_simulation *simulation, times t)
+{
+    const dem_counts counts = dem_simulation_counts(simulation);
+    const dem_model_size sizes = dem_model_sizes(dem_simulation_model(simulation));
+    (void)printf("nodes %lld\nsprings %lld\nevaluations %lld\nsteps %lld\nevents %lld\nimpacts %lld\nlate %lld\n"
+                 "cpu %.6f\nfind %.6f\ntake %.6f\n",
+                 (long long)sizes.n_nodes, (long long)sizes.n_springs, (long long)counts.evaluations,
+                 (long long)counts.steps, (long long)counts.events, (long long)counts.impacts, (long long)counts.late,
+                 t.all, t.find, t.take);
+}
+
+int main(int argc, char **argv)
+{
+    must(argc == 4 || argc == 9 || argc == 10 || argc == 13,
+         "SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE [ETA FRICTION DAMPING]] or SPACING lammps FILE");
+    const double spacing = atof(argv[1]), t_end = atof(argv[2]);
+    if (argc == 4) {
+        dem_lattice body = make_body(spacing);
+        plate_write_lammps(&body, spacing, 0.05, argv[3]);
+        dem_lattice_free(&body);
+        return 0;
+    }
+    dem_model *model = compile(spacing, argc == 13 ? (law){atof(argv[10]), atof(argv[11]), atof(argv[12])} : elastic);
+    const dem_options options = read_options(argv + 4, model);
+    const int turns = atoi(argv[3]);
+    dem_simulation *simulation = NULL;
+    times least = {.all = INFINITY};
+    double sum = 0.0;
+    for (int turn = 0; turns > 0 ? turn < turns : sum < least_time; turn++) {
+        dem_simulation_destroy(simulation);
+        const times now = take(&simulation, model, &options, t_end);
+        sum += now.all;
+        if (now.all < least.all) least = now;
+    }
+    print(simulation, least);
+    if (argc > 9) plate_write_state(simulation, argv[9]);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    return 0;
+}
