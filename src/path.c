@@ -34,7 +34,7 @@ static basis basis_at(const path *p, double t)
 
 /* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the
  * bump's slope would turn into velocity when h is tiny. */
-static double defect(const path *p, dem_index k, double h)
+static inline double defect(const path *p, dem_index k, double h)
 {
     const dem_index n = 2 * p->n_nodes;
     const double x0 = p->y0[k], x1 = p->y1[k], v0 = p->y0[n + k], v1 = p->y1[n + k];
@@ -43,12 +43,12 @@ static double defect(const path *p, dem_index k, double h)
 }
 
 /* From y0 with slope f0 to y1. */
-static double parabola(const basis *b, double y0, double f0, double y1)
+static inline double parabola(const basis *b, double y0, double f0, double y1)
 {
     return y0 + b->s * (b->h * f0 + b->s * (y1 - y0 - b->h * f0));
 }
 
-static double position(const path *p, const basis *b, dem_index k)
+static inline double position(const path *p, const basis *b, dem_index k)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
@@ -57,7 +57,7 @@ static double position(const path *p, const basis *b, dem_index k)
            h * h * (b->ia0 * p->f0[n + k] + b->ia1 * p->f1[n + k]) + b->bump * defect(p, k, h);
 }
 
-static double velocity(const path *p, const basis *b, dem_index k)
+static inline double velocity(const path *p, const basis *b, dem_index k)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
