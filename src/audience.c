@@ -21,17 +21,12 @@ bool audience_hears_events(const audience *a)
     return false;
 }
 
-static dem_status first_of(dem_status status, dem_status next)
-{
-    return status != DEM_OK ? status : next;
-}
-
 dem_status audience_event(const audience *a, const dem_simulation *simulation, const dem_event *event)
 {
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
         const dem_observer *o = &a->members[k].observer;
-        if (o->event != NULL) status = first_of(status, o->event(o->context, simulation, event));
+        if (o->event != NULL) status = status_first(status, o->event(o->context, simulation, event));
     }
     return status;
 }
@@ -41,7 +36,7 @@ dem_status audience_step(const audience *a, const dem_simulation *simulation)
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
         const dem_observer *o = &a->members[k].observer;
-        if (o->step != NULL) status = first_of(status, o->step(o->context, simulation));
+        if (o->step != NULL) status = status_first(status, o->step(o->context, simulation));
     }
     return status;
 }

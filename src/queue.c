@@ -212,7 +212,8 @@ static dem_status take(queue *q, dem_index k)
     const contact_listener listener = {hear, q};
     contact *c = q->contact;
     double error;
-    if (q->n_stops++ == 0) copy_books(&c->sites.books, &q->books, c->sites.scene.model->obstacles.n);
+    if (q->n_stops == 0) copy_books(&c->sites.books, &q->books, c->sites.scene.model->obstacles.n);
+    q->n_stops += q->n_stops == 0 || q->due[k] > q->now;
     q->now = q->due[k];
     TRY(patch_open(&q->patch, q->step, k, q->now, q->state));
     each_site(q, keep_site);
@@ -265,12 +266,22 @@ static dem_status renew_books(queue *q)
     return DEM_OK;
 }
 
+/* The same of a node whose motion has not changed. */
+static dem_status renew_beside(queue *q, dem_index i, const double *y)
+{
+    if (trail_has(&q->trail, i)) return DEM_OK;
+    TRY(trail_keep(&q->trail, i));
+    renew(q, i, y);
+    return DEM_OK;
+}
+
 /* Derivatives at the end of the step, for the change of nodes and contacts: they are those of the state to the bit, but
  * for the power of damping and boundaries. */
 static dem_status renew_end(queue *q)
 {
     contact_sites *c = &q->contact->sites;
     const springs *s = &c->scene.model->springs;
+    const triangles *t = &c->scene.model->triangles;
     const double *y1 = q->trail.y1;
     for (dem_index g = 0; g < c->reactions.n_groups; g++)
         reactions_solve(&c->reactions, g, y1, y1 + scene_velocities(&c->scene));
@@ -278,10 +289,10 @@ static dem_status renew_end(queue *q)
         const dem_index i = q->trail.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
         renew(q, i, y1);
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            if (trail_has(&q->trail, s->neighbour[p])) continue;
-            TRY(trail_keep(&q->trail, s->neighbour[p]));
-            renew(q, s->neighbour[p], y1);
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(renew_beside(q, s->neighbour[p], y1));
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+            TRY(renew_beside(q, t->next[p], y1));
+            TRY(renew_beside(q, t->last[p], y1));
         }
     }
     return renew_books(q);

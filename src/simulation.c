@@ -213,11 +213,6 @@ static dem_index contacts_of(const dem_simulation *s)
     return m->n_contacts;
 }
 
-static dem_status first_of(dem_status status, dem_status next)
-{
-    return status != DEM_OK ? status : next;
-}
-
 /* An event at which the whole body has stopped. */
 static dem_status hear_event(void *context, const dem_event *event)
 {
@@ -234,7 +229,7 @@ static dem_status tell_events(dem_simulation *s, double t)
     while (s->told < s->n_inside && s->queue.events[s->told].t <= t) {
         const dem_event event = s->queue.events[s->told++];
         look_inside(s, event.t);
-        status = first_of(status, audience_event(&s->audience, s, &event));
+        status = status_first(status, audience_event(&s->audience, s, &event));
     }
     return status;
 }
@@ -274,7 +269,7 @@ static dem_status give_up(dem_simulation *s, dem_status status)
         status = status_fail(DEM_ERROR_INTEGRATOR,
                              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
                              s->t);
-    return first_of(status, engine_restart(&s->engine, s->t, s->y));
+    return status_first(status, engine_restart(&s->engine, s->t, s->y));
 }
 
 /* A step with all contact events inside it, which may reject it. */
@@ -316,8 +311,8 @@ static dem_status take_step(dem_simulation *s)
 /* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
-    status = first_of(status, engine_restart(&s->engine, s->t, s->y));
-    return status == DEM_ERROR_CONTACT ? status : first_of(status, tell_step(s));
+    status = status_first(status, engine_restart(&s->engine, s->t, s->y));
+    return status == DEM_ERROR_CONTACT ? status : status_first(status, tell_step(s));
 }
 
 static void look_for_overlaps(dem_simulation *s)
@@ -455,7 +450,7 @@ static dem_status set_up(dem_simulation *s)
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
     const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
-    TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
+    if (is_local(s)) TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
     const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
                             .n_books = n_books(model),
                             .n_guards = model->obstacles.n > 0 && !is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,

@@ -18,6 +18,12 @@
 
 #define CHECK_MEMORY(pointer) CHECK((pointer) != NULL, DEM_ERROR_MEMORY, "out of memory")
 
+/** Of two statuses in a row the first that is not DEM_OK. */
+static inline dem_status status_first(dem_status status, dem_status next)
+{
+    return status != DEM_OK ? status : next;
+}
+
 /** Stores the message, printf-like, and returns `status`. */
 dem_status status_fail(dem_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
