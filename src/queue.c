@@ -7,6 +7,7 @@
 
 #include "status.h"
 #include "strike.h"
+#include "threads.h"
 
 /* ---- set-up ---- */
 
@@ -75,6 +76,24 @@ static dem_index next_of(queue *q)
     return next;
 }
 
+enum { least_share = 32 }; /* free sites for which a thread is worth its while */
+
+static bool is_free(const queue *q, dem_index k)
+{
+    return q->contact->sites.list[k].n_closed == 0;
+}
+
+/* When something happens at the free ones of a share of the sites: no two have anything in common. */
+static void look_at_free(queue *q, int n_shares, int share)
+{
+    contact *c = q->contact;
+    const dem_index n = contact_watched(c), end = threads_share(n, n_shares, share + 1);
+    for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
+        const dem_index k = contact_at_watch(c, a);
+        if (is_free(q, k)) q->due[k] = contact_next(c, q->step, k, q->step->t0, q->state);
+    }
+}
+
 static void look_ahead(queue *q)
 {
     contact *c = q->contact;
@@ -85,9 +104,12 @@ static void look_ahead(queue *q)
     q->error = q->ahead = 0.0;
     q->settled = false;
     contact_expect(c, step, q->state);
+    const int most = c->sites.scene.rule.n_threads,
+              n_threads = contact_watched(c) >= least_share * most && most > 1 ? most : 1;
+    THREADS_RUN(n_threads, t, look_at_free(q, n_threads, t));
     for (dem_index a = 0; a < contact_watched(c); a++) {
         const dem_index k = contact_at_watch(c, a);
-        wait_until(q, k, contact_next(c, step, k, step->t0, q->state));
+        wait_until(q, k, is_free(q, k) ? q->due[k] : contact_next(c, step, k, step->t0, q->state));
     }
 }
 

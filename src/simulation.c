@@ -426,6 +426,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .max_impacts = o->max_impacts,
                           .vertices = o->vertices != 0,
                           .n_books = n_books(model),
+                          .n_threads = o->threads,
                           .load = load_of(s)};
 }
 

@@ -52,6 +52,7 @@ typedef struct contact_rule {
     dem_index max_impacts; /* within storm_time at one site */
     bool vertices;         /* whether edges touch vertices */
     dem_index n_books;     /* places behind the nodes in a state, for what is integrated along */
+    int n_threads;         /* that look at free sites at once; 0 counts as 1 */
     model_load load;
 } contact_rule;
 

@@ -147,9 +147,55 @@ static void nobody_leaves_a_trace(void **state)
         }
 }
 
+/* A strip of 201 columns that comes down flat on bumps: enough sites for threads to share them. */
+static picture run_strip(int threads)
+{
+    static const double lift[2] = {0.0, 2.5e-4}, down[2] = {1.0, -5.0};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
+    double points[2 * 61];
+    dem_obstacle ground = {.n_points = 61, .points = points, .restitution = 0.5, .friction = 0.3};
+    dem_options options = support_options();
+    dem_lattice strip;
+    support_run run;
+    for (int k = 0; k <= 60; k++) {
+        points[2 * k] = 0.01 * (k - 30);
+        points[2 * k + 1] = 2e-4 * sin(2.0 * k);
+    }
+    assert_ok(dem_lattice_rectangle(&strip, 0.2, 4e-3, 1e-3));
+    assert_ok(dem_lattice_assemble(&strip, &rubber));
+    dem_lattice_move(&strip, 0.0, lift);
+    assert_ok(dem_lattice_launch(&strip, down));
+    options.contact = DEM_CONTACT_LOCAL;
+    options.threads = threads;
+    support_open(&run, &strip, &ground, 1, &options);
+    dem_lattice_free(&strip);
+    assert_ok(dem_simulation_advance(run.simulation, 1e-4));
+    assert_true(run.n_impacts > 100);
+    const picture p = take_picture(run.simulation);
+    support_close(&run);
+    return p;
+}
+
+static void threads_that_share_the_sites_leave_no_trace(void **state)
+{
+    (void)state;
+    picture alone = run_strip(1);
+    for (int threads = 2; threads <= 3; threads++) {
+        picture p = run_strip(threads);
+        assert_int_equal(p.n, alone.n);
+        assert_memory_equal(p.bytes, alone.bytes, p.n);
+        free(p.bytes);
+    }
+    free(alone.bytes);
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nobody_leaves_a_trace)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nobody_leaves_a_trace),
+        cmocka_unit_test(threads_that_share_the_sites_leave_no_trace),
+    };
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
     return cmocka_run_group_tests(tests, NULL, NULL);
