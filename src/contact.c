@@ -464,22 +464,24 @@ static bool come_round(contact_sites *c, dem_index k, const contact_spot *spot)
     return true;
 }
 
-/* When a site that has room for a contact touches. */
-static double next_crossing(contact_sites *c, const path *p, dem_index k, double from)
+double contact_crossing(contact *c, const path *p, dem_index k, double from)
 {
-    const double crossing = search_crossing(&c->scene, &c->list[k], p, from);
-    if (crossing > from) return crossing;
-    const contact_spot spot = site_spot_on(&c->list[k], p, from);
-    return come_round(c, k, &spot) ? search_crossing(&c->scene, &c->list[k], p, from) : crossing;
+    contact_site *site = &c->sites.list[k];
+    if (!watch_wakes(&c->watch, site, c->way)) return INFINITY;
+    site->asleep = false;
+    return site->n_closed < 2 ? search_crossing(&c->sites.scene, site, p, from) : INFINITY;
 }
 
 double contact_next(contact *c, const path *p, dem_index k, double from, double *state)
 {
-    contact_site *site = &c->sites.list[k];
-    double next = site->n_closed > 0 ? next_due(c, p, k, from, state) : INFINITY;
-    if (!watch_wakes(&c->watch, site, c->way)) return next;
-    site->asleep = false;
-    return site->n_closed < 2 ? fmin(next, next_crossing(&c->sites, p, k, from)) : next;
+    const contact_site *site = &c->sites.list[k];
+    const double due = site->n_closed > 0 ? next_due(c, p, k, from, state) : INFINITY;
+    double crossing = contact_crossing(c, p, k, from);
+    if (crossing <= from) {
+        const contact_spot spot = site_spot_on(site, p, from);
+        if (come_round(&c->sites, k, &spot)) crossing = contact_crossing(c, p, k, from);
+    }
+    return fmin(due, crossing);
 }
 
 bool contact_check(contact *c, path *p, bool rooted, double *state)

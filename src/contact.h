@@ -52,6 +52,10 @@ static inline dem_index contact_at_watch(const contact *c, dem_index a)
     return c->all ? a : c->watch.awake[a];
 }
 
+/** When a site that has room for a contact touches, as it is known by now: changes nothing but the site, so that
+ *  threads may ask for different ones at once. `from` for one that is inside already. */
+double contact_crossing(contact *c, const path *p, dem_index k, double from);
+
 /** First time after `from` in the step at which something happens at a site, after contact_expect(): it is inside an
  *  obstacle, if only between entry and exit, or a closed contact of it has to change that still has to at the end.
  *  Infinity if nothing happens.  \param[out] state  [4 n] scratch */

@@ -83,14 +83,14 @@ static bool is_free(const queue *q, dem_index k)
     return q->contact->sites.list[k].n_closed == 0;
 }
 
-/* When something happens at the free ones of a share of the sites: no two have anything in common. */
+/* When the free ones of a share of the sites touch. */
 static void look_at_free(queue *q, int n_shares, int share)
 {
     contact *c = q->contact;
     const dem_index n = contact_watched(c), end = threads_share(n, n_shares, share + 1);
     for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
         const dem_index k = contact_at_watch(c, a);
-        if (is_free(q, k)) q->due[k] = contact_next(c, q->step, k, q->step->t0, q->state);
+        if (is_free(q, k)) q->due[k] = contact_crossing(c, q->step, k, q->step->t0);
     }
 }
 
@@ -107,9 +107,12 @@ static void look_ahead(queue *q)
     const int most = c->sites.scene.rule.n_threads,
               n_threads = contact_watched(c) >= least_share * most && most > 1 ? most : 1;
     THREADS_RUN(n_threads, t, look_at_free(q, n_threads, t));
+    const dem_index *behind = &c->sites.books.counts.behind, were_behind = *behind;
     for (dem_index a = 0; a < contact_watched(c); a++) {
         const dem_index k = contact_at_watch(c, a);
-        wait_until(q, k, is_free(q, k) ? q->due[k] : contact_next(c, step, k, step->t0, q->state));
+        const bool known =
+            is_free(q, k) && q->due[k] > step->t0 && *behind == were_behind; /* else others may know more */
+        wait_until(q, k, known ? q->due[k] : contact_next(c, step, k, step->t0, q->state));
     }
 }
 
