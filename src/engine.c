@@ -50,9 +50,14 @@ double *engine_state(const engine *e)
     return e->verlet != NULL ? verlet_state(e->verlet) : integrator_state(e->integrator);
 }
 
-dem_status engine_resume(engine *e, double longest)
+dem_status engine_bound(engine *e, double longest)
 {
-    return e->verlet != NULL ? DEM_OK : integrator_resume(e->integrator, longest);
+    return e->verlet != NULL ? DEM_OK : integrator_bound(e->integrator, longest);
+}
+
+dem_status engine_resume(engine *e)
+{
+    return e->verlet != NULL ? DEM_OK : integrator_resume(e->integrator);
 }
 
 dem_status engine_restart(engine *e, double t, const double *y)

@@ -34,9 +34,11 @@ void engine_settle(engine *e, const path *step);
  *  of the step that led to it changes with it. */
 double *engine_state(const engine *e);
 
-/** Goes on from the end of the step just settled, which has been changed and its derivative with it; the
- *  first step is no longer than this, s. */
-dem_status engine_resume(engine *e, double longest);
+/** Bounds the first step after the restart or resumption that follows, s. */
+dem_status engine_bound(engine *e, double longest);
+
+/** Goes on from the end of the step just settled, which has been changed and its derivative with it. */
+dem_status engine_resume(engine *e);
 
 /** Goes on from another state, or from its own as it has been changed. */
 dem_status engine_restart(engine *e, double t, const double *y);

@@ -377,11 +377,16 @@ dem_status integrator_restart(integrator *I, double t, const double *y)
     return reset(I);
 }
 
-dem_status integrator_resume(integrator *I, double longest)
+dem_status integrator_bound(integrator *I, double longest)
 {
     double next;
     if (isfinite(longest) && ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS && next > longest)
         CHECK(ARKodeSetInitStep(I->arkode, longest) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    return DEM_OK;
+}
+
+dem_status integrator_resume(integrator *I)
+{
     return reset(I);
 }
 

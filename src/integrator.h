@@ -33,9 +33,11 @@ double *integrator_state(const integrator *i);
 /** Goes on from another state, or from its own as it has been changed, with step size and history kept. */
 dem_status integrator_restart(integrator *i, double t, const double *y);
 
-/** Goes on from the end of the step just settled as it has been changed, whose derivative is known; the
- *  first step is no longer than this, s. */
-dem_status integrator_resume(integrator *i, double longest);
+/** Bounds the first step after the restart or resumption that follows, s. */
+dem_status integrator_bound(integrator *i, double longest);
+
+/** Goes on from the end of the step just settled as it has been changed, whose derivative is known. */
+dem_status integrator_resume(integrator *i);
 
 /** Steps, rejections, evaluations and retries so far; the rest is 0. */
 dem_counts integrator_counts(const integrator *i);

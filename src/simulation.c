@@ -352,10 +352,11 @@ static dem_status commit_local_step(dem_simulation *s)
     TRY(queue_show(&s->queue, s->path.t1));
     const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
     s->events += s->queue.n_stops;
+    TRY(engine_bound(&s->engine, queue_reach(&s->queue)));
     if (moved)
         TRY(engine_restart(&s->engine, s->t, s->y));
     else if (corrected)
-        TRY(engine_resume(&s->engine, queue_reach(&s->queue)));
+        TRY(engine_resume(&s->engine));
     return tell_step(s);
 }
 
