@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "grow.h"
 #include "status.h"
 
 dem_status ball_create(ball *out, contact_sites *sites, int n_rings)
@@ -30,24 +31,13 @@ void ball_destroy(ball *b)
     *b = (ball){0};
 }
 
-/* Room for one more. */
-static dem_status grow(void **array, dem_index *capacity, dem_index n, size_t size)
-{
-    if (n < *capacity) return DEM_OK;
-    const dem_index more = 2 * *capacity + 64;
-    void *larger = realloc(*array, (size_t)more * size);
-    CHECK(larger != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
-    *array = larger;
-    *capacity = more;
-    return DEM_OK;
-}
-
 /* ---- rings ---- */
 
 static dem_status add_node(ball *b, dem_index i)
 {
     if (b->number[i] >= 0) return DEM_OK;
-    TRY(grow((void **)&b->nodes, &b->capacity, b->n, sizeof *b->nodes));
+    CHECK(grow_array((void **)&b->nodes, &b->capacity, b->n + 1, sizeof *b->nodes), DEM_ERROR_MEMORY,
+          "out of memory for what is near a contact");
     b->number[i] = (int32_t)b->n;
     b->nodes[b->n++] = (ball_node){.i = i};
     return DEM_OK;
@@ -70,7 +60,8 @@ static dem_status note_group(ball *b, dem_index group, int ring, bool *is_new)
     *is_new = false;
     for (dem_index g = 0; g < b->n_groups; g++)
         if (b->groups[g].group == group) return DEM_OK;
-    TRY(grow((void **)&b->groups, &b->group_capacity, b->n_groups, sizeof *b->groups));
+    CHECK(grow_array((void **)&b->groups, &b->group_capacity, b->n_groups + 1, sizeof *b->groups), DEM_ERROR_MEMORY,
+          "out of memory for what is near a contact");
     b->groups[b->n_groups++] = (ball_group){group, ring};
     *is_new = true;
     return DEM_OK;

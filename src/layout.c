@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "grow.h"
 #include "order.h"
 #include "status.h"
 
@@ -55,20 +56,10 @@ static int32_t place_of(const builder *b, dem_index node)
 
 /* ---- arrays that grow ---- */
 
-static dem_status grow(void **array, dem_index *capacity, dem_index n, size_t size)
-{
-    if (n < *capacity) return DEM_OK;
-    const dem_index more = 2 * n + 64;
-    void *larger = realloc(*array, (size_t)more * size);
-    CHECK(larger != NULL, DEM_ERROR_MEMORY, "out of memory for the layout of springs");
-    *array = larger;
-    *capacity = more;
-    return DEM_OK;
-}
-
 static dem_status add_entry(builder *b, layout_entry entry)
 {
-    TRY(grow((void **)&b->entries, &b->entry_capacity, b->n_entries, sizeof *b->entries));
+    CHECK(grow_array((void **)&b->entries, &b->entry_capacity, b->n_entries + 1, sizeof *b->entries), DEM_ERROR_MEMORY,
+          "out of memory for the layout of springs");
     b->entries[b->n_entries++] = entry;
     return DEM_OK;
 }
@@ -84,7 +75,8 @@ static dem_status close_block(builder *b, layout_part *part, dem_index block)
 static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
 {
     CHECK(l->n_lists < INT32_MAX / LAYOUT_LANES, DEM_ERROR_MODEL, "too many springs");
-    TRY(grow((void **)&l->lists, &l->list_capacity, l->n_lists, LAYOUT_LANES * sizeof *l->lists));
+    CHECK(grow_array((void **)&l->lists, &l->list_capacity, l->n_lists + 1, LAYOUT_LANES * sizeof *l->lists),
+          DEM_ERROR_MEMORY, "out of memory for the layout of springs");
     memcpy(l->lists + LAYOUT_LANES * l->n_lists, index, LAYOUT_LANES * sizeof *index);
     *number = (int32_t)(LAYOUT_LANES * l->n_lists++);
     return DEM_OK;
@@ -215,8 +207,10 @@ static dem_status find_stream(builder *b, int64_t key, dem_index block, dem_inde
         if (b->used[k] != block && (found < 0 || b->key[k] == key || b->used[k] < b->used[found])) found = k;
     if (found < 0) {
         dem_index capacity = b->stream_capacity;
-        TRY(grow((void **)&b->key, &capacity, b->n_streams, sizeof *b->key));
-        TRY(grow((void **)&b->used, &b->stream_capacity, b->n_streams, sizeof *b->used));
+        CHECK(grow_array((void **)&b->key, &capacity, b->n_streams + 1, sizeof *b->key), DEM_ERROR_MEMORY,
+              "out of memory for the layout of springs");
+        CHECK(grow_array((void **)&b->used, &b->stream_capacity, b->n_streams + 1, sizeof *b->used), DEM_ERROR_MEMORY,
+              "out of memory for the layout of springs");
         found = b->n_streams++;
     }
     b->key[found] = key;
@@ -259,7 +253,7 @@ static dem_status lay_springs(builder *b, dem_index block)
 {
     layout *l = b->l;
     const int32_t row = (int32_t)(LAYOUT_LANES * block), at_row = row & (int32_t)(l->ring_rows - 1);
-    dem_index stream, slot = 0;
+    dem_index stream = 0, slot = 0;
     list_springs(b, block);
     choose_groups(b);
     for (const item *leader = take_group(b); leader != NULL; leader = take_group(b), slot++) {

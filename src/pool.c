@@ -7,19 +7,8 @@
 #include <string.h>
 
 #include "aligned.h"
+#include "grow.h"
 #include "status.h"
-
-/* Room for one more; twice what there is. */
-static dem_status grow(void **array, dem_index *capacity, dem_index needed, size_t size)
-{
-    if (needed <= *capacity) return DEM_OK;
-    const dem_index more = 2 * needed + 64;
-    void *larger = realloc(*array, (size_t)more * size);
-    CHECK_MEMORY(larger);
-    *array = larger;
-    *capacity = more;
-    return DEM_OK;
-}
 
 static uint64_t hash_of(const void *items, size_t bytes)
 {
@@ -70,8 +59,9 @@ dem_status pool_find(pool *p, const void *items, dem_index n, pool_span *out)
     int32_t *slot = slot_of(p, items, n);
     if (*slot < 0) {
         CHECK(p->n + n < INT32_MAX, DEM_ERROR_MODEL, "too many springs or triangles");
-        TRY(grow(&p->items, &p->capacity, p->n + n, p->unit));
-        TRY(grow((void **)&p->lists, &p->list_capacity, p->n_lists + 1, sizeof *p->lists));
+        CHECK(grow_array(&p->items, &p->capacity, p->n + n, p->unit), DEM_ERROR_MEMORY, "out of memory");
+        CHECK(grow_array((void **)&p->lists, &p->list_capacity, p->n_lists + 1, sizeof *p->lists), DEM_ERROR_MEMORY,
+              "out of memory");
         if (n > 0) memcpy((char *)p->items + (size_t)p->n * p->unit, items, (size_t)n * p->unit);
         p->lists[p->n_lists] = (pool_span){(int32_t)p->n, (int32_t)(p->n + n)};
         *slot = (int32_t)p->n_lists++;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "grow.h"
 #include "status.h"
 #include "strike.h"
 #include "threads.h"
@@ -193,13 +194,8 @@ void queue_undo(queue *q)
 static dem_status hear(void *context, const dem_event *event)
 {
     queue *q = context;
-    if (q->n_events == q->capacity) {
-        const dem_index more = 2 * q->capacity + 64;
-        dem_event *events = realloc(q->events, (size_t)more * sizeof *events);
-        CHECK(events != NULL, DEM_ERROR_MEMORY, "out of memory for the contact events of a step");
-        q->events = events;
-        q->capacity = more;
-    }
+    CHECK(grow_array((void **)&q->events, &q->capacity, q->n_events + 1, sizeof *q->events), DEM_ERROR_MEMORY,
+          "out of memory for the contact events of a step");
     q->events[q->n_events++] = *event;
     return DEM_OK;
 }

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "grow.h"
 #include "status.h"
 
 dem_status trail_create(trail *out, dem_index n_nodes)
@@ -52,13 +53,8 @@ void trail_undo(trail *tr)
 dem_status trail_keep(trail *tr, dem_index node)
 {
     const dem_index n = tr->n_nodes;
-    if (tr->n == tr->capacity) {
-        const dem_index more = 2 * tr->capacity + 256;
-        trail_node *list = realloc(tr->list, (size_t)more * sizeof *list);
-        CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contact events of a step");
-        tr->list = list;
-        tr->capacity = more;
-    }
+    CHECK(grow_array((void **)&tr->list, &tr->capacity, tr->n + 1, sizeof *tr->list), DEM_ERROR_MEMORY,
+          "out of memory for the contact events of a step");
     trail_node *e = &tr->list[tr->n++];
     e->node = node;
     e->x = vec2_at(tr->y1, node);
