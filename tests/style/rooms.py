@@ -13,7 +13,8 @@ LAYERS = [
     {"vec2", "status", "random", "commit", "wall", "memory", "aligned", "grow", "threads"},
     {"trail", "audience"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
-     "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "file", "words", "image", "outline"},
+     "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "file", "words", "image", "outline",
+     "outcome", "command"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
      "parts", "clearance", "grid", "table", "pgm", "png", "msh", "crack"},
     {"layout"},
@@ -30,6 +31,7 @@ LAYERS = [
     {"contact", "trajectory", "deck"},
     {"queue"},
     {"simulation", "output", "preview", "report"},
+    {"job"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Read the deck, build, claim the output, run, report. */
+#include "job.h"
+
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <dem/trajectory.h>
+
+#include "deck.h"
+#include "output.h"
+#include "preview.h"
+#include "relaxation.h"
+#include "report.h"
+
+static const double most_steps = 1e10;
+enum { PATH = 4096 };
+
+typedef struct job {
+    const command *command;
+    deck deck;
+    dem_model *model;
+    dem_simulation *simulation;
+    char path[4096];  /* of the output */
+    dem_peaks *peaks; /* NULL: not wanted */
+    dem_trajectory *trajectory;
+    report log;
+    relaxation rest;
+    outcome outcome;
+} job;
+
+/* Whether all is well; tells what is not. */
+static bool passes(job *j, dem_status status, const char *where)
+{
+    if (status != DEM_OK) outcome_fail_status(&j->outcome, status, where);
+    return status == DEM_OK;
+}
+
+/* ---- the run ---- */
+
+static dem_status write_provenance(const job *j)
+{
+    const deck *d = &j->deck;
+    char versions[256], problem[OUTPUT_HASH], hash[OUTPUT_HASH], start[32];
+    const time_t now = time(NULL);
+    struct tm utc;
+    preview_versions(versions, sizeof versions);
+    output_print_hash(problem, d->hash);
+    output_print_hash(hash, d->run_hash);
+    (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+    const char *const notes[][2] = {
+        {"versions", versions}, {"kernel", dem_kernel_name(dem_simulation_options(j->simulation).kernel)},
+        {"problem", problem},   {"run", hash},
+        {"start", start},       {"deck", d->source},
+        {"resolved", d->echo},  {"title", d->title},
+        {"physics", d->physics}};
+    dem_status status = DEM_OK;
+    for (size_t k = 0; k < sizeof notes / sizeof notes[0] && status == DEM_OK; k++)
+        status = dem_trajectory_note(j->trajectory, notes[k][0], notes[k][1]);
+    return status;
+}
+
+static dem_status stop_at_overlap(void *context, const dem_simulation *simulation)
+{
+    (void)context;
+    return dem_simulation_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
+}
+
+static dem_status create_files(job *j)
+{
+    const deck *d = &j->deck;
+    dem_trajectory_options options = dem_trajectory_options_default();
+    dem_status status = DEM_OK;
+    if (d->peak_every > 0) status = dem_peaks_create(&j->peaks, j->model, d->peak_every);
+    options.frame_interval = d->frame_interval;
+    options.double_precision = d->double_precision;
+    options.deflate = d->deflate;
+    options.events = d->events;
+    options.fields = d->fields;
+    options.peaks = j->peaks;
+    options.most_stressed = d->most_stressed;
+    options.n_probes = d->n_probes;
+    options.probes = d->probes;
+    return status == DEM_OK ? dem_trajectory_create(&j->trajectory, j->path, j->simulation, &options) : status;
+}
+
+static dem_status observe(job *j)
+{
+    const struct {
+        bool wanted;
+        dem_observer observer;
+    } all[] = {{j->peaks != NULL, dem_peaks_observer(j->peaks)},
+               {true, dem_trajectory_observer(j->trajectory)},
+               {true, report_observer(&j->log)},
+               {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
+               {j->deck.stop_at_overlap != 0, {.step = stop_at_overlap}}};
+    dem_status status = DEM_OK;
+    for (size_t k = 0; k < sizeof all / sizeof *all && status == DEM_OK; k++)
+        if (all[k].wanted) status = dem_simulation_observe(j->simulation, &all[k].observer);
+    return status;
+}
+
+/* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap. */
+static dem_status advance(job *j)
+{
+    const dem_observer frames = dem_trajectory_observer(j->trajectory);
+    dem_status status = write_provenance(j);
+    if (status == DEM_OK) status = observe(j);
+    if (status == DEM_OK) status = dem_simulation_advance(j->simulation, j->deck.t_end);
+    return status == DEM_STOPPED ? frames.frame(frames.context, j->simulation) : status;
+}
+
+/* Whether a run has come to what the deck asks for. One that has not has no result: its output stays unfinished. */
+static bool succeeds(job *j)
+{
+    const deck *d = &j->deck;
+    const relaxation *rest = &j->rest;
+    const dem_overlap o = dem_simulation_overlap(j->simulation);
+    if (d->stop_at_overlap && o.node >= 0)
+        outcome_fail(&j->outcome, EXIT_NUMERICS, d->path,
+                     "node %lld is inside triangle %lld of a body at (%g, %g) m, t = %.6g s", (long long)o.node,
+                     (long long)o.triangle, o.x[0], o.x[1], o.t);
+    else if (d->residual > 0.0 && !rest->done)
+        outcome_fail(&j->outcome, EXIT_NUMERICS, d->path,
+                     "not at rest at t_end = %g s: the residual is %.3g, %.3g is asked for", d->t_end, rest->reached,
+                     d->residual);
+    else if (d->residual > 0.0)
+        (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
+    return j->outcome.code == EXIT_DONE;
+}
+
+/* Without a reader of its log it goes on all the same: main() tells in the end. */
+static void run(job *j)
+{
+    (void)signal(SIGPIPE, SIG_IGN);
+    if (!passes(j, create_files(j), j->path)) return;
+    preview_print(stdout, &j->deck, j->simulation, j->path);
+    report_start(&j->log, stdout, isatty(STDOUT_FILENO) == 1, &j->deck);
+    j->log.peaks = j->peaks;
+    j->rest = relaxation_start(j->deck.residual, &j->deck.options);
+    if (!passes(j, advance(j), j->deck.path)) return;
+    report_summary(&j->log, j->simulation);
+    if (succeeds(j)) (void)passes(j, dem_trajectory_finish(j->trajectory), j->deck.path);
+}
+
+/* ---- before the run ---- */
+
+/* Whether the run has an end. */
+static bool ends(job *j)
+{
+    const double step = dem_simulation_options(j->simulation).max_step, steps = j->deck.t_end / step;
+    if (steps <= most_steps) return true;
+    outcome_fail(&j->outcome, EXIT_INVALID, j->deck.path,
+                 "t_end = %g s takes at least %.3g steps of %.3g s; the limit is %.0e", j->deck.t_end, steps, step,
+                 most_steps);
+    return false;
+}
+
+/* Nothing has been written so far. */
+static void run_where_free(job *j)
+{
+    char reason[512];
+    if (!output_path(j->path, sizeof j->path, j->command->outdir, j->deck.name)) {
+        outcome_fail(&j->outcome, EXIT_INVALID, j->deck.path, "the path of the output is too long");
+        return;
+    }
+    switch (output_claim(j->path, &j->deck, reason, sizeof reason)) {
+    case OUTPUT_FREE:
+        run(j);
+        break;
+    case OUTPUT_DONE:
+        (void)printf("%s: done already, %s\n", j->path, reason);
+        break;
+    case OUTPUT_TAKEN:
+        outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
+        break;
+    }
+}
+
+/* The model has a copy of the deck's lattice, which is not needed any more. */
+static dem_status build(job *j)
+{
+    deck *d = &j->deck;
+    dem_options options = d->options;
+    dem_status status = dem_model_create(&j->model, &d->lattice, d->obstacles, d->n_obstacles);
+    dem_lattice_free(&d->lattice);
+    if (status != DEM_OK) return status;
+    if (d->residual > 0.0 && options.mass_damping == 0.0) options.mass_damping = relaxation_damping(j->model);
+    return dem_simulation_create(&j->simulation, j->model, &options);
+}
+
+static void build_and_run(job *j)
+{
+    if (!passes(j, build(j), j->deck.path) || !ends(j)) return;
+    if (j->command->action == COMMAND_CHECK)
+        preview_print(stdout, &j->deck, j->simulation, NULL);
+    else
+        run_where_free(j);
+}
+
+static void tell_errors(outcome *o, const char *path, const namelist_errors *errors)
+{
+    for (size_t k = 0; k < errors->n; k++) {
+        const namelist_error *e = &errors->list[k];
+        char where[PATH + 32];
+        if (e->place.line > 0)
+            (void)snprintf(where, sizeof where, "%s:%d:%d", path, e->place.line, e->place.column);
+        else
+            (void)snprintf(where, sizeof where, "%s", path);
+        outcome_fail(o, EXIT_INVALID, where, "%s", e->text);
+    }
+}
+
+static bool read_deck(job *j, const char *path)
+{
+    namelist_errors errors = {0};
+    const deck_status status = deck_read(&j->deck, path, &errors);
+    if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, path, "out of memory");
+    tell_errors(&j->outcome, path, &errors);
+    namelist_errors_free(&errors);
+    return status == DECK_OK;
+}
+
+static void dismiss(job *j)
+{
+    dem_trajectory_destroy(j->trajectory);
+    dem_peaks_destroy(j->peaks);
+    dem_simulation_destroy(j->simulation);
+    dem_model_destroy(j->model);
+    deck_free(&j->deck);
+}
+
+exit_code job_do(const command *c, const char *path)
+{
+    job j = {.command = c};
+    if (read_deck(&j, path)) {
+        if (c->action == COMMAND_ECHO)
+            (void)fputs(j.deck.echo, stdout);
+        else
+            build_and_run(&j);
+    }
+    dismiss(&j);
+    return j.outcome.code;
+}
