@@ -2,17 +2,25 @@
 #include "command.h"
 
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char usage[] =
-    "usage: dem_batch [--outdir FOLDER] DECK   run the deck; NAME.vtkhdf is written to FOLDER (default: here)\n"
-    "       dem_batch --check DECK             read it, build it, print sizes and estimates, write nothing\n"
-    "       dem_batch --echo DECK              print it with every key resolved; the echo is a deck of the same run\n"
-    "       dem_batch --template               print a deck with every key, its default and its meaning\n"
-    "       dem_batch --keys                   print the description of every key, in Markdown\n"
+    "usage: dem_batch [OPTION]... DECK...          run the decks; NAME.vtkhdf and NAME.json are written for each\n"
+    "       dem_batch --check [OPTION]... DECK...  read, build, print sizes and estimates, write nothing\n"
+    "       dem_batch --echo [OPTION]... DECK...   print with every key resolved; the echo is a deck of the same run\n"
+    "       dem_batch --template                   print a deck with every key, its default and its meaning\n"
+    "       dem_batch --keys                       print the description of every key, in Markdown\n"
     "       dem_batch --version | --help\n"
+    "decks: files, or @LIST for those in a file, one a line, relative to its folder; '#' begins a comment\n"
+    "options:\n"
+    "  --outdir FOLDER        where to write (default: here)\n"
+    "  --set GROUP.KEY=VALUE  give a key, spelt as in a deck; GROUP(K).KEY in the K-th such group; any number of "
+    "times\n"
+    "  --index N              take only the N-th deck, from 1: for job arrays\n"
+    "  --overwrite            rename output of another problem or run that is in the way to NAME.old\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, 6 out of memory,\n"
-    "            7 the output exists and belongs to another problem\n";
+    "            7 the output belongs to another problem or process; of several decks the largest\n";
 
 typedef struct action_word {
     const char *word;
@@ -43,19 +51,7 @@ static const char *word_of(command_action wanted)
     return "";
 }
 
-static bool parse_word(command *c, const char *word)
-{
-    for (size_t k = 0; k < n_actions; k++) {
-        if (strcmp(word, action_words[k].word) != 0) continue;
-        if (c->action != COMMAND_RUN) return refuse("'%s' does not go with '%s'", word, word_of(c->action));
-        c->action = action_words[k].action;
-        return true;
-    }
-    if (word[0] == '-') return refuse("'%s' is no option", word);
-    if (c->deck != NULL) return refuse("'%s' is a second deck, behind '%s'", word, c->deck);
-    c->deck = word;
-    return true;
-}
+/* ---- options with a value; NULL: there is none ---- */
 
 static bool parse_outdir(command *c, const char *folder)
 {
@@ -64,17 +60,78 @@ static bool parse_outdir(command *c, const char *folder)
     return true;
 }
 
-bool command_parse(command *c, int argc, char **argv)
+static bool parse_index(command *c, const char *number)
 {
-    *c = (command){.action = COMMAND_RUN, .outdir = "."};
-    for (int k = 1; k < argc; k++) {
-        const bool outdir = strcmp(argv[k], "--outdir") == 0;
-        if (!(outdir ? parse_outdir(c, argv[++k]) : parse_word(c, argv[k]))) return false;
+    const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
+    if (n == 0 || n > 9 || number[n] != '\0' || (c->index = strtol(number, NULL, 10)) < 1)
+        return refuse("'--index' needs the number of a deck, from 1%s%s", number == NULL ? "" : ", got ",
+                      number == NULL ? "" : number);
+    return true;
+}
+
+static bool parse_set(command *c, const char *text)
+{
+    if (text == NULL || !setting_parse(&c->settings[c->n_settings], text))
+        return refuse("'--set' needs group.key=value or group(k).key=value%s%s", text == NULL ? "" : ", got ",
+                      text == NULL ? "" : text);
+    c->n_settings++;
+    return true;
+}
+
+static const struct {
+    const char *word;
+    bool (*parse)(command *c, const char *value);
+} options[] = {{"--outdir", parse_outdir}, {"--index", parse_index}, {"--set", parse_set}};
+
+/* ---- words ---- */
+
+static bool parse_word(command *c, const char *word)
+{
+    for (size_t k = 0; k < n_actions; k++) {
+        if (strcmp(word, action_words[k].word) != 0) continue;
+        if (c->action != COMMAND_RUN) return refuse("'%s' does not go with '%s'", word, word_of(c->action));
+        c->action = action_words[k].action;
+        return true;
+    }
+    if (strcmp(word, "--overwrite") == 0) {
+        c->overwrite = true;
+        return true;
+    }
+    if (word[0] == '-' || word[0] == '\0') return refuse("'%s' is no option", word);
+    c->decks[c->n_decks++] = word;
+    return true;
+}
+
+static bool parse_all(command *c, char **argv)
+{
+    for (char **word = argv; *word != NULL; word++) {
+        size_t k = 0;
+        while (k < sizeof options / sizeof *options && strcmp(*word, options[k].word) != 0) k++;
+        const bool valued = k < sizeof options / sizeof *options;
+        if (!(valued ? options[k].parse(c, *++word) : parse_word(c, *word))) return false;
     }
     const bool needs_deck = c->action == COMMAND_RUN || c->action == COMMAND_CHECK || c->action == COMMAND_ECHO;
-    if (needs_deck && c->deck == NULL) return refuse("no deck");
-    if (!needs_deck && c->deck != NULL) return refuse("'%s' takes no deck, got '%s'", word_of(c->action), c->deck);
+    if (needs_deck && c->n_decks == 0) return refuse("no deck");
+    if (!needs_deck && c->n_decks > 0) return refuse("'%s' takes no deck, got '%s'", word_of(c->action), c->decks[0]);
     return true;
+}
+
+exit_code command_parse(command *c, int argc, char **argv)
+{
+    const size_t n = (size_t)argc + 1;
+    *c = (command){.action = COMMAND_RUN, .outdir = "."};
+    c->decks = calloc(n, sizeof *c->decks);
+    c->settings = calloc(n, sizeof *c->settings);
+    if (c->decks != NULL && c->settings != NULL) return parse_all(c, argv + 1) ? EXIT_DONE : EXIT_USAGE;
+    (void)fprintf(stderr, "dem_batch: error: out of memory\n");
+    return EXIT_MEMORY;
+}
+
+void command_free(command *c)
+{
+    free(c->decks);
+    free(c->settings);
+    *c = (command){0};
 }
 
 void command_help(FILE *out)

@@ -6,6 +6,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "outcome.h"
+#include "setting.h"
+
 typedef enum command_action {
     COMMAND_RUN,
     COMMAND_CHECK,
@@ -19,11 +22,17 @@ typedef enum command_action {
 /** Texts are those of argv. */
 typedef struct command {
     command_action action;
-    const char *deck, *outdir;
+    const char *outdir;
+    bool overwrite;
+    long index; /* of the only deck, from 1; 0: all of them */
+    size_t n_decks, n_settings;
+    const char **decks; /* [n_decks] files, and lists with an '@' before their names */
+    setting *settings;  /* [n_settings] */
 } command;
 
-/** False if something is wrong with it, which is said on standard error. */
-bool command_parse(command *c, int argc, char **argv);
+/** What is wrong with it is said on standard error. To be freed in any case. */
+exit_code command_parse(command *c, int argc, char **argv);
+void command_free(command *c);
 
 void command_help(FILE *out);
 

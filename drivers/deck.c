@@ -498,34 +498,49 @@ static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *erro
     return errors->n > 0 ? DECK_INVALID : DECK_OK;
 }
 
-static deck_status resolve(deck *d, size_t size, namelist_errors *errors)
+static deck_status resolve(deck *d, const namelist *list, namelist_errors *errors)
 {
-    namelist list;
-    schema_deck groups = {0};
+    schema_deck groups;
     deck_status status = DECK_MEMORY;
-    const bool parsed = namelist_parse(&list, d->source, size, errors);
-    if (parsed && list.unreadable) {
-        status = DECK_INVALID;
-    } else if (parsed && schema_resolve(&groups, &list, errors)) {
+    if (schema_resolve(&groups, list, errors)) {
         check(&groups, errors);
         status = errors->n > 0 ? DECK_INVALID : interpret(d, &groups, errors);
     }
     schema_free(&groups);
+    return status;
+}
+
+static deck_status parse(deck *d, size_t size, const setting *settings, size_t n, namelist_errors *errors)
+{
+    namelist list;
+    deck_status status = DECK_INVALID;
+    bool good = namelist_parse(&list, d->source, size, errors);
+    for (size_t k = 0; k < n && good && !list.unreadable; k++)
+        good = setting_apply(&settings[k], -1 - (int)k, &list, errors);
+    if (!good)
+        status = DECK_MEMORY;
+    else if (!list.unreadable)
+        status = resolve(d, &list, errors);
     namelist_free(&list);
     namelist_errors_sort(errors);
     return errors->out_of_memory ? DECK_MEMORY : status;
 }
 
-deck_status deck_read(deck *out, const char *path, namelist_errors *errors)
+deck_status deck_read_with(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors)
 {
     deck d = {.path = strdup(path)};
     size_t size = 0;
     dem_lattice_init(&d.lattice);
     deck_status status = d.path == NULL ? DECK_MEMORY : read_text(&d, &size, errors);
-    if (status == DECK_OK) status = resolve(&d, size, errors);
+    if (status == DECK_OK) status = parse(&d, size, settings, n, errors);
     if (status != DECK_OK) deck_free(&d);
     *out = d;
     return status;
+}
+
+deck_status deck_read(deck *out, const char *path, namelist_errors *errors)
+{
+    return deck_read_with(out, path, NULL, 0, errors);
 }
 
 void deck_free(deck *d)

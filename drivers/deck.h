@@ -8,6 +8,7 @@
 
 #include "body.h"
 #include "namelist.h"
+#include "setting.h"
 
 typedef enum deck_status {
     DECK_OK,
@@ -48,6 +49,9 @@ typedef struct deck {
  * there are none, and what is wrong with it is reported for all bodies. `errors` comes sorted by place; a file that is
  * unreadable has its message at 0:0. *out is empty unless DECK_OK is returned. */
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors);
+
+/* The same with settings, [n], which the deck is taken to have. A fault of settings[k] is at line -1 - k. */
+deck_status deck_read_with(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors);
 void deck_free(deck *d);
 
 #endif

@@ -3,9 +3,26 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "cases.h"
 #include "job.h"
 #include "preview.h"
 #include "schema.h"
+
+/* One after the other, whatever becomes of each; the largest code is the worst. */
+static exit_code do_all(const command *c)
+{
+    outcome found = {0};
+    cases all;
+    exit_code worst = EXIT_DONE;
+    if (!cases_find(&all, c, &found)) worst = found.code;
+    for (size_t k = 0; k < all.n && found.code == EXIT_DONE; k++) {
+        const exit_code code = job_do(c, all.paths[k]);
+        if (code > worst) worst = code;
+        (void)fflush(stdout);
+    }
+    cases_free(&all);
+    return worst;
+}
 
 static exit_code act(const command *c)
 {
@@ -27,7 +44,7 @@ static exit_code act(const command *c)
     case COMMAND_RUN:
     case COMMAND_CHECK:
     case COMMAND_ECHO:
-        return job_do(c, c->deck);
+        return do_all(c);
     }
     return EXIT_DONE;
 }
@@ -43,9 +60,10 @@ int main(int argc, char **argv)
 {
     command c;
     fill_streams();
-    if (!command_parse(&c, argc, argv)) return EXIT_USAGE;
-    const exit_code code = act(&c);
+    exit_code code = command_parse(&c, argc, argv);
+    if (code == EXIT_DONE) code = act(&c);
+    command_free(&c);
     const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
     if (!printed) (void)fprintf(stderr, "dem_batch: error: standard output cannot be written\n");
-    return printed || code != EXIT_DONE ? (int)code : EXIT_IO;
+    return printed || code != EXIT_DONE ? (int)code : (int)EXIT_IO;
 }

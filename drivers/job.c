@@ -3,22 +3,26 @@
 #include "job.h"
 
 #include <signal.h>
+#include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <dem/trajectory.h>
 
 #include "deck.h"
+#include "lock.h"
 #include "output.h"
 #include "preview.h"
 #include "relaxation.h"
 #include "report.h"
+#include "result.h"
+#include "wall.h"
 
 static const double most_steps = 1e10;
-enum { PATH = 4096 };
 
 typedef struct job {
     const command *command;
+    const char *file; /* of the deck */
     deck deck;
     dem_model *model;
     dem_simulation *simulation;
@@ -27,6 +31,10 @@ typedef struct job {
     dem_trajectory *trajectory;
     report log;
     relaxation rest;
+    lock lock;
+    time_t start;
+    double wall_start; /* s */
+    bool told;         /* the result */
     outcome outcome;
 } job;
 
@@ -144,6 +152,56 @@ static void run(job *j)
     if (succeeds(j)) (void)passes(j, dem_trajectory_finish(j->trajectory), j->deck.path);
 }
 
+/* ---- the result ---- */
+
+static result describe(const job *j)
+{
+    return (result){.deck = j->file,
+                    .command = j->command,
+                    .read = j->deck.name != NULL ? &j->deck : NULL,
+                    .output = j->path[0] != '\0' ? j->path : NULL,
+                    .simulation = j->simulation,
+                    .log = j->log.out != NULL ? &j->log : NULL,
+                    .rest = &j->rest,
+                    .outcome = &j->outcome,
+                    .start = j->start,
+                    .seconds = wall_clock() - j->wall_start};
+}
+
+/* Tells what came out, in NAME.json too if the output is ours. */
+static void conclude(job *j)
+{
+    char path[OUTPUT_PATH];
+    const result r = describe(j);
+    const exit_code code = j->outcome.code;
+    char *line = result_line(&r);
+    if (line != NULL && j->lock.file >= 0) {
+        output_beside(path, j->path, ".json");
+        result_write(path, line, &j->outcome);
+    }
+    if (j->outcome.code != code) {
+        free(line);
+        line = result_line(&r);
+    }
+    if (line == NULL)
+        outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+    else
+        (void)fputs(line, stdout);
+    free(line);
+}
+
+/* Whether the same run's result is there; it is then told again. */
+static bool is_done(const job *j, const char *reason)
+{
+    char path[OUTPUT_PATH], hash[OUTPUT_HASH];
+    output_beside(path, j->path, ".json");
+    output_print_hash(hash, j->deck.run_hash);
+    char *line = result_read_done(path, hash);
+    if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, line);
+    free(line);
+    return line != NULL;
+}
+
 /* ---- before the run ---- */
 
 /* Whether the run has an end. */
@@ -155,27 +213,6 @@ static bool ends(job *j)
                  "t_end = %g s takes at least %.3g steps of %.3g s; the limit is %.0e", j->deck.t_end, steps, step,
                  most_steps);
     return false;
-}
-
-/* Nothing has been written so far. */
-static void run_where_free(job *j)
-{
-    char reason[512];
-    if (!output_path(j->path, sizeof j->path, j->command->outdir, j->deck.name)) {
-        outcome_fail(&j->outcome, EXIT_INVALID, j->deck.path, "the path of the output is too long");
-        return;
-    }
-    switch (output_claim(j->path, &j->deck, reason, sizeof reason)) {
-    case OUTPUT_FREE:
-        run(j);
-        break;
-    case OUTPUT_DONE:
-        (void)printf("%s: done already, %s\n", j->path, reason);
-        break;
-    case OUTPUT_TAKEN:
-        outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
-        break;
-    }
 }
 
 /* The model has a copy of the deck's lattice, which is not needed any more. */
@@ -190,36 +227,90 @@ static dem_status build(job *j)
     return dem_simulation_create(&j->simulation, j->model, &options);
 }
 
-static void build_and_run(job *j)
+static bool take_lock(job *j)
 {
-    if (!passes(j, build(j), j->deck.path) || !ends(j)) return;
-    if (j->command->action == COMMAND_CHECK)
-        preview_print(stdout, &j->deck, j->simulation, NULL);
-    else
-        run_where_free(j);
-}
-
-static void tell_errors(outcome *o, const char *path, const namelist_errors *errors)
-{
-    for (size_t k = 0; k < errors->n; k++) {
-        const namelist_error *e = &errors->list[k];
-        char where[PATH + 32];
-        if (e->place.line > 0)
-            (void)snprintf(where, sizeof where, "%s:%d:%d", path, e->place.line, e->place.column);
-        else
-            (void)snprintf(where, sizeof where, "%s", path);
-        outcome_fail(o, EXIT_INVALID, where, "%s", e->text);
+    char path[OUTPUT_PATH], why[512];
+    output_beside(path, j->path, ".lock");
+    switch (lock_take(&j->lock, path, why, sizeof why)) {
+    case LOCK_HELD:
+        return true;
+    case LOCK_TAKEN:
+        outcome_fail(&j->outcome, EXIT_TAKEN, path, "%s", why);
+        break;
+    case LOCK_FAILED:
+        outcome_fail(&j->outcome, EXIT_IO, path, "%s", why);
+        break;
     }
+    return false;
 }
 
-static bool read_deck(job *j, const char *path)
+/* Moves what is in the way, if that is wanted. */
+static bool make_way(job *j, const char *reason)
+{
+    char why[2 * OUTPUT_PATH];
+    if (!j->command->overwrite) {
+        outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
+    } else if (!output_set_aside(j->path, why, sizeof why)) {
+        outcome_fail(&j->outcome, EXIT_IO, j->path, "%s", why);
+    } else {
+        (void)printf("%s: set aside as %s\n", j->path, why);
+        return true;
+    }
+    return false;
+}
+
+/* Nothing has been written so far. What can be told before anything is built is. */
+static void claim_and_run(job *j)
+{
+    char reason[OUTPUT_PATH + 256];
+    output_state found = output_claim(j->path, &j->deck, reason, sizeof reason);
+    if (found == OUTPUT_DONE && is_done(j, reason)) {
+        j->told = true;
+        return;
+    }
+    if (found == OUTPUT_TAKEN && !j->command->overwrite) {
+        outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
+        return;
+    }
+    if (!passes(j, build(j), j->deck.path) || !ends(j) || !take_lock(j)) return;
+    if (output_claim(j->path, &j->deck, reason, sizeof reason) != OUTPUT_TAKEN || make_way(j, reason)) run(j);
+}
+
+static void check(job *j)
+{
+    if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(stdout, &j->deck, j->simulation, NULL);
+}
+
+static void tell_error(job *j, const namelist_error *e)
+{
+    char where[OUTPUT_PATH + 32];
+    const int line = e->place.line;
+    if (line > 0)
+        (void)snprintf(where, sizeof where, "%s:%d:%d", j->file, line, e->place.column);
+    else if (line == 0)
+        (void)snprintf(where, sizeof where, "%s", j->file);
+    else
+        (void)snprintf(where, sizeof where, "--set %s", j->command->settings[-1 - line].text);
+    outcome_fail(&j->outcome, EXIT_INVALID, where, "%s", e->text);
+}
+
+static bool read_deck(job *j)
 {
     namelist_errors errors = {0};
-    const deck_status status = deck_read(&j->deck, path, &errors);
-    if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, path, "out of memory");
-    tell_errors(&j->outcome, path, &errors);
+    const command *c = j->command;
+    const deck_status status = deck_read_with(&j->deck, j->file, c->settings, c->n_settings, &errors);
+    if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+    for (size_t k = 0; k < errors.n; k++) tell_error(j, &errors.list[k]);
     namelist_errors_free(&errors);
     return status == DECK_OK;
+}
+
+static bool find_path(job *j)
+{
+    if (output_path(j->path, sizeof j->path, j->command->outdir, j->deck.name)) return true;
+    j->path[0] = '\0';
+    outcome_fail(&j->outcome, EXIT_INVALID, j->deck.path, "the path of the output is too long");
+    return false;
 }
 
 static void dismiss(job *j)
@@ -229,17 +320,17 @@ static void dismiss(job *j)
     dem_simulation_destroy(j->simulation);
     dem_model_destroy(j->model);
     deck_free(&j->deck);
+    lock_release(&j->lock);
 }
 
 exit_code job_do(const command *c, const char *path)
 {
-    job j = {.command = c};
-    if (read_deck(&j, path)) {
-        if (c->action == COMMAND_ECHO)
-            (void)fputs(j.deck.echo, stdout);
-        else
-            build_and_run(&j);
-    }
+    job j = {.command = c, .file = path, .lock = {.file = -1}, .start = time(NULL), .wall_start = wall_clock()};
+    const bool good = read_deck(&j);
+    if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, stdout);
+    if (good && c->action == COMMAND_CHECK) check(&j);
+    if (good && c->action == COMMAND_RUN && find_path(&j)) claim_and_run(&j);
+    if (c->action == COMMAND_RUN && !j.told) conclude(&j);
     dismiss(&j);
     return j.outcome.code;
 }

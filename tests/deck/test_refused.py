@@ -3,6 +3,7 @@
 """What bad input gets: `test_refused.py DEM_BATCH`. The exact message, the exit code, and nothing written.
 
 A deck is refused with 3, a command line with 2. Needs the standard library only: never skipped."""
+import json
 import os
 import pathlib
 import subprocess
@@ -717,7 +718,9 @@ class Refused(unittest.TestCase):
         done = subprocess.run([DEM_BATCH, *arguments], cwd=self.folder, capture_output=True, timeout=60, check=False)
         self.assertEqual(done.stderr.decode(), stderr)
         self.assertEqual(done.returncode, code)
-        self.assertEqual(done.stdout, b"", "a refusal prints nothing to stdout")
+        told = json.loads(done.stdout) if done.stdout else {"exit_code": code, "status": "failed"}
+        self.assertEqual((told["exit_code"], told["status"]), (code, "failed"))
+        self.assertEqual(done.stdout == b"", code == 2 or "--check" in arguments, "only a run has a result")
         self.assertEqual(self.snapshot(), before, "a refusal writes nothing")
 
     def refuse_usage(self, reason, *arguments):
@@ -796,9 +799,20 @@ class Refused(unittest.TestCase):
         self.refuse_usage("no deck", "--echo")
         self.refuse_usage("no deck", "--outdir", "out")
 
-    def test_two_decks(self):
+    def test_settings_that_are_none(self):
         self.put(BASE)
-        self.refuse_usage("'out' is a second deck, behind 'deck.nml'", "deck.nml", "out")
+        self.refuse_usage("'--set' needs group.key=value or group(k).key=value", "deck.nml", "--set")
+        for text in ("", "run", "run.t_end", "t_end=1", ".t_end=1", "run.=1", "run t_end=1", "run.t_end(1)=1", "run(0).t_end=1",
+                     "run().t_end=1", "run(1.t_end=1", "run(1234567).t_end=1", "9run.t_end=1", "run. t_end=1", "x" * 64 + ".t_end=1"):
+            with self.subTest(text):
+                self.refuse_usage(f"'--set' needs group.key=value or group(k).key=value, got {text}", "deck.nml", "--set", text)
+
+    def test_an_index_that_is_none(self):
+        self.put(BASE)
+        self.refuse_usage("'--index' needs the number of a deck, from 1", "deck.nml", "--index")
+        for text in ("", "0", "-1", "1.5", "one", "1000000000000"):
+            with self.subTest(text):
+                self.refuse_usage(f"'--index' needs the number of a deck, from 1, got {text}", "deck.nml", "--index", text)
 
     def test_two_actions(self):
         self.put(BASE)
