@@ -24,8 +24,8 @@ void output_print_hash(char text[OUTPUT_HASH], uint64_t hash);
 /** Folder and name to the path of NAME.vtkhdf; false if it does not fit. */
 bool output_path(char *path, size_t size, const char *folder, const char *name);
 
-/** The path of NAME with another suffix than ".vtkhdf". */
-void output_beside(char out[OUTPUT_PATH], const char *path, const char *suffix);
+/** The path of a file beside it: with another end than ".vtkhdf". */
+void output_beside(char out[OUTPUT_PATH], const char *path, const char *end);
 
 /** Looks at what lies at `path` and at its part; `reason` says in words what was found. */
 output_state output_claim(const char *path, const deck *d, char *reason, size_t size);
