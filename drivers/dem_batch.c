@@ -191,6 +191,7 @@ static bool ends(const deck *d, const dem_simulation *simulation)
 static int run(const deck *d, dem_simulation *simulation, const char *path)
 {
     (void)signal(SIGPIPE, SIG_IGN);
+    (void)signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is a full disk */
     audience a = {0};
     dem_status status = gather(&a, d, simulation, path);
     if (status != DEM_OK) {

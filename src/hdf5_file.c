@@ -268,13 +268,20 @@ dem_status hdf5_fail(const hdf5_file *file, const char *name, const char *what)
                        shorten(cause));
 }
 
+void hdf5_begin(void)
+{
+    (void)H5dont_atexit();
+}
+
 dem_status hdf5_open_read(hdf5_file *out, const char *path)
 {
+    hdf5_begin();
     return open_file(out, path, H5F_ACC_RDONLY);
 }
 
 dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes)
 {
+    hdf5_begin();
     TRY(reserve(path, 0, bytes));
     return open_file(out, path, H5F_ACC_RDWR);
 }
@@ -282,6 +289,7 @@ dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes)
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes)
 {
     hdf5_file empty;
+    hdf5_begin();
     TRY(reserve(path, O_CREAT | O_TRUNC, bytes));
     TRY(open_file(&empty, path, H5F_ACC_TRUNC));
     TRY(hdf5_close(&empty, DEM_OK));

@@ -406,6 +406,7 @@ dem_status dem_lattice_read(dem_lattice *out, const char *path)
     unsigned plugins = 0;
     CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_read: an argument is NULL");
     CHECK(stat(path, &kind) != 0 || S_ISREG(kind.st_mode), DEM_ERROR_IO, "%s: is not a regular file", path);
+    hdf5_begin();
     (void)H5PLget_loading_state(&plugins);
     (void)H5PLset_loading_state(0);
     const dem_status status = read_lattice(out, path);

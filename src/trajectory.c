@@ -311,6 +311,7 @@ const char *dem_version_hdf5(void)
 {
     static _Thread_local char version[32];
     unsigned major = 0, minor = 0, release = 0;
+    hdf5_begin();
     (void)H5get_libversion(&major, &minor, &release);
     (void)snprintf(version, sizeof version, "%u.%u.%u", major, minor, release);
     return version;
