@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that cannot be opened, read, written, synced, renamed, closed, and full disks: `test_io.py FAULTY DEM_BATCH [long]`.
+"""Files that cannot be opened, read, written, synced, renamed or closed, and full disks: `test_io.py FAULTY DEM_BATCH
+[long]`.
 
-A run that the machine fails ends with exit code 5 and one line that says why, or goes on where nothing is lost; what is
-published can be read, and the same command, once the machine is well, gives the data of a run that nothing happened to.
-`long`: each call of the run in turn, and true small disks and limits besides those of faulty.c."""
+A run that the machine fails ends with exit code 5 and says why, or goes on where nothing is lost; what is published can
+be read, no checkpoint is lost, and the same command, once the machine is well, gives the data of a run that nothing
+happened to. Runs that begin and runs that go on are tried.
+`long`: each call in turn, and true small disks besides those of faulty.c."""
 import pathlib
 import resource
 import subprocess
@@ -12,32 +14,30 @@ import sys
 import tempfile
 
 import machine
-from decks import STICKS
+import outputs
+from decks import OPTIONS, STICKS
 
 SEED = 20261121
-SHARE = 0.005  # of the calls, by default
-DISKS, DISKS_LONG = 10, 40
-REPEATED = ("read", "write", "resize", "open", "close")  # many of them; the others are few and all tried
+SHARE = 0.002  # of the calls, by default
+DISKS, DISKS_LONG = 8, 48
+CODES = (machine.DONE, machine.IO)
+KINDS = ("open", "read", "write", "sync", "rename", "close", "link", "resize", "lock")
+LASTING = ("write", "sync", "rename", "any")  # a disk that has gone
 
 
-def fail_each(report, problem, share):
-    """Each call fails once; then those that write fail from then on, as a disk that has gone."""
-    counts = problem.counts()
-    for kind in ("open", "read", "write", "sync", "rename", "close", "link", "resize", "lock"):
-        numbers = machine.chosen(counts[kind], share if kind in REPEATED else 1, SEED)
-        report.series(f"{kind} fails once", (trial(problem, fail=kind, nth=n) for n in numbers))
-    for kind in ("write", "sync", "rename", "any"):
-        numbers = machine.chosen(counts[kind], share / 4 if kind in ("write", "any") else 1, SEED + 1)
-        report.series(f"{kind} fails from then on", (trial(problem, fail=kind, nth=n, how="always") for n in numbers))
-    numbers = machine.chosen(counts["write"], share / 4, SEED + 2)
-    short = report.series("write is short", (trial(problem, fail="write", nth=n, how="short") for n in numbers))
-    report.expect(set(short) <= {"exit 0"}, "a short write is none that fails")
+def fail_each(report, problem, share, start, named):
+    counts = problem.counts(start)
 
+    def series(kind, how, part, seed):
+        numbers = machine.chosen(counts[kind], part, seed, 2)
+        return report.series(f"{named}, {kind} fails {how}",
+                             (problem.trial(CODES, start, fail=kind, nth=n, how=how) for n in numbers))
 
-def trial(problem, **faults):
-    with problem.folder() as folder:
-        result = problem.run(folder, **faults)
-        return faults, (f"exit {result.code}", problem.faults_after(folder, result, (machine.DONE, machine.IO)))
+    for kind in KINDS:
+        series(kind, "once", share, SEED)
+    for kind in LASTING:
+        series(kind, "always", share / 4, SEED + 1)
+    report.expect(set(series("write", "short", share / 4, SEED + 2)) <= {"exit 0"}, "a short write is no failure")
 
 
 def size_needed(problem):
@@ -58,12 +58,11 @@ def sizes(enough, n):
     return [round(enough * k / (n - 2)) for k in range(n)]
 
 
-def fill(report, problem, n):
+def fill(report, problem, enough, n):
     """Disks of many sizes, by faulty.c: what is beyond the size is not written, and ENOSPC is what there is to say."""
-    enough = size_needed(problem)
-    endings = report.series(f"disk full, 0 to {enough} bytes", (trial(problem, budget=size) for size in sizes(enough, n)))
+    endings = report.series(f"disk full, 0 to {enough} bytes",
+                            (problem.trial(CODES, budget=size) for size in sizes(enough, n)))
     report.expect(len(endings) > 1, "disks of all these sizes were too small, or large enough")
-    return enough
 
 
 def fill_true_disk(report, problem, enough, n):
@@ -74,10 +73,9 @@ def fill_true_disk(report, problem, enough, n):
             if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
                 return size, ("not mounted", [])
             try:
-                problem.prepare(folder)
+                pathlib.Path(folder, "deck.nml").write_text(problem.deck, encoding="utf-8")
                 result = problem.run(folder)
-                faults = machine.faults_of_ending(result, (machine.DONE, machine.INVALID, machine.IO))
-                faults += problem.faults_of_files(folder)
+                faults = machine.faults_of_ending(result, CODES) + outputs.faults_of_files(folder)
                 subprocess.run(["mount", "-o", f"remount,size={4 * enough}", folder], check=True)
                 faults += problem.faults_of_next_run(folder)
             finally:
@@ -96,7 +94,7 @@ def limit_files(report, problem, n):
             def limit():
                 resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
             result = problem.run(folder, prepare=limit)
-            return size, (f"exit {result.code}", problem.faults_after(folder, result, (machine.DONE, machine.IO)))
+            return size, (f"exit {result.code}", problem.faults_after(folder, result, CODES))
 
     endings = report.series("file size limited", (limited(size) for size in sizes(4 * largest, n)))
     report.expect(len(endings) > 1, "all these limits were too small, or large enough")
@@ -104,10 +102,12 @@ def limit_files(report, problem, n):
 
 def main(faulty, program, long):
     report = machine.Report()
-    problem = machine.Problem(machine.Machine(faulty, program), STICKS)
-    fail_each(report, problem, 1 if long else SHARE)
-    disks = DISKS_LONG if long else DISKS
-    enough = fill(report, problem, disks)
+    problem = machine.Problem(machine.Machine(faulty, program), STICKS, *OPTIONS)
+    share, disks = (1, DISKS_LONG) if long else (SHARE, DISKS)
+    fail_each(report, problem, share, None, "run")
+    fail_each(report, problem, share / 2 if not long else 1, problem.begun.name, "resumed run")
+    enough = size_needed(problem)
+    fill(report, problem, enough, disks)
     if long:
         fill_true_disk(report, problem, enough, disks)
     limit_files(report, problem, disks)

@@ -14,10 +14,11 @@ import sys
 import tempfile
 
 import machine
-from decks import STICKS
+import outputs
+from decks import OPTIONS, STICKS
 
 SEED = 20261121
-CUTS = 12  # by default
+CUTS = 8  # of each, by default
 MIXTURES_LONG = 4
 KEPT = 0.7  # of the writes that nothing has synced
 
@@ -97,12 +98,10 @@ class Disk:
             pathlib.Path(folder, name).write_bytes(file.after_cut(chance))
 
 
-def cut_power(report, problem, start, long):
-    """Cuts while a run goes on from the folder `start`."""
+def cut_power(report, problem, long, start, named):
+    """Cuts while a run begins, or goes on from the folder `start`."""
     chance = random.Random(SEED)
-    with tempfile.TemporaryDirectory() as scratch, problem.folder() as folder:
-        for path in pathlib.Path(start).iterdir():
-            pathlib.Path(folder, path.name).write_bytes(path.read_bytes())
+    with tempfile.TemporaryDirectory() as scratch, problem.folder(start) as folder:
         log = pathlib.Path(scratch, "log")
         disk = Disk(folder)
         result = problem.run(folder, log=log)
@@ -121,17 +120,17 @@ def cut_power(report, problem, start, long):
             for mixture in range(wanted[k]):
                 with tempfile.TemporaryDirectory() as folder:
                     disk.write_after_cut(folder, chance)
-                    faults = problem.faults_of_files(folder) + problem.faults_of_next_run(folder)
+                    faults = outputs.faults_of_files(folder) + problem.faults_of_next_run(folder)
                 yield f"after call {k}, {words[:2]}, mixture {mixture}", ("cut", faults)
 
-    report.series(f"power cut, {len(calls)} calls", cuts())
+    report.series(f"{named} of {len(calls)} calls", cuts())
 
 
 def main(faulty, program, long):
     report = machine.Report()
-    problem = machine.Problem(machine.Machine(faulty, program), STICKS)
-    with problem.folder() as start:
-        cut_power(report, problem, start, long)
+    problem = machine.Problem(machine.Machine(faulty, program), STICKS, *OPTIONS)
+    cut_power(report, problem, long, None, "run")
+    cut_power(report, problem, long, problem.begun.name, "resumed run")
     return report.exit_code()
 
 
