@@ -142,6 +142,7 @@ static bool succeeds(job *j)
 static void run(job *j)
 {
     (void)signal(SIGPIPE, SIG_IGN);
+    (void)signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is a full disk */
     if (!passes(j, create_files(j), j->path)) return;
     preview_print(stdout, &j->deck, j->simulation, j->path);
     report_start(&j->log, stdout, isatty(STDOUT_FILENO) == 1, &j->deck);

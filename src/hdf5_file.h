@@ -39,8 +39,7 @@ typedef struct hdf5_span {
 dem_status hdf5_open_read(hdf5_file *out, const char *path);
 
 /** Opens to add up to about `bytes`, which it makes sure there is room for: a full disk found out by HDF5 1.10 itself
- *  leaves a file that cannot be opened any more, and crashes the process at its exit. Takes no lock, so that looking at
- *  the file does not stop a run. */
+ *  leaves a file that cannot be opened any more. Takes no lock, so that looking at the file does not stop a run. */
 dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 
 /** The same with an empty file, replacing an older one. */
