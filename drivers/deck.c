@@ -173,7 +173,7 @@ static void check_obstacle(const schema_instance *obstacle, size_t number, namel
     if (!pairs)
         namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
                             points->count);
-    if (!pairs || points->faulty) return;
+    if (!pairs || points->faulty || points->count == 0) return;
     const bool good = check_segments(points->reals, (size_t)points->count / 2, number, points->place, errors);
     if (!good || !has_profile(obstacle) || !check_increase(obstacle, number, errors)) return;
     if (schema_value_of(obstacle, "resolution")->faulty) return;

@@ -583,6 +583,16 @@ static void keys_of_another_profile_are_refused(void **state)
                   "'rough'?)\n");
 }
 
+/* Their extent was once asked for all the same. */
+static void a_profile_without_points_lacks_them(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER LIFTED "&obstacle profile = 'smooth', resolution = 1 /\n"
+                                    "&obstacle points = 0, profile = 'smooth', resolution = 1 /\n",
+                  "4:1: 'points' in &obstacle must be given\n"
+                  "5:11: 'points' in &obstacle expects at least 4 values, got 1\n");
+}
+
 #define SMOOTH "profile = 'smooth'"
 #define ROUGH  "profile = 'rough', roughness = 1e-3, correlation = 0.1"
 
@@ -927,6 +937,7 @@ int main(void)
         cmocka_unit_test(a_smooth_profile_is_compiled_to_segments),
         cmocka_unit_test(a_rough_profile_is_compiled_to_segments),
         cmocka_unit_test(keys_of_another_profile_are_refused),
+        cmocka_unit_test(a_profile_without_points_lacks_them),
         cmocka_unit_test(profiles_that_cannot_be_compiled_are_named),
         cmocka_unit_test(a_profile_of_endless_segments_is_refused),
         cmocka_unit_test(faults_of_syntax_keys_and_meaning_come_together_sorted),
