@@ -488,6 +488,7 @@ static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *erro
     char *folder = folder_of(d->path);
     body_drop_unused(groups);
     loading_drop_unused(groups);
+    probes_drop_unused(groups);
     uses_drop(groups, &profile_uses);
     bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
     if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);
