@@ -173,7 +173,7 @@ static void check_obstacle(const schema_instance *obstacle, size_t number, namel
     if (!pairs)
         namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
                             points->count);
-    if (!pairs || points->faulty) return;
+    if (!pairs || points->faulty || points->count == 0) return;
     const bool good = check_segments(points->reals, (size_t)points->count / 2, number, points->place, errors);
     if (!good || !has_profile(obstacle) || !check_increase(obstacle, number, errors)) return;
     if (schema_value_of(obstacle, "resolution")->faulty) return;
@@ -489,6 +489,7 @@ static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *erro
     char *folder = folder_of(d->path);
     body_drop_unused(groups);
     loading_drop_unused(groups);
+    probes_drop_unused(groups);
     uses_drop(groups, &profile_uses);
     bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
     if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);

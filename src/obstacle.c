@@ -25,9 +25,9 @@ static dem_status check_obstacle(const dem_obstacle *obstacle, dem_index o)
         CHECK(isfinite(obstacle->points[k]), DEM_ERROR_MODEL, "obstacle %lld: point %lld is not finite", (long long)o,
               (long long)(k / 2));
     for (dem_index k = 0; k + 1 < obstacle->n_points; k++) {
-        const double length = vec2_norm(vec2_sub(vec2_at(obstacle->points, k + 1), vec2_at(obstacle->points, k)));
-        CHECK(length > 0.0 && isfinite(length), DEM_ERROR_MODEL, "obstacle %lld: segment %lld has length %g m",
-              (long long)o, (long long)k, length);
+        const vec2 way = vec2_sub(vec2_at(obstacle->points, k + 1), vec2_at(obstacle->points, k));
+        CHECK(isnormal(vec2_dot(way, way)), DEM_ERROR_MODEL, "obstacle %lld: segment %lld has length %g m",
+              (long long)o, (long long)k, hypot(way.x, way.y));
     }
     return DEM_OK;
 }

@@ -79,13 +79,16 @@ static void a_point_that_is_not_finite_is_named(void **state)
 
 static void a_segment_without_length_is_named(void **state)
 {
-    const double twice[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0}, far[4] = {-1e308, 0.0, 1e308, 0.0};
+    const double twice[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0}, far[4] = {-1e308, 0.0, 1e308, 0.0},
+                 near[4] = {0.0, 0.0, 0.0, 1e-160}; /* its square has lost its digits */
     const dem_obstacle list[2] = {{.n_points = 4, .points = valley, .restitution = 0.0},
                                   {.n_points = 3, .points = twice, .restitution = 0.0}},
-                       wide = {.n_points = 2, .points = far, .restitution = 0.0};
+                       wide = {.n_points = 2, .points = far, .restitution = 0.0},
+                       narrow = {.n_points = 2, .points = near, .restitution = 0.0};
     (void)state;
     refuse(list, 2, "obstacle 1: segment 1 has length 0 m");
     refuse(&wide, 1, "obstacle 0: segment 0 has length inf m");
+    refuse(&narrow, 1, "obstacle 0: segment 0 has length 1e-160 m");
 }
 
 static void segments_are_numbered_obstacle_by_obstacle(void **state)
