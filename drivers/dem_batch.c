@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The batch driver. Exit codes: README.md. */
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <dem/trajectory.h>
@@ -62,6 +63,8 @@ int main(int argc, char **argv)
 {
     command c;
     fill_streams();
+    (void)signal(SIGPIPE, SIG_IGN); /* without a reader of its log a run goes on all the same */
+    (void)signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is a full disk */
     dem_hdf5_skip_exit();
     exit_code code = command_parse(&c, argc, argv);
     if (code == EXIT_DONE) code = act(&c);

@@ -2,7 +2,6 @@
 /* Read the deck, build, claim the output, run, report. */
 #include "job.h"
 
-#include <signal.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
@@ -138,11 +137,8 @@ static bool succeeds(job *j)
     return j->outcome.code == EXIT_DONE;
 }
 
-/* Without a reader of its log it goes on all the same: main() tells in the end. */
 static void run(job *j)
 {
-    (void)signal(SIGPIPE, SIG_IGN);
-    (void)signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is a full disk */
     if (!passes(j, create_files(j), j->path)) return;
     preview_print(stdout, &j->deck, j->simulation, j->path);
     report_start(&j->log, stdout, isatty(STDOUT_FILENO) == 1, &j->deck);
@@ -198,6 +194,8 @@ static bool is_done(const job *j, const char *reason)
     output_beside(path, j->path, ".json");
     output_print_hash(hash, j->deck.run_hash);
     char *line = result_read_done(path, hash);
+    output_beside(path, j->path, ".lock");
+    if (line != NULL) lock_clear(path);
     if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, line);
     free(line);
     return line != NULL;

@@ -121,7 +121,7 @@ DEM_API dem_status dem_trajectory_read_note(const char *path, const char *name, 
 DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);
 
 /** For a program that uses HDF5 through this library only, as its first call of it: HDF5 then does not clean up at the
- *  exit of the process, where version 1.10 crashes after a file could not be written or closed. By then all is closed. */
+ *  exit of the process, where version 1.10 crashes if a file could not be written or closed. By then all are closed. */
 DEM_API void dem_hdf5_skip_exit(void);
 
 /** Version of the HDF5 library in use, "MAJOR.MINOR.PATCH". */
