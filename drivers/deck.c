@@ -483,59 +483,72 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
 
 /* ---- all of it ---- */
 
-static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *errors)
+static bool interpret(deck *d)
 {
-    char *folder = folder_of(d->path);
-    body_drop_unused(groups);
-    loading_drop_unused(groups);
-    uses_drop(groups, &profile_uses);
-    bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
-    if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);
-    if (good && errors->n == 0) good = set_texts(d, groups, folder, errors);
-    free(folder);
-    if (!good) return DECK_MEMORY;
-    return errors->n > 0 ? DECK_INVALID : DECK_OK;
+    body_drop_unused(&d->groups);
+    loading_drop_unused(&d->groups);
+    uses_drop(&d->groups, &profile_uses);
+    return set_scalars(d, &d->groups);
 }
 
 static deck_status resolve(deck *d, size_t size, namelist_errors *errors)
 {
     namelist list;
-    schema_deck groups = {0};
-    deck_status status = DECK_MEMORY;
-    const bool parsed = namelist_parse(&list, d->source, size, errors);
-    if (parsed && list.unreadable) {
-        status = DECK_INVALID;
-    } else if (parsed && schema_resolve(&groups, &list, errors)) {
-        check(&groups, errors);
-        status = errors->n > 0 ? DECK_INVALID : interpret(d, &groups, errors);
+    bool good = namelist_parse(&list, d->source, size, errors);
+    if (good && !list.unreadable) {
+        good = schema_resolve(&d->groups, &list, errors);
+        if (good) check(&d->groups, errors);
+        if (good && errors->n == 0) good = interpret(d);
     }
-    schema_free(&groups);
     namelist_free(&list);
+    return good ? DECK_OK : DECK_MEMORY;
+}
+
+/* Sorts what was found. The deck stays where nothing was. */
+static deck_status conclude(deck *d, deck_status status, namelist_errors *errors)
+{
     namelist_errors_sort(errors);
-    return errors->out_of_memory ? DECK_MEMORY : status;
+    if (status == DECK_OK && errors->n > 0) status = DECK_INVALID;
+    if (errors->out_of_memory) status = DECK_MEMORY;
+    if (status != DECK_OK) deck_free(d);
+    return status;
+}
+
+deck_status deck_parse(deck *out, const char *path, namelist_errors *errors)
+{
+    size_t size = 0;
+    *out = (deck){.path = strdup(path), .folder = folder_of(path)};
+    dem_lattice_init(&out->lattice);
+    deck_status status = out->path == NULL || out->folder == NULL ? DECK_MEMORY : read_text(out, &size, errors);
+    if (status == DECK_OK) status = resolve(out, size, errors);
+    return conclude(out, status, errors);
+}
+
+deck_status deck_build(deck *d, namelist_errors *errors)
+{
+    bool good = set_obstacles(d, &d->groups, errors);
+    if (good && errors->n == 0) good = set_bodies(d, &d->groups, d->folder, errors);
+    if (good && errors->n == 0) good = set_texts(d, &d->groups, d->folder, errors);
+    return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }
 
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors)
 {
-    deck d = {.path = strdup(path)};
-    size_t size = 0;
-    dem_lattice_init(&d.lattice);
-    deck_status status = d.path == NULL ? DECK_MEMORY : read_text(&d, &size, errors);
-    if (status == DECK_OK) status = resolve(&d, size, errors);
-    if (status != DECK_OK) deck_free(&d);
-    *out = d;
-    return status;
+    const deck_status status = deck_parse(out, path, errors);
+    return status == DECK_OK ? deck_build(out, errors) : status;
 }
 
 void deck_free(deck *d)
 {
     for (dem_index k = 0; k < d->n_obstacles; k++) free((void *)d->obstacles[k].points);
     free(d->obstacles);
+    schema_free(&d->groups);
     probes_free(d->probes, (size_t)d->n_probes);
     dem_lattice_free(&d->lattice);
     free(d->bodies);
     loading_free(d->boundaries, d->n_boundaries);
     free(d->path);
+    free(d->folder);
     free(d->source);
     free(d->echo);
     free(d->physics);

@@ -28,8 +28,8 @@ LAYERS = [
     {"strike", "watch", "ball"},
     {"patch"},
     {"contact", "trajectory", "deck"},
-    {"queue"},
-    {"simulation", "output", "preview", "report"},
+    {"queue", "estimate"},
+    {"simulation", "output", "preview", "report", "limits"},
     {"dem_batch"},
 ]
 # Within a layer: who may include whom all the same.
