@@ -13,6 +13,7 @@
 #include "body.h"
 #include "file.h"
 #include "loading.h"
+#include "precision.h"
 #include "probes.h"
 #include "profile.h"
 #include "schema.h"
@@ -80,6 +81,21 @@ static bool check_segments(const double *points, size_t n_points, size_t number,
                         number, a[0], a[1], a[2], a[3],
                         length > 1.0 ? "is too long" : (length > 0.0 ? "is too short" : "has no length"), more);
     return false;
+}
+
+/* Reports two segments of an obstacle that have more than a point in common that joins them. False when memory runs
+ * out. */
+static bool check_crossings(const dem_obstacle *obstacle, size_t number, namelist_place place, namelist_errors *errors)
+{
+    dem_index pair[2];
+    if (dem_obstacle_check(obstacle, pair) == DEM_ERROR_MEMORY) return false;
+    if (pair[0] < 0) return true;
+    const bool follows = pair[1] == (pair[0] + 1) % (obstacle->n_points - 1);
+    namelist_errors_add(errors, place,
+                        follows ? "'points' in &obstacle: segment %lld of obstacle %zu goes back over segment %lld"
+                                : "'points' in &obstacle: segment %lld of obstacle %zu meets segment %lld",
+                        (long long)pair[follows] + 1, number, (long long)pair[!follows] + 1);
+    return true;
 }
 
 static bool has_profile(const schema_instance *obstacle)
@@ -336,13 +352,14 @@ static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *e
         size_t n_points;
         double *points = make_points(&n_points, group);
         if (points == NULL) return false;
-        (void)check_segments(points, n_points, k + 1, schema_value_of(group, "points")->place, errors);
-        d->obstacles[d->n_obstacles++] =
-            (dem_obstacle){.n_points = (dem_index)n_points,
-                           .points = points,
-                           .restitution = schema_real(group, "restitution"),
-                           .friction = schema_real(group, "friction"),
-                           .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        const bool good = check_segments(points, n_points, k + 1, schema_place(group, "points"), errors);
+        dem_obstacle *made = &d->obstacles[d->n_obstacles++];
+        *made = (dem_obstacle){.n_points = (dem_index)n_points,
+                               .points = points,
+                               .restitution = schema_real(group, "restitution"),
+                               .friction = schema_real(group, "friction"),
+                               .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        if (good && !check_crossings(made, k + 1, schema_place(group, "points"), errors)) return false;
     }
     return d->obstacles != NULL;
 }
@@ -471,6 +488,7 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                                 .offset = {starts[k].offset[0], starts[k].offset[1]}};
     }
     good = good && check_starts(d, starts, &scene, errors);
+    if (good && errors->n == 0) precision_check(groups, &d->lattice, errors);
     if (good && errors->n == 0)
         good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
     if (good && errors->n == 0) good = set_probes(d, groups, places, errors);

@@ -150,7 +150,9 @@ static double frequency_bound(const dem_model *m)
         const sym2 areas = triangles_block(&m->triangles, i, x);
         const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
-        squared = fmax(squared, sym2_largest(sum) * m->inverse_mass[i]);
+        const double bound = sym2_largest(sum) * m->inverse_mass[i];
+        if (!isfinite(bound)) return (double)INFINITY;
+        squared = fmax(squared, bound);
     }
     return sqrt(squared);
 }
@@ -177,6 +179,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(obstacles_compile(&m->obstacles, list, n));
     TRY(compile_nodes(m));
     compile_scales(m);
+    CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return check_bodies(m);
 }
 

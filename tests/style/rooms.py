@@ -21,7 +21,7 @@ LAYERS = [
     {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
      "schema_table", "schema_print", "uses", "material", "mask"},
     {"touch", "options", "diagnostics", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
-     "sweep_avx512", "peaks_file", "shape", "loading", "probes"},
+     "sweep_avx512", "peaks_file", "shape", "loading", "probes", "precision"},
     {"reaction", "books", "engine", "spectrum", "constants", "area"},
     {"site", "form"},
     {"sites", "search", "body"},
