@@ -53,8 +53,8 @@ typedef struct deck {
  * returned. */
 deck_status deck_parse(deck *out, const char *path, namelist_errors *errors);
 
-/* Builds what a deck that was parsed describes; what is wrong with the geometry is reported for all bodies. To be called
- * once. *d is empty unless DECK_OK is returned. */
+/* Builds what a deck that was parsed describes; what is wrong with the geometry is reported for all bodies. To be
+ * called once. *d is empty unless DECK_OK is returned. */
 deck_status deck_build(deck *d, namelist_errors *errors);
 
 /* Both in turn. */

@@ -89,8 +89,8 @@ static double area_taken(const schema_deck *groups, size_t k, double area)
 /* omega_max^2 of a body of one material is at least this, 1/s^2, 0 where nothing tells:
  *   omega^2 >= |B_i|/m_i >= tr B_i/(2 m_i) = sum over springs of k_ij/m_i
  * at every node, and each of its triangles or cells gives to both sums. With (8/3) G = (4/3) E/(1 + nu) a triangle has
- * two springs of (8/3) G h sqrt(3)/4 on a third of its mass, a cell two of G h and one of 2 G h diagonal on a quarter of
- * its own; with equal springs of E_ij it has at least one whole one, a cell one of each length. */
+ * two springs of (8/3) G h sqrt(3)/4 on a third of its mass, a cell two of G h and one of 2 G h diagonal on a
+ * quarter of its own; with equal springs of E_ij it has at least one whole one, a cell one of each length. */
 static double least_stiffness(const schema_instance *body, const dem_material *m)
 {
     const double a = schema_real(body, "spacing"), mass = m->density * m->thickness * a * a;

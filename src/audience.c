@@ -6,11 +6,21 @@
 
 #include "status.h"
 
-dem_status audience_add(audience *a, const dem_observer *observer)
+/* The first frame later than `told`. */
+static dem_index frame_after(double interval, double told)
+{
+    if (!(interval > 0.0) || told < 0.0) return 0;
+    dem_index k = (dem_index)fmin(told / interval, 1e15);
+    while (k > 0 && (double)(k - 1) * interval > told) k--;
+    while ((double)k * interval <= told) k++;
+    return k;
+}
+
+dem_status audience_add(audience *a, const dem_observer *observer, double told)
 {
     CHECK(isfinite(observer->interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", observer->interval);
     CHECK(a->n < AUDIENCE_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)AUDIENCE_MOST);
-    a->members[a->n++] = (audience_member){.observer = *observer};
+    a->members[a->n++] = (audience_member){*observer, frame_after(observer->interval, told)};
     return DEM_OK;
 }
 
@@ -37,6 +47,16 @@ dem_status audience_step(const audience *a, const dem_simulation *simulation)
     for (int k = 0; k < a->n; k++) {
         const dem_observer *o = &a->members[k].observer;
         if (o->step != NULL) status = status_first(status, o->step(o->context, simulation));
+    }
+    return status;
+}
+
+dem_status audience_record(const audience *a, const dem_simulation *simulation, dem_record *record)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->record != NULL) status = status_first(status, o->record(o->context, simulation, record));
     }
     return status;
 }

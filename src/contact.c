@@ -408,6 +408,22 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
     return now.told != DEM_OK ? now.told : status;
 }
 
+dem_status contact_renew(contact *c, const double *y)
+{
+    contact_sites *s = &c->sites;
+    const double *v = velocities(c, y);
+    TRY(sites_regroup(s));
+    c->solved = NAN;
+    c->quiet = c->all = false;
+    c->way = c->watch.travelled = 0.0;
+    s->books.counts.behind = 0;
+    for (dem_index k = 0; k < s->scene.model->n_sites; k++) s->books.counts.behind += s->list[k].behind[0] >= 0;
+    solve_all(s, y, v);
+    store_all(s);
+    watch_look(&c->watch, s, y, v);
+    return DEM_OK;
+}
+
 /* No node that may touch goes further in the step, which begins where the last look was. */
 static double furthest(const contact *c, const path *p)
 {

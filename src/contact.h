@@ -28,6 +28,10 @@ dem_status contact_admissible(const contact *c, const double *x);
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener);
 
+/** Takes up the contacts that sites are said to have in the state y: what follows from them is worked out anew.
+ *  \return DEM_ERROR_MEMORY */
+dem_status contact_renew(contact *c, const double *y);
+
 /** Values of all guards at a state at t, [n_sites][SITE_GUARDS]: see site_guards(). */
 void contact_guards(contact *c, double t, const double *y, double *g);
 

@@ -67,6 +67,18 @@ dem_status engine_restart(engine *e, double t, const double *y)
     return DEM_OK;
 }
 
+double engine_next_step(const engine *e)
+{
+    return e->verlet != NULL ? 0.0 : integrator_next_step(e->integrator);
+}
+
+dem_status engine_renew(engine *e, const engine_start *from)
+{
+    if (e->verlet == NULL) return integrator_renew(e->integrator, from);
+    verlet_renew(e->verlet, from);
+    return DEM_OK;
+}
+
 dem_counts engine_counts(const engine *e)
 {
     return e->verlet != NULL ? verlet_counts(e->verlet) : integrator_counts(e->integrator);

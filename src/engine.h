@@ -40,6 +40,12 @@ dem_status engine_bound(engine *e, double longest);
 /** Goes on from the end of the step just settled, which has been changed and its derivative with it. */
 dem_status engine_resume(engine *e);
 
+/** How long the next step is to be, s; 0 where steps are fixed. */
+double engine_next_step(const engine *e);
+
+/** Begins anew, so that nothing before it shows: as an engine does that is created there, but with counts. */
+dem_status engine_renew(engine *e, const engine_start *from);
+
 /** Goes on from another state, or from its own as it has been changed. */
 dem_status engine_restart(engine *e, double t, const double *y);
 

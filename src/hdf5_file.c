@@ -3,6 +3,7 @@
  * data makes equal files. */
 #include "hdf5_file.h"
 
+#include "publish.h"
 #include "status.h"
 
 #include <errno.h>
@@ -244,29 +245,6 @@ static dem_status read_back(const char *path)
     return hdf5_close(&file, u.status);
 }
 
-static dem_status sync_path(const char *path)
-{
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-    CHECK(descriptor >= 0, DEM_ERROR_IO, "%s: cannot be opened to sync it (%s)", path, strerror(errno));
-    const int result = fsync(descriptor), cause = errno;
-    (void)close(descriptor);
-    CHECK(result == 0 || cause == EINVAL, DEM_ERROR_IO, "%s: cannot be synced (%s)", path, strerror(cause));
-    return DEM_OK;
-}
-
-static dem_status sync_folder(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    if (slash == NULL) return sync_path(".");
-    if (slash == path) return sync_path("/");
-    char *folder = strdup(path);
-    CHECK_MEMORY(folder);
-    folder[slash - path] = '\0';
-    const dem_status status = sync_path(folder);
-    free(folder);
-    return status;
-}
-
 hid_t hdf5_memory_type(hdf5_kind kind)
 {
     switch (kind) {
@@ -449,8 +427,7 @@ dem_status hdf5_expect_attribute(const hdf5_file *file, const char *object, cons
 
 dem_status hdf5_publish(const char *part, const char *path)
 {
-    TRY(sync_path(part));
+    TRY(publish_sync(part));
     TRY(read_back(part));
-    CHECK(rename(part, path) == 0, DEM_ERROR_IO, "%s: cannot be renamed to %s (%s)", part, path, strerror(errno));
-    return sync_folder(path);
+    return publish_rename(part, path);
 }

@@ -37,6 +37,7 @@ struct integrator {
     double t1;               /* end of the step that y1, f0, f1 hold */
     bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
     bool at_end;             /* the path was handed out: y1 is the start of the next step */
+    double asked;            /* s, what ARKODE is told to begin with after a restart; 0: nothing */
     bool knows_f0;           /* f0 is that of y0, */
     bool gives_f0;           /* and what ARKODE is given when it asks for it */
     dem_counts counts;
@@ -177,6 +178,13 @@ static int set_table(integrator *I)
     return failed;
 }
 
+/* The first step after the restart that follows. */
+static int ask_step(integrator *I, double h)
+{
+    I->asked = h;
+    return ARKodeSetInitStep(I->arkode, h);
+}
+
 static int set_adaptivity(integrator *I)
 {
     void *a = I->arkode;
@@ -192,7 +200,7 @@ static int set_adaptivity(integrator *I)
     failed |= ARKodeSetMaxEFailGrowth(a, 0.3);
     failed |= ARKodeSetSmallNumEFails(a, 2);
     failed |= ARKodeSetMaxErrTestFails(a, 30);
-    failed |= ARKodeSetInitStep(a, 0.1 * I->problem.max_step);
+    failed |= ask_step(I, 0.1 * I->problem.max_step);
     failed |= ARKodeSetMinStep(a, 1e-9 * I->problem.max_step);
     failed |= ARKodeSetMaxStep(a, I->problem.max_step);
     return failed;
@@ -278,7 +286,7 @@ static dem_status retry(integrator *I, double *h)
     if (*h == 0.0 && ARKodeGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
     *h *= 0.1;
     I->counts.retries++;
-    CHECK(ARKodeSetInitStep(I->arkode, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    CHECK(ask_step(I, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return integrator_restart(I, I->t, vector_values(I->y0));
 }
 
@@ -324,8 +332,7 @@ dem_status integrator_redo(integrator *I, double factor)
 {
     I->counts.steps--;
     I->counts.rejected++;
-    CHECK(ARKodeSetInitStep(I->arkode, factor * (I->t1 - I->t)) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s",
-          I->message);
+    CHECK(ask_step(I, factor * (I->t1 - I->t)) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return reset(I);
 }
 
@@ -364,6 +371,7 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
     if (flag != ARK_SUCCESS && flag != ARK_ROOT_RETURN) return fail_step(I, flag);
     CHECK(fetch_step(I) == 0, DEM_ERROR_INTEGRATOR, "ARKODE does not give the step: %s", I->message);
     I->counts.steps++;
+    I->asked = 0.0;
     I->at_end = true;
     *rooted = flag == ARK_ROOT_RETURN;
     *step = held_path(I);
@@ -377,11 +385,33 @@ dem_status integrator_restart(integrator *I, double t, const double *y)
     return reset(I);
 }
 
+double integrator_next_step(const integrator *I)
+{
+    double next = 0.0;
+    if (I->problem.fixed_step > 0.0) return 0.0;
+    if (I->asked > 0.0) return I->asked;
+    return ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS ? next : 0.0;
+}
+
+dem_status integrator_renew(integrator *I, const engine_start *from)
+{
+    start_from(I, from->t, from->y);
+    I->guards_t = NAN;
+    I->counts = (dem_counts){.steps = from->counts.steps,
+                             .rejected = from->counts.rejected,
+                             .evaluations = from->counts.evaluations,
+                             .retries = from->counts.retries};
+    int failed = ERKStepReInit(I->arkode, call_derivative, I->t, I->y);
+    if (!(I->problem.fixed_step > 0.0)) failed |= ask_step(I, fmin(from->next_step, I->problem.max_step));
+    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE does not begin anew at t = %.9g s: %s", I->t, I->message);
+    return DEM_OK;
+}
+
 dem_status integrator_bound(integrator *I, double longest)
 {
     double next;
     if (isfinite(longest) && ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS && next > longest)
-        CHECK(ARKodeSetInitStep(I->arkode, longest) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+        CHECK(ask_step(I, longest) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return DEM_OK;
 }
 

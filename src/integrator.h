@@ -33,6 +33,12 @@ double *integrator_state(const integrator *i);
 /** Goes on from another state, or from its own as it has been changed, with step size and history kept. */
 dem_status integrator_restart(integrator *i, double t, const double *y);
 
+/** How long the next step is to be, s; 0 where steps are fixed. */
+double integrator_next_step(const integrator *i);
+
+/** Begins anew, without step size and history of before. */
+dem_status integrator_renew(integrator *i, const engine_start *from);
+
 /** Bounds the first step after the restart or resumption that follows, s. */
 dem_status integrator_bound(integrator *i, double longest);
 

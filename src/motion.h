@@ -37,6 +37,13 @@ typedef struct motion {
     int n_threads;
 } motion;
 
+/** Where an engine begins anew. */
+typedef struct engine_start {
+    double t, next_step; /* s */
+    const double *y;     /* [4 n] */
+    dem_counts counts;   /* of which steps, rejections, evaluations and retries are read */
+} engine_start;
+
 /** Length of a fixed step from y, s: halved as often as it takes that it is no longer in units of the highest frequency
  *  than about the rest shape. */
 static inline double motion_fixed_step(const motion *p, const double *y)

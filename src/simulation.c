@@ -7,14 +7,12 @@
 #include <string.h>
 
 #include "aligned.h"
-#include "audience.h"
 #include "diagnostics.h"
-#include "engine.h"
-#include "kernel.h"
 #include "options.h"
-#include "overlap.h"
-#include "queue.h"
+#include "recall.h"
+#include "record.h"
 #include "status.h"
+#include "view.h"
 
 enum {
     between_looks = 16, /* accepted steps, for overlaps */
@@ -23,81 +21,11 @@ enum {
 
 static const double safety = 0.9, least_factor = 0.1; /* of the next step after one that contacts have rejected */
 
-/* What is known of the state as seen; each is worked out once, when first asked for. */
-typedef struct measures {
-    bool has_events, has_state, has_contacts, has_energy, has_strain;
-    dem_index n_contacts;
-    dem_energy energy;
-    dem_strain strain;
-} measures;
-
-struct dem_simulation {
-    const dem_model *model;
-    dem_options options; /* every default replaced */
-    boundaries boundaries;
-    kernel kernel;
-    overlap overlap;
-    contact contact;
-    queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
-    engine engine;
-    double t;        /* s, of y */
-    double step;     /* s, length of the last committed step */
-    double *y;       /* [4 n] state (x, v) after the last committed step, the engine's */
-    double *initial; /* [4 n] state before there is an engine */
-    double *frame;   /* [4 n] state interpolated to a frame or to t_end */
-    path path;       /* the step in hand */
-    bool in_hand;    /* whether there is one */
-    bool at_event;   /* whether it ends with one */
-    bool started;
-    double seen_t;         /* s, of what observers and callers see: */
-    const double *seen;    /* y or frame */
-    dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
-    measures *measures;
-    bool damped;  /* whether springs or masses are */
-    int unlooked; /* steps since overlaps were looked for */
-    dem_index events;
-    dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
-    audience audience;
-};
-
-/* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
- * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
- * the energies that friction and damping take; then the work of the boundaries, and last the time. Before them there is
- * room, so that the velocities begin at a cache line as the positions do. */
-static dem_index n_room(const dem_model *model)
-{
-    const dem_index pairs_of_line = 4, used = model->lattice.n_nodes + 2 * model->obstacles.n + 2;
-    return (pairs_of_line - used % pairs_of_line) % pairs_of_line;
-}
-
-static dem_index n_books(const dem_model *model)
-{
-    return n_room(model) + 2 * model->obstacles.n + 2;
-}
-
-enum { FRICTION, DAMPING, WORK, TIME }; /* places behind the impulses */
-
-static dem_index unknowns(const dem_model *model)
-{
-    return 2 * (model->lattice.n_nodes + n_books(model)); /* of positions, and as many of velocities */
-}
-
-/* The books in a state, and those of them behind the impulses. */
-static const double *books_of(const dem_simulation *s, const double *y)
-{
-    return y + unknowns(s->model) + 2 * (s->model->lattice.n_nodes + n_room(s->model));
-}
-
-static const double *totals_of(const dem_simulation *s, const double *y)
-{
-    return books_of(s, y) + 4 * s->model->obstacles.n;
-}
-
 /* ---- what the integrator asks ---- */
 
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
-    const double *v = y + unknowns(s->model);
+    const double *v = y + run_unknowns(s->model);
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
         if (!isfinite(v[2 * i]) || !isfinite(v[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
             return status_fail(DEM_ERROR_INTEGRATOR,
@@ -109,14 +37,14 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
 /* Rates of the books: [2 n_books] behind the accelerations. */
 static void fill_rates(dem_simulation *s, const double *y, double *rate, double work)
 {
-    double *impulse = rate + 2 * n_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
-    for (dem_index k = 0; k < 2 * n_books(s->model); k++) rate[k] = 0.0;
+    double *impulse = rate + 2 * run_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
+    for (dem_index k = 0; k < 2 * run_books(s->model); k++) rate[k] = 0.0;
     contact_account(&s->contact, y, impulse);
     if (s->damped)
-        total[DAMPING] =
-            diagnostics_damping_power(s->model, &s->contact.sites.scene.rule.load, y, y + unknowns(s->model));
-    total[WORK] = work;
-    total[TIME] = 1.0;
+        total[RUN_DAMPING] =
+            diagnostics_damping_power(s->model, &s->contact.sites.scene.rule.load, y, y + run_unknowns(s->model));
+    total[RUN_WORK] = work;
+    total[RUN_TIME] = 1.0;
 }
 
 /* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
@@ -124,7 +52,7 @@ static void fill_rates(dem_simulation *s, const double *y, double *rate, double 
 static int derivative(double t, const double *y, double *u, double *a, void *context)
 {
     dem_simulation *s = context;
-    const dem_index n = unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
     const double *v = y + n;
     const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
     const double sum = kernel_accelerate(&s->kernel, &s->contact.sites.scene.rule.load, &nodes);
@@ -142,7 +70,7 @@ static int leap(const motion_leap *step, void *context)
 {
     dem_simulation *s = context;
     const model_load *load = &s->contact.sites.scene.rule.load;
-    const dem_index n = unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
     const sweep_leap nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .leap = &nodes};
@@ -167,57 +95,11 @@ static double stiffening(const double *y, void *context)
     return kernel_stiffening(&s->kernel, y);
 }
 
-/* ---- what observers see ---- */
-
-static void look_at(dem_simulation *s, double t, const double *y)
-{
-    s->seen_t = t;
-    s->seen = y;
-    *s->measures = (measures){.has_events = true, .has_state = y != s->frame};
-}
-
-static bool is_local(const dem_simulation *s)
-{
-    return s->options.contact == DEM_CONTACT_LOCAL;
-}
-
-/* Looks at a time within the step in hand. */
-static void look_inside(dem_simulation *s, double t)
-{
-    look_at(s, t, s->frame);
-    s->measures->has_events = !is_local(s);
-}
-
-/* Contacts and books as seen. The queue goes back for that and on again, to the same end. */
-static const contact *contact_of(const dem_simulation *s)
-{
-    dem_simulation *self = (dem_simulation *)s;
-    if (!s->measures->has_events) (void)queue_show(&self->queue, s->seen_t); /* what it did once it can do again */
-    s->measures->has_events = true;
-    return &s->contact;
-}
-
-static const double *seen_of(const dem_simulation *s)
-{
-    (void)contact_of(s);
-    if (!s->measures->has_state) path_state(&s->path, s->seen_t, s->frame);
-    s->measures->has_state = true;
-    return s->seen;
-}
-
-static dem_index contacts_of(const dem_simulation *s)
-{
-    measures *m = s->measures;
-    if (!m->has_contacts) m->n_contacts = contact_list(&s->contact, seen_of(s), s->contacts);
-    m->has_contacts = true;
-    return m->n_contacts;
-}
-
 /* An event at which the whole body has stopped. */
 static dem_status hear_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
-    look_at(s, s->t, s->y);
+    view_at(s, s->t, s->y);
     return audience_event(&s->audience, s, event);
 }
 
@@ -228,7 +110,7 @@ static dem_status tell_events(dem_simulation *s, double t)
     if (!audience_hears_events(&s->audience)) return DEM_OK;
     while (s->told < s->n_inside && s->queue.events[s->told].t <= t) {
         const dem_event event = s->queue.events[s->told++];
-        look_inside(s, event.t);
+        view_inside(s, event.t);
         status = status_first(status, audience_event(&s->audience, s, &event));
     }
     return status;
@@ -236,7 +118,7 @@ static dem_status tell_events(dem_simulation *s, double t)
 
 static dem_status tell_step(dem_simulation *s)
 {
-    look_at(s, s->t, s->y);
+    view_at(s, s->t, s->y);
     return audience_step(&s->audience, s);
 }
 
@@ -245,7 +127,7 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
     double t;
     for (int k = 0; (k = audience_due(&s->audience, s->path.end, t_end, &t)) >= 0;) {
         TRY(tell_events(s, t));
-        look_inside(s, t);
+        view_inside(s, t);
         TRY(audience_frame(&s->audience, k, s));
     }
     return DEM_OK;
@@ -301,7 +183,7 @@ static dem_status take_step_to_event(dem_simulation *s)
 
 static dem_status take_step(dem_simulation *s)
 {
-    TRY(is_local(s) ? take_local_step(s) : take_step_to_event(s));
+    TRY(run_is_local(s) ? take_local_step(s) : take_step_to_event(s));
     s->n_inside = s->queue.n_events;
     s->told = 0;
     s->in_hand = true;
@@ -332,6 +214,7 @@ static bool settle_step(dem_simulation *s)
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
+    s->unrecorded++;
     if (++s->unlooked >= between_looks) look_for_overlaps(s);
     return moved;
 }
@@ -362,7 +245,7 @@ static dem_status commit_local_step(dem_simulation *s)
 
 static dem_status commit_step(dem_simulation *s)
 {
-    return is_local(s) ? commit_local_step(s) : commit_step_to_event(s);
+    return run_is_local(s) ? commit_local_step(s) : commit_step_to_event(s);
 }
 
 /* Contacts of the initial state come before the first step, when the observers are there to be told. */
@@ -373,20 +256,39 @@ static dem_status start(dem_simulation *s)
     return go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
 }
 
+static bool wants_record(const dem_simulation *s)
+{
+    const dem_index every = s->options.record_steps;
+    return every > 0 && (!s->has_record || s->unrecorded >= every);
+}
+
+/* A run goes on from its record as one does that is resumed. */
+static dem_status take_record(dem_simulation *s)
+{
+    s->has_record = false;
+    TRY(recall_put(s, s->record));
+    TRY(recall_get(s, s->record));
+    s->has_record = true;
+    view_at(s, s->t, s->y);
+    return audience_record(&s->audience, s, s->record);
+}
+
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 {
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
+    s->advanced = true;
     if (!s->started) TRY(start(s));
     for (;;) {
+        if (!s->in_hand && wants_record(s)) TRY(take_record(s));
         if (!s->in_hand) TRY(take_step(s));
         TRY(tell_frames(s, t_end));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));
     }
     TRY(tell_events(s, t_end));
-    look_inside(s, t_end);
+    view_inside(s, t_end);
     return DEM_OK;
 }
 
@@ -394,7 +296,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 
 static dem_status allocate(dem_simulation *s)
 {
-    const size_t n = 2 * (size_t)unknowns(s->model);
+    const size_t n = 2 * (size_t)run_unknowns(s->model);
     s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
     s->contacts = calloc(2 * (size_t)(s->model->n_sites + s->model->surface.n_edges) + 1, sizeof *s->contacts);
@@ -402,16 +304,6 @@ static dem_status allocate(dem_simulation *s)
     CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)s->model->lattice.n_nodes);
     return DEM_OK;
-}
-
-/* What acts on nodes besides springs and triangles. */
-static model_load load_of(const dem_simulation *s)
-{
-    const dem_options *o = &s->options;
-    return (model_load){{o->gravity[0], o->gravity[1]},
-                        o->mass_damping,
-                        s->boundaries.first != NULL ? &s->boundaries : NULL,
-                        2 * (s->model->lattice.n_nodes + n_books(s->model)) - 1};
 }
 
 static contact_rule rule_of(const dem_simulation *s)
@@ -426,9 +318,9 @@ static contact_rule rule_of(const dem_simulation *s)
                           .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                           .max_impacts = o->max_impacts,
                           .vertices = o->vertices != 0,
-                          .n_books = n_books(model),
+                          .n_books = run_books(model),
                           .n_threads = o->threads,
-                          .load = load_of(s)};
+                          .load = run_load(s)};
 }
 
 static dem_status set_up(dem_simulation *s)
@@ -441,8 +333,8 @@ static dem_status set_up(dem_simulation *s)
     TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
-    memcpy(s->y + unknowns(model), model->lattice.velocity, block);
-    boundaries_begin(&s->boundaries, s->y + unknowns(model));
+    memcpy(s->y + run_unknowns(model), model->lattice.velocity, block);
+    boundaries_begin(&s->boundaries, s->y + run_unknowns(model));
     TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
@@ -452,10 +344,11 @@ static dem_status set_up(dem_simulation *s)
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
     const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
-    if (is_local(s)) TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
-    const motion problem = {.n_nodes = model->lattice.n_nodes + n_books(model),
-                            .n_books = n_books(model),
-                            .n_guards = model->obstacles.n > 0 && !is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
+    if (run_is_local(s)) TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
+    const motion problem = {.n_nodes = model->lattice.n_nodes + run_books(model),
+                            .n_books = run_books(model),
+                            .n_guards =
+                                model->obstacles.n > 0 && !run_is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
                             .prescribes = boundaries_move(&s->boundaries),
                             .derivative = derivative,
                             .leap = s->boundaries.n == 0 ? leap : NULL,
@@ -473,13 +366,23 @@ static dem_status set_up(dem_simulation *s)
     s->y = engine_state(&s->engine);
     free(s->initial);
     s->initial = NULL;
+    TRY(dem_record_create(&s->record));
     TRY(overlap_create(&s->overlap, &model->lattice));
     look_for_overlaps(s);
-    look_at(s, 0.0, s->y);
+    view_at(s, 0.0, s->y);
     return DEM_OK;
 }
 
-dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
+static dem_status resume(dem_simulation *s, const dem_record *record)
+{
+    TRY(recall_get(s, record));
+    s->started = s->has_record = true;
+    view_at(s, s->t, s->y);
+    return record_copy(s->record, record);
+}
+
+static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options,
+                         const dem_record *record)
 {
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
@@ -488,12 +391,25 @@ dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, c
     CHECK_MEMORY(s);
     s->model = model;
     s->options = *options;
-    const dem_status status = set_up(s);
+    dem_status status = set_up(s);
+    if (status == DEM_OK && record != NULL) status = resume(s, record);
     if (status == DEM_OK)
         *out = s;
     else
         dem_simulation_destroy(s);
     return status;
+}
+
+dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
+{
+    return create(out, model, options, NULL);
+}
+
+dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
+                                 const dem_record *record)
+{
+    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: record is NULL");
+    return create(out, model, options, record);
 }
 
 void dem_simulation_destroy(dem_simulation *s)
@@ -509,6 +425,7 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->frame);
     free(s->contacts);
     free(s->measures);
+    dem_record_destroy(s->record);
     free(s);
 }
 
@@ -516,119 +433,6 @@ dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observe
 {
     CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
           s == NULL ? "simulation" : "observer");
-    CHECK(!s->started, DEM_ERROR_ARGUMENT, "observers come before the first advance");
-    return audience_add(&s->audience, observer);
-}
-
-/* ---- looking ---- */
-
-void dem_simulation_state(const dem_simulation *s, dem_state *state)
-{
-    *state = (dem_state){.struct_size = sizeof *state,
-                         .t = s->seen_t,
-                         .step = s->step,
-                         .x = seen_of(s),
-                         .v = s->seen + unknowns(s->model),
-                         .n_contacts = contacts_of(s),
-                         .contacts = s->contacts,
-                         .energy = dem_simulation_energy(s)};
-}
-
-dem_energy dem_simulation_energy(const dem_simulation *s)
-{
-    measures *m = s->measures;
-    if (!m->has_energy)
-        m->energy = diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + unknowns(s->model));
-    m->has_energy = true;
-    m->energy.impact = contact_of(s)->sites.books.impact;
-    m->energy.friction = totals_of(s, seen_of(s))[FRICTION];
-    m->energy.damping = totals_of(s, seen_of(s))[DAMPING];
-    m->energy.boundary = totals_of(s, seen_of(s))[WORK];
-    m->energy.projection = contact_of(s)->sites.books.projection;
-    return m->energy;
-}
-
-dem_strain dem_simulation_strain(const dem_simulation *s)
-{
-    measures *m = s->measures;
-    if (!m->has_strain) m->strain = diagnostics_strain(s->model, seen_of(s));
-    m->has_strain = true;
-    return m->strain;
-}
-
-void dem_simulation_strains(const dem_simulation *s, double *strain)
-{
-    springs_strains(&s->model->springs, seen_of(s), strain);
-}
-
-void dem_simulation_forces(const dem_simulation *s, double *force)
-{
-    springs_forces(&s->model->springs, seen_of(s), force);
-}
-
-void dem_simulation_stress(const dem_simulation *s, double *stress)
-{
-    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) dem_simulation_stress_at(s, i, stress + 3 * i);
-}
-
-void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
-{
-    const dem_model *m = s->model;
-    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, seen_of(s), stress);
-}
-
-dem_overlap dem_simulation_overlap(const dem_simulation *s)
-{
-    return s->overlap.found;
-}
-
-dem_counts dem_simulation_counts(const dem_simulation *s)
-{
-    const dem_counts of_engine = engine_counts(&s->engine);
-    dem_counts counts = contact_of(s)->sites.books.counts;
-    counts.steps = of_engine.steps;
-    counts.rejected = of_engine.rejected;
-    counts.evaluations = of_engine.evaluations;
-    counts.retries = of_engine.retries;
-    counts.events = s->events + (s->in_hand ? s->queue.n_stops : 0);
-    return counts;
-}
-
-dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
-{
-    return diagnostics_body(s->model, body, seen_of(s), s->seen + unknowns(s->model));
-}
-
-dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
-{
-    const contact_books *books = &contact_of(s)->sites.books;
-    const double *lasting = books_of(s, seen_of(s)), *rubbing = lasting + 2 * s->model->obstacles.n;
-    dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
-    for (int k = 0; k < 2; k++) {
-        load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[2 * obstacle + k];
-        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[2 * obstacle + k];
-    }
-    return load;
-}
-
-dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
-{
-    const model_load load = load_of(s);
-    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s), s->seen + unknowns(s->model));
-}
-
-double dem_simulation_residual(const dem_simulation *s)
-{
-    const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
-    return known ? diagnostics_residual(s->model, s->options.mass_damping, &s->path) : (double)INFINITY;
-}
-
-const dem_model *dem_simulation_model(const dem_simulation *s)
-{
-    return s->model;
-}
-
-dem_options dem_simulation_options(const dem_simulation *s)
-{
-    return s->options;
+    CHECK(!s->advanced, DEM_ERROR_ARGUMENT, "observers come before the first advance");
+    return audience_add(&s->audience, observer, engine_counts(&s->engine).steps > 0 ? s->t : -1.0);
 }

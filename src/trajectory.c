@@ -256,8 +256,8 @@ dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const d
 
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
 {
-    return (dem_observer){trajectory->options.frame_interval, on_frame, on_step,
-                          trajectory->options.events ? on_event : NULL, trajectory};
+    return (dem_observer){trajectory->options.frame_interval,           on_frame, on_step,
+                          trajectory->options.events ? on_event : NULL, NULL,     trajectory};
 }
 
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)

@@ -72,6 +72,12 @@ void verlet_restart(verlet *V, double t, const double *y)
     V->has_f0 = V->has_low = V->at_end = false;
 }
 
+void verlet_renew(verlet *V, const engine_start *from)
+{
+    verlet_restart(V, from->t, from->y);
+    V->counts = (dem_counts){.steps = from->counts.steps, .evaluations = from->counts.evaluations};
+}
+
 static void swap(double **a, double **b)
 {
     double *const kept = *a;

@@ -30,6 +30,9 @@ double *verlet_state(const verlet *V);
 /** Goes on from another state, or from its own as it has been changed. */
 void verlet_restart(verlet *V, double t, const double *y);
 
+/** Begins anew, with these counts. */
+void verlet_renew(verlet *V, const engine_start *from);
+
 /** Steps and evaluations so far; the rest is 0. */
 dem_counts verlet_counts(const verlet *V);
 

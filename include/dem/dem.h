@@ -18,6 +18,7 @@
 
 #include <dem/lattice.h>
 #include <dem/method.h>
+#include <dem/record.h>
 #include <dem/status.h>
 
 #ifdef __cplusplus
@@ -201,7 +202,9 @@ typedef struct dem_options {
     int32_t
         threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit. A library
                           built without OpenMP does the work of all in one */
-    dem_index n_boundaries;         /**< default 0 */
+    dem_index record_steps; /**< default 256: accepted steps between records, of which the bits of a run depend as
+                                         on a tolerance; 0: no records */
+    dem_index n_boundaries; /**< default 0 */
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
 } dem_options;
 
@@ -215,6 +218,7 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
     options.window = -1.0;
     options.vertices = 1;
     options.threads = 1;
+    options.record_steps = 256;
     return options;
 }
 
@@ -363,6 +367,11 @@ typedef struct dem_simulation dem_simulation;
  *  DEM_ERROR_MODEL names the node or the vertex. The model is borrowed and must outlive the simulation. */
 DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
 
+/** Goes on from a record of a simulation of the same model and options, whose further motion is repeated to the bit.
+ *  \return DEM_ERROR_IO if the record is of another model, or damaged */
+DEM_API dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
+                                         const dem_record *record);
+
 /** Accepts NULL. */
 DEM_API void dem_simulation_destroy(dem_simulation *simulation);
 
@@ -370,6 +379,9 @@ DEM_API void dem_simulation_destroy(dem_simulation *simulation);
  *  so a run to t1 continued to t2 is a run to t2.
  *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state */
 DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
+
+/** The last record, valid and unchanged until the next advance; NULL before the first. */
+DEM_API const dem_record *dem_simulation_record(const dem_simulation *simulation);
 
 DEM_API void dem_simulation_state(const dem_simulation *simulation, dem_state *state);
 DEM_API dem_energy dem_simulation_energy(const dem_simulation *simulation);
@@ -434,10 +446,13 @@ typedef struct dem_observer {
     dem_status (*step)(void *context, const dem_simulation *simulation);  /**< after every accepted step and at t = 0 */
     dem_status (*event)(void *context, const dem_simulation *simulation, const dem_event *event);
     /**< after every contact event; the simulation shows the state of that instant */
+    dem_status (*record)(void *context, const dem_simulation *simulation, dem_record *record);
+    /**< at every record, which has the simulation's entries already: puts in what the observer has to remember */
     void *context;
 } dem_observer;
 
-/** Copies `observer`. At most 8; to be called before the first advance. */
+/** Copies `observer`. At most 8; to be called before the first advance. One of a resumed simulation is shown the frames
+ *  later than its record. */
 DEM_API dem_status dem_simulation_observe(dem_simulation *simulation, const dem_observer *observer);
 
 /* ---- peaks: the most stressed places of a run ------------------------------------------------------------------- */
@@ -461,6 +476,10 @@ typedef struct dem_peaks dem_peaks;
 /** \param every  >= 1. A look costs about an eighth of a step; between looks every 4 steps of 0.5/omega_max the
  *                 fastest wave of a lattice passes a third of its period. */
 DEM_API dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every);
+
+/** Peaks as they were when the record was taken; `every` is the record's.
+ *  \return DEM_ERROR_IO if the record has none of such a model */
+DEM_API dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_record *record);
 
 /** Accepts NULL. */
 DEM_API void dem_peaks_destroy(dem_peaks *peaks);

@@ -103,8 +103,8 @@ contains
   subroutine read_solver()
     character(4096) :: method, kernel
     real(dp) :: rtol, max_step, v_scale, spacing, mass_damping
-    integer :: threads
-    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping, kernel, threads
+    integer :: threads, record_steps
+    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping, kernel, threads, record_steps
     read (unit, nml=solver, iostat=status, iomsg=message)
   end subroutine
 

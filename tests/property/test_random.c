@@ -254,7 +254,7 @@ static void run_case(unsigned long seed, census *all)
     scene_random(&sc, seed);
     verdict v = {.scene = &sc};
     judge_boundary(&v.boundary, &sc.body);
-    const dem_observer observer = {sc.interval, look, step, weigh, &v};
+    const dem_observer observer = {sc.interval, look, step, weigh, NULL, &v};
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     v.start = dem_energy_ledger(dem_simulation_energy(run.simulation));

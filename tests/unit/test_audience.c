@@ -47,7 +47,7 @@ static void join(audience *a, voice *v, double interval)
 {
     const dem_observer observer = {
         .interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = v};
-    assert_ok(audience_add(a, &observer));
+    assert_ok(audience_add(a, &observer, -1.0));
 }
 
 static void expect(const char *text)
@@ -65,7 +65,7 @@ static void at_most_eight_are_admitted(void **state)
     const dem_observer one_more = {.interval = 1.0};
     (void)state;
     for (int k = 0; k < AUDIENCE_MOST; k++) join(&a, &v, 1.0);
-    assert_int_equal(audience_add(&a, &one_more), DEM_ERROR_ARGUMENT);
+    assert_int_equal(audience_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "at most 8 observers");
     assert_int_equal(a.n, 8);
 }
@@ -75,9 +75,9 @@ static void an_interval_is_finite(void **state)
     audience a = {0};
     const dem_observer endless = {.interval = (double)INFINITY}, none = {.interval = fabs((double)NAN)};
     (void)state;
-    assert_int_equal(audience_add(&a, &endless), DEM_ERROR_ARGUMENT);
+    assert_int_equal(audience_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "the interval between frames is inf s");
-    assert_int_equal(audience_add(&a, &none), DEM_ERROR_ARGUMENT);
+    assert_int_equal(audience_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
     assert_int_equal(a.n, 0);
 }
 
@@ -107,7 +107,7 @@ static void who_has_no_ears_is_left_out(void **state)
     const dem_event event = {.t = 0.75};
     double t = -1.0;
     (void)state;
-    assert_ok(audience_add(&a, &deaf));
+    assert_ok(audience_add(&a, &deaf, -1.0));
     assert_false(audience_hears_events(&a));
     assert_ok(audience_event(&a, NULL, &event));
     assert_ok(audience_step(&a, NULL));

@@ -6,6 +6,7 @@
 #include "coarse.h"
 #include "support.h"
 
+static double rtol = 0.0;                 /* 0: the deck's */
 static double spacing = 5e-3;
 static const char *inputs;
 
@@ -35,6 +36,7 @@ static void run_deck(const char *name, double restitution, dem_contact_method me
     d.obstacles[0].restitution = restitution;
     d.options.contact = method;
     d.options.window = 0.0;
+    if (rtol > 0.0) d.options.rtol = rtol;
     support_open(&run, &d.lattice, d.obstacles, d.n_obstacles, &d.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     const dem_energy start = dem_simulation_energy(run.simulation);
@@ -82,13 +84,17 @@ static void plastic_bodies_rebound_alike(void **state)
     compare("porous", 0.0, 0.01);
 }
 
-/* Of the porous body either method counts 1200 to 1450 impacts at rtol 6e-9 to 1e-6, as chance has it. */
+/* How many impacts the porous body has is chance: with records at other steps, which change no more than the last
+ * digits, `local` counts 1498 +- 64 at rtol 1e-6, 1408 +- 135 at 1e-7 and 1360 +- 72 at 1e-8, and `exact` 1281 +- 71,
+ * 1319 +- 70 and 1286 +- 41. At 1e-8 three deviations of the difference of two such are a fifth; both means differ by
+ * 6 percent. */
 static void elastic_bodies_rebound_alike(void **state)
 {
     (void)state;
     compare("rectangle", 1.0, 0.01);
     compare("disc", 1.0, 0.01);
-    compare("porous", 1.0, 0.2);
+    rtol = 1e-8;
+    compare("porous", 1.0, 0.26);
 }
 
 int main(int argc, char **argv)

@@ -275,7 +275,7 @@ static verdict run_wedge(const wedge *c, double t_end)
     support_open(&run, &lattice, &obstacle, 1, &options);
     watch w = {.body = outline_create(&lattice), .slope = tall, .at = c->at};
     dem_lattice_free(&lattice);
-    const dem_observer observer = {frame_interval, look, look_and_weigh, add_event, &w};
+    const dem_observer observer = {frame_interval, look, look_and_weigh, add_event, NULL, &w};
     const dem_body_motion start = dem_simulation_body(run.simulation, 0);
     for (int d = 0; d < 2; d++) w.start[d] = start.mass * start.velocity[d];
     assert_ok(dem_simulation_observe(run.simulation, &observer));

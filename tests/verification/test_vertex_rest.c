@@ -331,7 +331,7 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
         if (lattice.x[2 * i] + lattice.x[2 * i + 1] < lattice.x[2 * w->corner] + lattice.x[2 * w->corner + 1])
             w->corner = i;
     dem_lattice_free(&lattice);
-    const dem_observer observer = {1e-6, look_at_drop, look_at_drop, note_drop, w};
+    const dem_observer observer = {1e-6, look_at_drop, look_at_drop, note_drop, NULL, w};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 
