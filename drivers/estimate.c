@@ -101,6 +101,14 @@ static double least_stiffness(const schema_instance *body, const dem_material *m
     return 4.0 * sqrt3 * (4.0 / sqrt3 * shear + bond) / mass;
 }
 
+static void add_lattice(estimate *e, const char *path)
+{
+    dem_index nodes, springs;
+    if (dem_lattice_measure(path, &nodes, &springs) != DEM_OK) return;
+    e->nodes += (double)nodes;
+    e->springs += (double)springs;
+}
+
 /* Adds body k.  \param path  of its file; "" without one */
 static void add_body(estimate *e, const deck *d, size_t k, const char *path)
 {
@@ -108,6 +116,7 @@ static void add_body(estimate *e, const deck *d, size_t k, const char *path)
     const bool drawn = schema_is(body, "shape", "mask"), mesh = schema_is(body, "shape", "mesh");
     double size[2];
     e->memory = fmax(e->memory, mesh ? file_size(path) : 0.0);
+    if (schema_is(body, "shape", "file")) add_lattice(e, path);
     if (mesh || schema_is(body, "shape", "file") || !find_extent(size, body, path)) return;
     const double cover = count_cover(size, body), area = drawn ? 0.0 : area_of(body);
     const double nodes = fmax(area - area_taken(&d->groups, k, area), 0.0) / cell_of(body);
