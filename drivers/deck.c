@@ -510,17 +510,27 @@ static bool interpret(deck *d)
     return set_scalars(d, &d->groups);
 }
 
-static deck_status resolve(deck *d, size_t size, namelist_errors *errors)
+static deck_status resolve(deck *d, const namelist *list, namelist_errors *errors)
+{
+    bool good = schema_resolve(&d->groups, list, errors);
+    if (good) check(&d->groups, errors);
+    if (good && errors->n == 0) good = interpret(d);
+    return good ? DECK_OK : DECK_MEMORY;
+}
+
+static deck_status parse(deck *d, size_t size, const setting *settings, size_t n, namelist_errors *errors)
 {
     namelist list;
+    deck_status status = DECK_OK;
     bool good = namelist_parse(&list, d->source, size, errors);
-    if (good && !list.unreadable) {
-        good = schema_resolve(&d->groups, &list, errors);
-        if (good) check(&d->groups, errors);
-        if (good && errors->n == 0) good = interpret(d);
-    }
+    for (size_t k = 0; k < n && good && !list.unreadable; k++)
+        good = setting_apply(&settings[k], -1 - (int)k, &list, errors);
+    if (!good)
+        status = DECK_MEMORY;
+    else if (!list.unreadable)
+        status = resolve(d, &list, errors);
     namelist_free(&list);
-    return good ? DECK_OK : DECK_MEMORY;
+    return status;
 }
 
 /* Sorts what was found. The deck stays where nothing was. */
@@ -533,13 +543,13 @@ static deck_status conclude(deck *d, deck_status status, namelist_errors *errors
     return status;
 }
 
-deck_status deck_parse(deck *out, const char *path, namelist_errors *errors)
+deck_status deck_parse(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors)
 {
     size_t size = 0;
     *out = (deck){.path = strdup(path), .folder = folder_of(path)};
     dem_lattice_init(&out->lattice);
     deck_status status = out->path == NULL || out->folder == NULL ? DECK_MEMORY : read_text(out, &size, errors);
-    if (status == DECK_OK) status = resolve(out, size, errors);
+    if (status == DECK_OK) status = parse(out, size, settings, n, errors);
     return conclude(out, status, errors);
 }
 
@@ -553,7 +563,7 @@ deck_status deck_build(deck *d, namelist_errors *errors)
 
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors)
 {
-    const deck_status status = deck_parse(out, path, errors);
+    const deck_status status = deck_parse(out, path, NULL, 0, errors);
     return status == DECK_OK ? deck_build(out, errors) : status;
 }
 

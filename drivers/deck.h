@@ -8,6 +8,7 @@
 
 #include "body.h"
 #include "schema.h"
+#include "setting.h"
 
 typedef enum deck_status {
     DECK_OK,
@@ -48,16 +49,16 @@ typedef struct deck {
     dem_index n_probes;
 } deck;
 
-/* Reads the file and checks its groups: faults of syntax, of keys and of their meaning are reported together, sorted by
- * place; a file that is unreadable has its message at 0:0. Nothing is built yet. *out is empty unless DECK_OK is
- * returned. */
-deck_status deck_parse(deck *out, const char *path, namelist_errors *errors);
+/* Reads the file, puts `settings`, [n], in it and checks its groups: faults of syntax, of keys and of their meaning are
+ * reported together, sorted by place; a file that is unreadable has its message at 0:0, a fault of settings[k] is at
+ * line -1 - k. Nothing is built yet. *out is empty unless DECK_OK is returned. */
+deck_status deck_parse(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors);
 
 /* Builds what a deck that was parsed describes; what is wrong with the geometry is reported for all bodies. To be
  * called once. *d is empty unless DECK_OK is returned. */
 deck_status deck_build(deck *d, namelist_errors *errors);
 
-/* Both in turn. */
+/* Both in turn, without settings. */
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors);
 
 void deck_free(deck *d);

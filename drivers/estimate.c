@@ -16,6 +16,11 @@ static const double pi = 3.14159265358979323846, sqrt3 = 1.73205080756887729353;
  * measured which a system really gives (docs/performance.md). */
 static const double of_cover = 16.0 + 2.0 * 24.0, of_verlet = 1000.0, of_pairs = 1200.0;
 
+static const double giga = 1e9;
+static const double joined = 2.0; /* times the output are on disk while its parts are made into one file */
+
+static const double most_nodes = 1e250; /* that are counted: what grows with them stays finite */
+
 /* ---- bodies ---- */
 
 static double area_of_polygon(const schema_value *points)
@@ -96,7 +101,7 @@ static double least_stiffness(const schema_instance *body, const dem_material *m
     const double a = schema_real(body, "spacing"), mass = m->density * m->thickness * a * a;
     const double shear = 0.5 * m->youngs_modulus * m->thickness / (1.0 + m->poissons_ratio);
     const double bond = m->bond_stiffness / a;
-    if (!(a > 0.0)) return 0.0;
+    if (!isnormal(a) || !isnormal(mass)) return 0.0; /* the body will be refused */
     if (form_has_squares(body)) return 4.0 * (2.0 * shear * (1.0 + schema_real(body, "diagonal")) + 1.7 * bond) / mass;
     return 4.0 * sqrt3 * (4.0 / sqrt3 * shear + bond) / mass;
 }
@@ -117,9 +122,10 @@ static void add_body(estimate *e, const deck *d, size_t k, const char *path)
     double size[2];
     e->memory = fmax(e->memory, mesh ? file_size(path) : 0.0);
     if (schema_is(body, "shape", "file")) add_lattice(e, path);
-    if (mesh || schema_is(body, "shape", "file") || !find_extent(size, body, path)) return;
-    const double cover = count_cover(size, body), area = drawn ? 0.0 : area_of(body);
-    const double nodes = fmax(area - area_taken(&d->groups, k, area), 0.0) / cell_of(body);
+    if (!isnormal(cell_of(body)) || !find_extent(size, body, path)) return; /* else the body will be refused */
+    const double cover = fmin(count_cover(size, body), most_nodes), area = drawn ? 0.0 : area_of(body);
+    const double left = fmax(area - area_taken(&d->groups, k, area), 0.0);
+    const double nodes = fmin(left / cell_of(body), most_nodes);
     if (cover > e->cover) e->largest = k;
     e->cover = fmax(e->cover, cover);
     e->nodes += nodes;
@@ -151,6 +157,7 @@ static double longest_step(const deck *d)
     if (o->max_step > 0.0) return o->max_step;
     for (size_t k = 0; k < schema_count(&d->groups, "body"); k++) stiffness = fmax(stiffness, least_stiffness_of(d, k));
     if (dem_method_describe(&method, o->method) != DEM_OK) return (double)INFINITY;
+    if (!isnormal(stiffness)) return (double)INFINITY;
     return (method.adaptive ? 0.5 : 0.125 * method.stable) / sqrt(stiffness);
 }
 
@@ -239,4 +246,44 @@ estimate estimate_run(const deck *d, const dem_simulation *simulation)
     estimate e = {.step = dem_simulation_options(simulation).max_step};
     settle(&e, d, &c);
     return e;
+}
+
+/* ---- what is refused ---- */
+
+static namelist_place place_of(const deck *d, const char *group, size_t k, const char *key)
+{
+    const schema_instance *instance = schema_get(&d->groups, group, k);
+    return schema_given(instance, key) ? schema_place(instance, key) : instance->place;
+}
+
+estimate_breach estimate_check(const estimate *needed, const limits *most, const deck *d, namelist_errors *errors)
+{
+    const double disk = joined * needed->output;
+    estimate_breach breach = ESTIMATE_KEPT;
+    if (disk > most->disk) {
+        namelist_errors_add(errors, place_of(d, "output", 0, "frame_interval"),
+                            "the output takes about %.3g GB, %.0f frames and %.3g steps until 't_end', twice while it "
+                            "is put together; the limit is %.3g GB, and --max-disk sets it",
+                            needed->output / giga, needed->frames, needed->steps, most->disk / giga);
+        breach = ESTIMATE_DISK;
+    }
+    if (needed->steps > most->steps) {
+        namelist_errors_add(errors, place_of(d, "run", 0, "t_end"),
+                            "'t_end' in &run, %g s, takes at least %.3g steps of %.3g s; the limit is %.3g, and "
+                            "--max-steps sets it",
+                            d->t_end, needed->steps, needed->step, most->steps);
+        breach = ESTIMATE_STEPS;
+    }
+    if (needed->memory > most->memory) {
+        char nodes[40] = "";
+        const double n = fmax(needed->nodes, needed->cover);
+        if (n > 0.0) (void)snprintf(nodes, sizeof nodes, " for its %.3g nodes", n);
+        namelist_errors_add(
+            errors, place_of(d, "body", needed->largest, "spacing"),
+            "the run takes at least %.3g GB of memory%s; the limit is %.3g GB, and --max-memory sets it",
+            needed->memory / giga, nodes, most->memory / giga);
+        breach = ESTIMATE_MEMORY;
+    }
+    namelist_errors_sort(errors);
+    return breach;
 }

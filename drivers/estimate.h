@@ -4,6 +4,7 @@
 #define DEM_ESTIMATE_H
 
 #include "deck.h"
+#include "limits.h"
 
 typedef struct estimate {
     double nodes, springs; /* about; 0 of bodies of which nothing tells before they are read */
@@ -21,5 +22,11 @@ bool estimate_deck(estimate *out, const deck *d);
 
 /** Of what has been built. */
 estimate estimate_run(const deck *d, const dem_simulation *simulation);
+
+typedef enum estimate_breach { ESTIMATE_KEPT, ESTIMATE_DISK, ESTIMATE_STEPS, ESTIMATE_MEMORY } estimate_breach;
+
+/** Reports, with its place in the deck and the option that sets it, each limit that is exceeded.
+ *  \return the last of them in the order above */
+estimate_breach estimate_check(const estimate *needed, const limits *most, const deck *d, namelist_errors *errors);
 
 #endif

@@ -28,7 +28,7 @@ static deck parse(const char *text)
     namelist_errors errors = {0};
     deck d;
     put(text);
-    const deck_status status = deck_parse(&d, path, &errors);
+    const deck_status status = deck_parse(&d, path, NULL, 0, &errors);
     if (status != DECK_OK) fail_msg("%s", errors.n > 0 ? errors.list[0].text : "no message");
     return d;
 }
@@ -153,15 +153,27 @@ static void a_lattice_that_is_cut_is_there_before(void **state)
     assert_close(e.memory, 64.0 * 1001.0 * 1001.0, 1.0);
 }
 
-static void products_that_overflow_are_infinite(void **state)
+static void products_that_overflow_are_large_and_finite(void **state)
 {
     (void)state;
     estimate e = of(SOLID "&body shape = 'rectangle', size = 1e9, 1e9, spacing = 1, lattice = 'square' /\n");
     assert_close(e.memory, 1.2e21, 1e10);
-    e = of(SOLID "&body shape = 'rectangle', size = 1e300, 1e300, spacing = 1e-300 /\n");
-    assert_true(isinf(e.memory) && e.memory > 0.0);
-    e = of(SOLID "&body shape = 'disc', radius = 1e200, spacing = 1e-200 /\n");
-    assert_true(isinf(e.memory) && e.memory > 0.0);
+    e = of(SOLID "&body shape = 'rectangle', size = 1e300, 1e300, spacing = 1 /\n");
+    assert_close(e.memory, 1.2e253, 1e240);
+    assert_true(isfinite(e.output));
+    e = of(SOLID "&body shape = 'disc', radius = 1e200, spacing = 1e-100 /\n");
+    assert_close(e.memory, 1.2e253, 1e240);
+}
+
+/* Nothing is told of what cannot be computed with: that is refused when it is built. */
+static void what_underflows_is_not_estimated(void **state)
+{
+    (void)state;
+    estimate e = of(SOLID "&body shape = 'rectangle', size = 1, 1, spacing = 1e-200 /\n");
+    assert_close(e.memory, 0.0, 0.0);
+    assert_close(e.steps, 0.0, 0.0);
+    e = of(HEAD "&material youngs_modulus = 1e7, density = 1e-308 /\n&body shape = 'rectangle', size = 1, 1, " BODY);
+    assert_close(e.steps, 0.0, 0.0);
 }
 
 /* ---- steps ---- */
@@ -232,6 +244,55 @@ static void output_is_frames_and_tables(void **state)
     assert_close(e.output, 11.0 * (10000.0 * (24.0 + 4.0 * 13.0) + 40000.0 * (1.0 + 8.0)) + 8.0 * 1024.0 * 53.0, 1.0);
 }
 
+/* ---- what is refused ---- */
+
+#define TWO                                                                                                            \
+    "&run t_end = 1 /\n&material youngs_modulus = 1, density = 1 /\n"                                                  \
+    "&body shape = 'rectangle', size = 1, 1, spacing = 1 /\n"                                                          \
+    "&body shape = 'rectangle', size = 1, 1,\n spacing = 1 /\n&output\n frame_interval = 0.1 /\n"
+
+static const estimate needed = {
+    .nodes = 5e6, .largest = 1, .memory = 6e9, .step = 1e-6, .steps = 1e6, .frames = 11.0, .output = 3e9};
+
+static void expect_told(limits most, estimate_breach expected, const char *told)
+{
+    namelist_errors errors = {0};
+    char all[1024] = "";
+    size_t n = 0;
+    deck d = parse(TWO);
+    assert_int_equal(estimate_check(&needed, &most, &d, &errors), expected);
+    for (size_t k = 0; k < errors.n; k++)
+        n += (size_t)snprintf(all + n, sizeof all - n, "%d:%d %s\n", errors.list[k].place.line,
+                              errors.list[k].place.column, errors.list[k].text);
+    assert_string_equal(all, told);
+    namelist_errors_free(&errors);
+    deck_free(&d);
+}
+
+static void what_keeps_within_its_limits_is_told_nothing(void **state)
+{
+    (void)state;
+    expect_told((limits){6e9, 1e6, 6e9}, ESTIMATE_KEPT, "");
+    expect_told((limits){INFINITY, INFINITY, INFINITY}, ESTIMATE_KEPT, "");
+}
+
+static void what_exceeds_one_is_told_which_where_and_by_what_option(void **state)
+{
+    (void)state;
+    expect_told(
+        (limits){5e9, 1e6, 6e9}, ESTIMATE_MEMORY,
+        "5:2 the run takes at least 6 GB of memory for its 5e+06 nodes; the limit is 5 GB, and --max-memory sets "
+        "it\n");
+    expect_told(
+        (limits){6e9, 5e5, 6e9}, ESTIMATE_STEPS,
+        "1:6 't_end' in &run, 1 s, takes at least 1e+06 steps of 1e-06 s; the limit is 5e+05, and --max-steps sets "
+        "it\n");
+    expect_told(
+        (limits){6e9, 1e6, 5.9e9}, ESTIMATE_DISK,
+        "7:2 the output takes about 3 GB, 11 frames and 1e+06 steps until 't_end', twice while it is put together; "
+        "the limit is 5.9 GB, and --max-disk sets it\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -241,10 +302,13 @@ int main(void)
         cmocka_unit_test(files_are_told_by_their_first_bytes_and_their_size),
         cmocka_unit_test(memory_grows_with_nodes_and_method_and_is_no_more_than_measured),
         cmocka_unit_test(a_lattice_that_is_cut_is_there_before),
-        cmocka_unit_test(products_that_overflow_are_infinite),
+        cmocka_unit_test(products_that_overflow_are_large_and_finite),
+        cmocka_unit_test(what_underflows_is_not_estimated),
         cmocka_unit_test(steps_are_bounded_by_stiffness_and_mass),
         cmocka_unit_test(steps_are_bounded_where_shapes_are_cut_and_materials_mixed),
         cmocka_unit_test(output_is_frames_and_tables),
+        cmocka_unit_test(what_keeps_within_its_limits_is_told_nothing),
+        cmocka_unit_test(what_exceeds_one_is_told_which_where_and_by_what_option),
     };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;

@@ -6,7 +6,7 @@
 #include "coarse.h"
 #include "support.h"
 
-static double rtol = 0.0;                 /* 0: the deck's */
+static double rtol = 0.0; /* 0: the deck's */
 static double spacing = 5e-3;
 static const char *inputs;
 
