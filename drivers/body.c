@@ -271,7 +271,7 @@ static dem_status check_place(const builder *b, const char *key)
     double largest = 0.0, least = (double)INFINITY;
     for (dem_index k = 0; k < 2 * b->lattice.n_nodes; k++) largest = fmax(largest, fabs(b->lattice.x[k]));
     for (dem_index k = 0; k < b->lattice.n_springs; k++) least = fmin(least, b->lattice.rest_length[k]);
-    if (largest * DBL_EPSILON <= lost * least) return DEM_OK;
+    if (largest * DBL_EPSILON <= lost * least || !isfinite(largest) || !(least > 0.0)) return DEM_OK; /* or no model */
     namelist_errors_add(b->errors, place_of(b->body, key),
                         "body %zu has coordinates of up to %g m, so large that rounding blurs its spacing of %g m",
                         b->number, largest, least);

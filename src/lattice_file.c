@@ -128,7 +128,7 @@ static dem_status check_storage(const reader *r, const struct dataset *d, hid_t 
 {
     const hid_t layout = H5Dget_create_plist(dataset);
     const H5D_layout_t kind = H5Pget_layout(layout);
-    dem_status status = check_filters(r, d, layout);
+    dem_status status;
     hsize_t in_file = 0;
     (void)H5Fget_filesize(r->file.id, &in_file);
     const hsize_t stored = H5Dget_storage_size(dataset);
@@ -136,7 +136,8 @@ static dem_status check_storage(const reader *r, const struct dataset *d, hid_t 
         status = refuse(r, d->name, "keeps its data in an external file");
     else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
         status = refuse(r, d->name, "has a virtual or unknown layout");
-    else if (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0))
+    else if ((status = check_filters(r, d, layout)) == DEM_OK &&
+             (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0)))
         status = refuse(r, d->name, "claims more data than the file holds");
     (void)H5Pclose(layout);
     return status;

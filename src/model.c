@@ -26,14 +26,13 @@ static dem_status check_nodes(const dem_lattice *l)
           l->x == NULL ? "positions" : "masses");
     TRY(check_pairs("rest position", l->x, l->n_nodes));
     TRY(check_pairs("initial position", l->position, l->n_nodes));
-    TRY(check_pairs("initial velocity", l->velocity, l->n_nodes));
     for (dem_index i = 0; i < l->n_nodes; i++) {
         CHECK(isfinite(l->mass[i]) && l->mass[i] > 0.0, DEM_ERROR_MODEL, "node %lld: mass must be > 0, got %g kg",
               (long long)i, l->mass[i]);
         CHECK(l->body == NULL || (l->body[i] >= 0 && l->body[i] < l->n_nodes), DEM_ERROR_MODEL,
               "node %lld: body number %d is not in 0 to %lld", (long long)i, l->body[i], (long long)(l->n_nodes - 1));
     }
-    return DEM_OK;
+    return check_pairs("initial velocity", l->velocity, l->n_nodes); /* masses may have made them */
 }
 
 static dem_status check_springs(const dem_lattice *l)
