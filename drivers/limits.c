@@ -73,7 +73,7 @@ static bool has_begun(const char *folder, const char *name)
 bool limits_see_disk(limits *most, const char *folder, const char *name)
 {
     struct statvfs system;
-    if (has_begun(folder, name)) return true;
+    if (access(folder, F_OK) != 0 || has_begun(folder, name)) return true; /* no folder: writing will tell */
     if (statvfs(folder, &system) != 0 || system.f_blocks == 0) return false;
     most->disk = (double)system.f_bavail * (double)system.f_frsize;
     return true;

@@ -87,7 +87,8 @@ static void the_disk_has_what_is_free_but_for_a_run_that_goes_on(void **state)
     put("run.part.vtkhdf", "begun\n");
     assert_true(limits_see_disk(&most, folder, "run"));
     assert_true(isinf(most.disk));
-    assert_false(limits_see_disk(&most, at("none"), "run"));
+    assert_true(limits_see_disk(&most, at("none"), "run"));
+    assert_false(limits_see_disk(&most, "/proc", "run")); /* a file system without blocks */
     assert_true(isinf(most.disk));
     static const char *const made[] = {"runner.vtkhdf", "run.json", "run.part.vtkhdf"};
     for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(unlink(at(made[k])), 0);
