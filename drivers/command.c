@@ -19,7 +19,11 @@ static const char usage[] =
     "times\n"
     "  --index N              take only the N-th deck, from 1: for job arrays\n"
     "  --overwrite            rename output of another problem or run that is in the way to NAME.old\n"
-    "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, 6 out of memory,\n"
+    "  --max-memory GB        refuse what takes more (default: the memory of the machine)\n"
+    "  --max-steps N          refuse what takes more (default: 1e10)\n"
+    "  --max-disk GB          refuse what takes more (default: what is free)\n"
+    "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
+    "            6 out of memory, or over --max-memory or --max-steps,\n"
     "            7 the output belongs to another problem or process; of several decks the largest\n";
 
 typedef struct action_word {
@@ -78,10 +82,32 @@ static bool parse_set(command *c, const char *text)
     return true;
 }
 
+static bool set_limit(double *limit, const char *option, const char *number, double unit)
+{
+    return limits_set(limit, number, unit) || refuse("'%s' needs a number above 0%s%s", option,
+                                                     number == NULL ? "" : ", got ", number == NULL ? "" : number);
+}
+
+static bool parse_memory(command *c, const char *number)
+{
+    return set_limit(&c->most.memory, "--max-memory", number, 1e9);
+}
+
+static bool parse_steps(command *c, const char *number)
+{
+    return set_limit(&c->most.steps, "--max-steps", number, 1.0);
+}
+
+static bool parse_disk(command *c, const char *number)
+{
+    return set_limit(&c->most.disk, "--max-disk", number, 1e9);
+}
+
 static const struct {
     const char *word;
     bool (*parse)(command *c, const char *value);
-} options[] = {{"--outdir", parse_outdir}, {"--index", parse_index}, {"--set", parse_set}};
+} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},     {"--set", parse_set},
+               {"--max-memory", parse_memory}, {"--max-steps", parse_steps}, {"--max-disk", parse_disk}};
 
 /* ---- words ---- */
 
@@ -119,7 +145,7 @@ static bool parse_all(command *c, char **argv)
 exit_code command_parse(command *c, int argc, char **argv)
 {
     const size_t n = (size_t)argc + 1;
-    *c = (command){.action = COMMAND_RUN, .outdir = "."};
+    *c = (command){.action = COMMAND_RUN, .outdir = ".", .most = limits_default()};
     c->decks = calloc(n, sizeof *c->decks);
     c->settings = calloc(n, sizeof *c->settings);
     if (c->decks != NULL && c->settings != NULL) return parse_all(c, argv + 1) ? EXIT_DONE : EXIT_USAGE;

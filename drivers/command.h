@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "limits.h"
 #include "outcome.h"
 #include "setting.h"
 
@@ -24,7 +25,8 @@ typedef struct command {
     command_action action;
     const char *outdir;
     bool overwrite;
-    long index; /* of the only deck, from 1; 0: all of them */
+    limits most; /* disk infinite: what is free */
+    long index;  /* of the only deck, from 1; 0: all of them */
     size_t n_decks, n_settings;
     const char **decks; /* [n_decks] files, and lists with an '@' before their names */
     setting *settings;  /* [n_settings] */
