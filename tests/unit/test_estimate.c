@@ -224,6 +224,9 @@ static void steps_are_bounded_where_shapes_are_cut_and_materials_mixed(void **st
     expect_steps(SOLID "&material name = 'soft', youngs_modulus = 1e6, density = 4000 /\n" BLOCK
                        " /\n&inclusion material = 'soft', centre = 0,0.05, radius = 0.03 /\n",
                  11.0);
+    expect_steps(SOLID "&material name = 'soft', youngs_modulus = 1e6, density = 4000 /\n" BLOCK
+                       " /\n&inclusion material = 'soft', centre = 0,0.05, radius = 1 /\n",
+                 1.3); /* all of it */
     expect_steps(SOLID "&material name = 'hard', youngs_modulus = 1e9, density = 4000 /\n" BLOCK
                        " /\n&body shape = 'disc', radius = 0.1, spacing = 0.02, position = 1, 0, material = 'hard' /\n",
                  1.6);
