@@ -84,8 +84,8 @@ static bool parse_set(command *c, const char *text)
 
 static bool set_limit(double *limit, const char *option, const char *number, double unit)
 {
-    return limits_set(limit, number, unit) || refuse("'%s' needs a number above 0%s%s", option,
-                                                     number == NULL ? "" : ", got ", number == NULL ? "" : number);
+    return limit_set(limit, number, unit) || refuse("'%s' needs a number above 0%s%s", option,
+                                                    number == NULL ? "" : ", got ", number == NULL ? "" : number);
 }
 
 static bool parse_memory(command *c, const char *number)
@@ -145,7 +145,7 @@ static bool parse_all(command *c, char **argv)
 exit_code command_parse(command *c, int argc, char **argv)
 {
     const size_t n = (size_t)argc + 1;
-    *c = (command){.action = COMMAND_RUN, .outdir = ".", .most = limits_default()};
+    *c = (command){.action = COMMAND_RUN, .outdir = ".", .most = limit_default()};
     c->decks = calloc(n, sizeof *c->decks);
     c->settings = calloc(n, sizeof *c->settings);
     if (c->decks != NULL && c->settings != NULL) return parse_all(c, argv + 1) ? EXIT_DONE : EXIT_USAGE;

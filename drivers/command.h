@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "limits.h"
+#include "limit.h"
 #include "outcome.h"
 #include "setting.h"
 

@@ -4,7 +4,7 @@
 #define DEM_ESTIMATE_H
 
 #include "deck.h"
-#include "limits.h"
+#include "limit.h"
 
 typedef struct estimate {
     double nodes, springs; /* about; 0 of bodies of which nothing tells before they are read */

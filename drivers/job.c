@@ -244,7 +244,7 @@ static bool fits(job *j)
     j->most = c->most;
     if (c->action == COMMAND_ECHO)
         j->most.disk = j->most.steps = (double)INFINITY;
-    else if (!isfinite(j->most.disk) && !limits_see_disk(&j->most, c->outdir, j->deck.name))
+    else if (!isfinite(j->most.disk) && !limit_see_disk(&j->most, c->outdir, j->deck.name))
         (void)fprintf(stderr, "%s: warning: the file system does not tell what is free\n", c->outdir);
     return keeps(j, &needed);
 }

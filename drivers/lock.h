@@ -7,9 +7,9 @@
 #include <stddef.h>
 
 typedef enum lock_status {
-    LOCK_HELD,   /* by us, or by nobody where the file system has no locks */
-    LOCK_TAKEN,  /* by another process */
-    LOCK_FAILED  /* the file cannot be created or locked */
+    LOCK_HELD,  /* by us, or by nobody where the file system has no locks */
+    LOCK_TAKEN, /* by another process */
+    LOCK_FAILED /* the file cannot be created or locked */
 } lock_status;
 
 /** To be set to {.file = -1}. */

@@ -14,7 +14,7 @@ LAYERS = [
     {"trail", "audience", "publish"},
     {"record"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
-     "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limits", "file", "words", "image", "outline",
+     "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
      "outcome", "lock", "decimal"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
      "parts", "clearance", "grid", "table", "notes", "pgm", "png", "msh", "crack", "setting", "json"},

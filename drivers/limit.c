@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "limits.h"
+#include "limit.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -25,7 +25,7 @@ static double limit_of_group(const char *root, const char *group)
     return bytes;
 }
 
-double limits_of_groups(const char *root, const char *list)
+double limit_of_groups(const char *root, const char *list)
 {
     char group[4096] = "";
     FILE *file = fopen(list, "r");
@@ -40,11 +40,11 @@ double limits_of_groups(const char *root, const char *list)
     return group[0] != '\0' ? fmin(least, limit_of_group(root, "")) : least;
 }
 
-limits limits_default(void)
+limits limit_default(void)
 {
     struct rlimit space;
     const double machine = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    limits most = {.memory = fmin(machine, limits_of_groups("/sys/fs/cgroup", "/proc/self/cgroup")),
+    limits most = {.memory = fmin(machine, limit_of_groups("/sys/fs/cgroup", "/proc/self/cgroup")),
                    .steps = 1e10,
                    .disk = (double)INFINITY};
     if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
@@ -70,7 +70,7 @@ static bool has_begun(const char *folder, const char *name)
     return found;
 }
 
-bool limits_see_disk(limits *most, const char *folder, const char *name)
+bool limit_see_disk(limits *most, const char *folder, const char *name)
 {
     struct statvfs system;
     if (access(folder, F_OK) != 0 || has_begun(folder, name)) return true; /* no folder: writing will tell */
@@ -79,7 +79,7 @@ bool limits_see_disk(limits *most, const char *folder, const char *name)
     return true;
 }
 
-bool limits_set(double *limit, const char *text, double unit)
+bool limit_set(double *limit, const char *text, double unit)
 {
     char *end = NULL;
     const double value = text != NULL ? strtod(text, &end) : 0.0;
