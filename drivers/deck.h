@@ -21,6 +21,7 @@ typedef enum deck_status {
 typedef struct deck {
     char *path, *source;  /* the file's name and text */
     char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
+    char *course;         /* resolved: what a run that goes on from another must have in common with it */
     uint64_t hash;     /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash; /* the same with every key: the run */
     char *title, *name;

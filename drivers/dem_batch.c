@@ -7,8 +7,9 @@
 #include "job.h"
 #include "preview.h"
 #include "schema.h"
+#include "signals.h"
 
-/* One after the other, whatever becomes of each; the largest code is the worst. */
+/* One after the other, whatever becomes of each, until one is stopped; the largest code is the worst. */
 static exit_code do_all(const command *c)
 {
     outcome found = {0};
@@ -16,7 +17,7 @@ static exit_code do_all(const command *c)
     exit_code worst = EXIT_DONE;
     if (!cases_find(&all, c, &found)) worst = found.code;
     for (size_t k = 0; k < all.n && found.code == EXIT_DONE; k++) {
-        const exit_code code = job_do(c, all.paths[k]);
+        const exit_code code = worst == EXIT_STOPPED ? job_leave(c, all.paths[k]) : job_do(c, all.paths[k]);
         if (code > worst) worst = code;
         (void)fflush(stdout);
     }
@@ -61,6 +62,7 @@ int main(int argc, char **argv)
     command c;
     fill_streams();
     exit_code code = command_parse(&c, argc, argv);
+    signals_catch();
     if (code == EXIT_DONE) code = act(&c);
     command_free(&c);
     const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
