@@ -4,6 +4,7 @@
  * nothing before its record. */
 #include "../verification/support.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,6 +92,33 @@ static void copy_file(const place *p, const char *from, const char *to)
     free(bytes);
     (void)fclose(in);
     (void)fclose(out);
+}
+
+/* ---- names that change ---- */
+
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+int __real_unlink(const char *path);
+int __wrap_unlink(const char *path);
+
+/* Of rename() and unlink(): before that call the process ends, that call fails; 0: none. */
+static int calls, fatal, failing;
+
+static bool is_well(void)
+{
+    if (++calls == fatal) _exit(2);
+    errno = EIO;
+    return calls != failing;
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    return is_well() ? __real_rename(from, to) : -1;
+}
+
+int __wrap_unlink(const char *path)
+{
+    return is_well() ? __real_unlink(path) : -1;
 }
 
 /* ---- a run, from a record to where it is killed ---- */
@@ -709,32 +737,92 @@ static void a_new_run_removes_the_segments_of_an_old_one_and_nothing_else(void *
     close_place(&p);
 }
 
+/* What a kill leaves that hits a run while it removes what it has joined. */
+static void a_whole_stands_for_segments_that_are_gone(void **state)
+{
+    (void)state;
+    place p = open_place();
+    run_quietly(&p);
+    const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
+    copy_file(&p, "run.00001.vtkhdf", "kept");
+    const point b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 0});
+    copy_file(&p, "kept", "run.00001.vtkhdf");
+    const point c = run(&p, "run.vtkhdf", &b, (plan){120, 125, 125});
+    assert_int_equal(count_rows(&p, "run.00001.vtkhdf", "/history/t"), 90);
+    assert_int_equal(count_rows(&p, "run.00002.vtkhdf", "/history/t"), 30);
+    const point d = run(&p, "run.vtkhdf", &c, (plan){0, 0, 0});
+    assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
+    const point all[] = {a, b, c, d};
+    for (int k = 0; k < 4; k++) dem_record_destroy(all[k].record);
+    sweep(&p, "kept");
+    close_place(&p);
+}
+
+/* ---- failures ---- */
+
+static void run_on(const place *p, opened *o, const char *name)
+{
+    assert_ok(dem_simulation_advance(o->simulation, 8 * interval));
+    assert_ok(dem_trajectory_finish(o->trajectory));
+    if (strcmp(name, "run.vtkhdf") != 0) assert_int_equal(rename(name_in(p, "run.vtkhdf"), name_in(p, name)), 0);
+    close_run(o);
+}
+
+/* Without or with rows behind the record, each renaming in turn; then it works, or is not tried again. */
+static void a_segment_that_fails_changes_nothing(void **state)
+{
+    (void)state;
+    place p = open_place();
+    const dem_trajectory_options options = everything();
+    opened o = open_run(&p, &options);
+    run_on(&p, &o, "quiet.vtkhdf");
+    for (int k = 0; k < 4; k++) {
+        o = open_run(&p, &options);
+        if (k % 2) assert_ok(dem_simulation_advance(o.simulation, 4 * interval));
+        for (failing = 1; failing <= 2; failing++) {
+            calls = 0;
+            assert_int_equal(dem_trajectory_segment(o.trajectory, o.record), DEM_ERROR_IO);
+            assert_says("cannot be renamed to");
+            assert_false(has(&p, "run.00001.vtkhdf") || has(&p, "run.vtkhdf.new") || has(&p, "run.part.vtkhdf.new"));
+            assert_int_equal(count_rows(&p, "run.part.vtkhdf", "/VTKHDF/Steps/Values"), k % 2 ? 5 : 3);
+        }
+        failing = 0;
+        if (k < 2) assert_ok(dem_trajectory_segment(o.trajectory, o.record));
+        assert_int_equal(has(&p, "run.00001.vtkhdf"), k < 2);
+        run_on(&p, &o, "run.vtkhdf");
+        assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
+    }
+    close_place(&p);
+}
+
+static void a_finish_that_failed_works_the_second_time(void **state)
+{
+    (void)state;
+    place p = open_place();
+    dem_peaks *peaks;
+    dem_trajectory_options options = everything();
+    assert_ok(dem_peaks_create(&peaks, p.model, 1));
+    options.peaks = peaks;
+    opened o = open_run(&p, &options);
+    run_on(&p, &o, "quiet.vtkhdf");
+    for (int segmented = 0; segmented < 2; segmented++) {
+        o = open_run(&p, &options);
+        if (segmented) assert_ok(dem_trajectory_segment(o.trajectory, o.record));
+        assert_ok(dem_simulation_advance(o.simulation, 8 * interval));
+        calls = 0, failing = 1;
+        assert_int_equal(dem_trajectory_finish(o.trajectory), DEM_ERROR_IO);
+        assert_says("cannot be renamed to");
+        assert_false(has(&p, "run.vtkhdf"));
+        failing = 0;
+        run_on(&p, &o, "run.vtkhdf");
+        assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
+        sweep(&p, "run.vtkhdf");
+    }
+    dem_peaks_destroy(peaks);
+    close_place(&p);
+}
+
 /* ---- killed whenever a name changes ---- */
-
-int __real_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to);
-int __real_unlink(const char *path);
-int __wrap_unlink(const char *path);
-
-/* The process ends before that call of rename() or unlink(); 0: before none. */
-static int calls, fatal;
-
-static void count_call(void)
-{
-    if (++calls == fatal) _exit(2);
-}
-
-int __wrap_rename(const char *from, const char *to)
-{
-    count_call();
-    return __real_rename(from, to);
-}
-
-int __wrap_unlink(const char *path)
-{
-    count_call();
-    return __real_unlink(path);
-}
 
 static const plan first = {20, 24, 30}, second = {40, 40, 0};
 static const double short_end = 9e-4;
@@ -864,6 +952,9 @@ int main(void)
         cmocka_unit_test(a_segment_that_is_not_right_is_named),
         cmocka_unit_test(a_record_that_no_segment_ends_at_is_refused),
         cmocka_unit_test(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else),
+        cmocka_unit_test(a_whole_stands_for_segments_that_are_gone),
+        cmocka_unit_test(a_segment_that_fails_changes_nothing),
+        cmocka_unit_test(a_finish_that_failed_works_the_second_time),
         cmocka_unit_test(a_kill_between_two_names_loses_nothing),
         cmocka_unit_test(a_run_goes_on_from_the_records_of_its_simulation),
     };
