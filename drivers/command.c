@@ -22,12 +22,16 @@ static const char usage[] =
     "times\n"
     "  --index N              take only the N-th deck, from 1: for job arrays\n"
     "  --overwrite            rename output of another problem that is in the way to NAME.old\n"
+    "  --max-memory GB        refuse what takes more (default: the memory of the machine)\n"
+    "  --max-steps N          refuse what takes more (default: 1e10)\n"
+    "  --max-disk GB          refuse what takes more (default: what is free)\n"
+    "  --max-wall SECONDS     end with a checkpoint, exit code 75; the same command goes on\n"
     "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600)\n"
-    "  --max-wall SECONDS             end with a checkpoint, exit code 75; the same command goes on\n"
-    "  --resume-anyway                go on from a checkpoint of another version: not to the same bits\n"
+    "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
     "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT and SIGXCPU end as --max-wall does\n"
-    "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, 6 out of memory, 7 the output\n"
-    "            belongs to another problem or process, 75 stopped, run me again; of several decks the largest\n";
+    "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
+    "            6 out of memory, or over --max-memory or --max-steps, 7 the output belongs to another problem or\n"
+    "            process, 75 stopped, run me again; of several decks the largest\n";
 
 typedef struct action_word {
     const char *word;
@@ -105,14 +109,34 @@ static bool parse_set(command *c, const char *text)
     return true;
 }
 
+static bool set_limit(double *limit, const char *option, const char *number, double unit)
+{
+    return limit_set(limit, number, unit) || refuse("'%s' needs a number above 0%s%s", option,
+                                                    number == NULL ? "" : ", got ", number == NULL ? "" : number);
+}
+
+static bool parse_memory(command *c, const char *number)
+{
+    return set_limit(&c->most.memory, "--max-memory", number, 1e9);
+}
+
+static bool parse_steps(command *c, const char *number)
+{
+    return set_limit(&c->most.steps, "--max-steps", number, 1.0);
+}
+
+static bool parse_disk(command *c, const char *number)
+{
+    return set_limit(&c->most.disk, "--max-disk", number, 1e9);
+}
+
 static const struct {
     const char *word;
     bool (*parse)(command *c, const char *value);
-} options[] = {{"--outdir", parse_outdir},
-               {"--index", parse_index},
-               {"--set", parse_set},
-               {"--checkpoint-interval", parse_interval},
-               {"--max-wall", parse_max_wall}};
+} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},
+               {"--set", parse_set},           {"--max-memory", parse_memory},
+               {"--max-steps", parse_steps},   {"--max-disk", parse_disk},
+               {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
 
 /* ---- words ---- */
 
@@ -152,6 +176,7 @@ exit_code command_parse(command *c, int argc, char **argv)
     const size_t n = (size_t)argc + 1;
     *c = (command){.action = COMMAND_RUN,
                    .outdir = ".",
+                   .most = limit_default(),
                    .checkpoint_interval = 600.0,
                    .max_wall = (double)INFINITY,
                    .wall_start = wall_clock()};

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "limit.h"
 #include "outcome.h"
 #include "setting.h"
 
@@ -24,6 +25,7 @@ typedef struct command {
     command_action action;
     const char *outdir;
     bool overwrite, resume_anyway;
+    limits most;                          /* disk infinite: what is free */
     double checkpoint_interval, max_wall; /* s on the wall */
     double wall_start;                    /* s, of the whole command */
     long index;                           /* of the only deck, from 1; 0: all of them */

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <dem/trajectory.h>
+
 #include "cases.h"
 #include "job.h"
 #include "preview.h"
@@ -61,8 +63,9 @@ int main(int argc, char **argv)
 {
     command c;
     fill_streams();
-    exit_code code = command_parse(&c, argc, argv);
     signals_catch();
+    dem_hdf5_skip_exit();
+    exit_code code = command_parse(&c, argc, argv);
     if (code == EXIT_DONE) code = act(&c);
     command_free(&c);
     const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;

@@ -2,6 +2,7 @@
 /* Read the deck, build, claim the output, run, report. */
 #include "job.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include "checkpoint.h"
 #include "decimal.h"
 #include "deck.h"
+#include "estimate.h"
 #include "lock.h"
 #include "output.h"
 #include "preview.h"
@@ -20,12 +22,11 @@
 #include "signals.h"
 #include "wall.h"
 
-static const double most_steps = 1e10;
-
 typedef struct job {
     const command *command;
     const char *file; /* of the deck */
     deck deck;
+    limits most;
     dem_model *model;
     dem_simulation *simulation;
     char path[OUTPUT_PATH]; /* of the output */
@@ -257,6 +258,8 @@ static bool is_done(job *j, const char *reason)
     output_beside(path, j->path, ".json");
     output_print_hash(hash, j->deck.run_hash);
     char *line = result_read_done(path, hash);
+    output_beside(path, j->path, ".lock");
+    if (line != NULL && j->lock.file < 0) lock_clear(path);
     if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, line);
     j->told = line != NULL;
     free(line);
@@ -265,15 +268,55 @@ static bool is_done(job *j, const char *reason)
 
 /* ---- before the run ---- */
 
-/* Whether the run has an end. */
+static void tell_error(job *j, exit_code code, const namelist_error *e)
+{
+    char where[OUTPUT_PATH + 32];
+    const int line = e->place.line;
+    if (line > 0)
+        (void)snprintf(where, sizeof where, "%s:%d:%d", j->file, line, e->place.column);
+    else if (line == 0)
+        (void)snprintf(where, sizeof where, "%s", j->file);
+    else
+        (void)snprintf(where, sizeof where, "--set %s", j->command->settings[-1 - line].text);
+    outcome_fail(&j->outcome, code, where, "%s", e->text);
+}
+
+static void tell_errors(job *j, exit_code code, namelist_errors *errors)
+{
+    for (size_t k = 0; k < errors->n; k++) tell_error(j, code, &errors->list[k]);
+    namelist_errors_free(errors);
+}
+
+/* Whether a run keeps its limits; tells which it does not. */
+static bool keeps(job *j, const estimate *needed)
+{
+    namelist_errors errors = {0};
+    const estimate_breach breach = estimate_check(needed, &j->most, &j->deck, &errors);
+    tell_errors(j, breach == ESTIMATE_DISK ? EXIT_IO : EXIT_MEMORY, &errors);
+    return breach == ESTIMATE_KEPT;
+}
+
+/* The same, as far as the deck alone tells. */
+static bool fits(job *j)
+{
+    const command *c = j->command;
+    estimate needed;
+    if (!estimate_deck(&needed, &j->deck)) {
+        outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+        return false;
+    }
+    j->most = c->most;
+    if (c->action == COMMAND_ECHO)
+        j->most.disk = j->most.steps = (double)INFINITY;
+    else if (!isfinite(j->most.disk) && !limit_see_disk(&j->most, c->outdir, j->deck.name))
+        (void)fprintf(stderr, "%s: warning: the file system does not tell what is free\n", c->outdir);
+    return keeps(j, &needed);
+}
+
 static bool ends(job *j)
 {
-    const double step = dem_simulation_options(j->simulation).max_step, steps = j->deck.t_end / step;
-    if (steps <= most_steps) return true;
-    outcome_fail(&j->outcome, EXIT_INVALID, j->deck.path,
-                 "t_end = %g s takes at least %.3g steps of %.3g s; the limit is %.0e", j->deck.t_end, steps, step,
-                 most_steps);
-    return false;
+    const estimate needed = estimate_run(&j->deck, j->simulation);
+    return keeps(j, &needed);
 }
 
 /* The model has a copy of the deck's lattice, which is not needed any more. */
@@ -396,28 +439,19 @@ static void check(job *j)
     if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(stdout, &j->deck, j->simulation, NULL);
 }
 
-static void tell_error(job *j, const namelist_error *e)
+static bool succeeded(job *j, deck_status status, namelist_errors *errors)
 {
-    char where[OUTPUT_PATH + 32];
-    const int line = e->place.line;
-    if (line > 0)
-        (void)snprintf(where, sizeof where, "%s:%d:%d", j->file, line, e->place.column);
-    else if (line == 0)
-        (void)snprintf(where, sizeof where, "%s", j->file);
-    else
-        (void)snprintf(where, sizeof where, "--set %s", j->command->settings[-1 - line].text);
-    outcome_fail(&j->outcome, EXIT_INVALID, where, "%s", e->text);
+    if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+    tell_errors(j, EXIT_INVALID, errors);
+    return status == DECK_OK;
 }
 
 static bool read_deck(job *j)
 {
     namelist_errors errors = {0};
     const command *c = j->command;
-    const deck_status status = deck_read_with(&j->deck, j->file, c->settings, c->n_settings, &errors);
-    if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
-    for (size_t k = 0; k < errors.n; k++) tell_error(j, &errors.list[k]);
-    namelist_errors_free(&errors);
-    return status == DECK_OK;
+    if (!succeeded(j, deck_parse(&j->deck, j->file, c->settings, c->n_settings, &errors), &errors)) return false;
+    return fits(j) && succeeded(j, deck_build(&j->deck, &errors), &errors);
 }
 
 static bool find_path(job *j)

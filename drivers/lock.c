@@ -52,10 +52,13 @@ lock_status lock_take(lock *l, const char *path, char *why, size_t size)
             (void)snprintf(why, size, "cannot be created (%s)", strerror(errno));
             return LOCK_FAILED;
         }
-        if (fcntl(file, F_SETLK, &whole) != 0 && !is_unsupported(errno)) {
-            read_holder(file, why, size);
+        const int error = fcntl(file, F_SETLK, &whole) != 0 ? errno : 0;
+        if (error != 0 && !is_unsupported(error)) {
+            const bool taken = error == EACCES || error == EAGAIN;
+            if (taken) read_holder(file, why, size);
+            if (!taken) (void)snprintf(why, size, "cannot be locked (%s)", strerror(error));
             (void)close(file);
-            return LOCK_TAKEN;
+            return taken ? LOCK_TAKEN : LOCK_FAILED;
         }
         if (is_at(file, path)) {
             l->file = file;
@@ -64,6 +67,13 @@ lock_status lock_take(lock *l, const char *path, char *why, size_t size)
         }
         (void)close(file);
     }
+}
+
+void lock_clear(const char *path)
+{
+    char why[128];
+    lock l;
+    if (access(path, F_OK) == 0 && lock_take(&l, path, why, sizeof why) == LOCK_HELD) lock_release(&l);
 }
 
 void lock_release(lock *l)

@@ -7,9 +7,9 @@
 #include <stddef.h>
 
 typedef enum lock_status {
-    LOCK_HELD,   /* by us, or by nobody where the file system has no locks */
-    LOCK_TAKEN,  /* by another process */
-    LOCK_FAILED, /* the file cannot be created */
+    LOCK_HELD,  /* by us, or by nobody where the file system has no locks */
+    LOCK_TAKEN, /* by another process */
+    LOCK_FAILED /* the file cannot be created or locked */
 } lock_status;
 
 /** To be set to {.file = -1}. */
@@ -23,5 +23,8 @@ lock_status lock_take(lock *l, const char *path, char *why, size_t size);
 
 /** Removes the file and lets go, if it is held. */
 void lock_release(lock *l);
+
+/** Removes a file that a process has left behind which was killed. */
+void lock_clear(const char *path);
 
 #endif

@@ -46,8 +46,8 @@ static void write_case(json *j, const result *r)
     json_text(j, "versions", versions);
     if (r->read == NULL) return;
     json_text(j, "title", r->read->title);
-    write_hash(j, "problem", r->read->hash);
-    write_hash(j, "run", r->read->run_hash);
+    if (r->read->echo != NULL) write_hash(j, "problem", r->read->hash);
+    if (r->read->echo != NULL) write_hash(j, "run", r->read->run_hash);
     json_real(j, "t_end", r->read->t_end);
 }
 

@@ -6,7 +6,8 @@
 #include <stdbool.h>
 
 /** From now on SIGTERM, SIGINT and SIGXCPU ask for the end, SIGUSR1 for a checkpoint; what whoever started the program
- *  wants ignored stays so. A pipe without reader and a file that may not grow are errors of the write, no more. */
+ *  wants ignored stays so. Without a reader of its log a run goes on all the same, and a limit on file sizes is a full
+ *  disk. */
 void signals_catch(void);
 
 /** The name of the signal that asked for the end; NULL: none has. */

@@ -208,12 +208,21 @@ static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *
     return u->status == DEM_OK ? 0 : -1;
 }
 
+/* Leaves HDF5 as it was found. */
+static void restore(const hdf5_file *file)
+{
+    (void)H5PLset_loading_state(file->plugins);
+    (void)H5Eset_auto2(H5E_DEFAULT, file->report, file->report_data);
+}
+
 static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
 {
     hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
     dem_status status = DEM_OK;
     (void)H5Eget_auto2(H5E_DEFAULT, &file.report, &file.report_data);
     (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    (void)H5PLget_loading_state(&file.plugins);
+    (void)H5PLset_loading_state(0);
     const hid_t how = make_access();
     if (access == H5F_ACC_TRUNC)
         file.id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, how);
@@ -224,7 +233,7 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
     if (status == DEM_OK)
         *out = file;
     else
-        (void)H5Eset_auto2(H5E_DEFAULT, file.report, file.report_data);
+        restore(&file);
     return status;
 }
 
@@ -302,7 +311,7 @@ dem_status hdf5_close(hdf5_file *file, dem_status status)
 {
     if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be flushed");
     if (H5Fclose(file->id) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be closed");
-    (void)H5Eset_auto2(H5E_DEFAULT, file->report, file->report_data);
+    restore(file);
     return status;
 }
 

@@ -12,12 +12,14 @@
 /** Number types. In memory HDF5_F32 is double too, HDF5_I8 is int64_t; the others are what they say. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
 
-/** An open file. HDF5's own error printing is off in this thread from its opening to its closing. */
+/** An open file. From its opening to its closing HDF5's own error printing is off in this thread, and in this process
+ *  the loading of plugins, which are programs that a file names. */
 typedef struct hdf5_file {
     hid_t id;
     const char *path;
     H5E_auto2_t report; /**< the printing to restore */
     void *report_data;
+    unsigned plugins; /**< the loading to restore */
 } hdf5_file;
 
 /** A dataset that grows in its first dimension. */
@@ -39,8 +41,7 @@ typedef struct hdf5_span {
 dem_status hdf5_open_read(hdf5_file *out, const char *path);
 
 /** Opens to add up to about `bytes`, which it makes sure there is room for: a full disk found out by HDF5 1.10 itself
- *  leaves a file that cannot be opened any more, and crashes the process at its exit. Takes no lock, so that looking at
- *  the file does not stop a run. */
+ *  leaves a file that cannot be opened any more. Takes no lock, so that looking at the file does not stop a run. */
 dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 
 /** The same with an empty file, replacing an older one. */

@@ -334,6 +334,11 @@ dem_status dem_trajectory_read_note(const char *path, const char *name, char *te
     return hdf5_close(&file, hdf5_read_text(&file, full, text, size));
 }
 
+void dem_hdf5_skip_exit(void)
+{
+    (void)H5dont_atexit();
+}
+
 const char *dem_version_hdf5(void)
 {
     static _Thread_local char version[32];

@@ -120,6 +120,14 @@ DEM_API dem_status dem_trajectory_read_note(const char *path, const char *name, 
  *  \return DEM_ERROR_IO with the file, dataset and reason; DEM_ERROR_MODEL for inconsistent extents */
 DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);
 
+/** How large the lattice of such a file is: the same checks, but for those of its numbers, which are not read.
+ *  \return as dem_lattice_read() */
+DEM_API dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *n_springs);
+
+/** For a program that uses HDF5 through this library only, as its first call of it: HDF5 then does not clean up at the
+ *  exit of the process, where version 1.10 crashes if a file could not be written or closed. By then all are closed. */
+DEM_API void dem_hdf5_skip_exit(void);
+
 /** Version of the HDF5 library in use, "MAJOR.MINOR.PATCH". */
 DEM_API const char *dem_version_hdf5(void);
 

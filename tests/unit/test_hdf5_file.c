@@ -590,6 +590,32 @@ static void hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards(void
     assert_true(H5Eset_auto2(H5E_DEFAULT, kept, kept_data) >= 0);
 }
 
+static unsigned plugins(void)
+{
+    unsigned loaded = 99;
+    assert_true(H5PLget_loading_state(&loaded) >= 0);
+    return loaded;
+}
+
+static void no_plugin_is_loaded_while_a_file_is_open(void **state)
+{
+    (void)state;
+    static const unsigned before[] = {H5PL_ALL_PLUGIN, 0};
+    for (int k = 0; k < 2; k++) {
+        hdf5_file file;
+        assert_true(H5PLset_loading_state(before[k]) >= 0);
+        const unsigned kept = plugins();
+        assert_int_equal(hdf5_open_read(&file, path), DEM_ERROR_IO);
+        assert_int_equal(plugins(), kept);
+        file = open_new();
+        assert_int_equal(plugins(), 0);
+        finish(&file);
+        assert_int_equal(plugins(), kept);
+        assert_int_equal(unlink(path), 0);
+    }
+    assert_true(H5PLset_loading_state(H5PL_ALL_PLUGIN) >= 0);
+}
+
 /* ---- publishing ---- */
 
 static void fill(const char *text)
@@ -736,6 +762,7 @@ int main(void)
         CASE(without_room_a_file_stays_as_it_was),
         CASE(closing_passes_a_failure_on),
         CASE(hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards),
+        CASE(no_plugin_is_loaded_while_a_file_is_open),
         CASE(equal_data_makes_equal_files),
         CASE(publishing_renames_and_replaces),
         CASE(what_cannot_be_read_back_is_not_published),

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Memory runs out anywhere in the process, HDF5 and SUNDIALS included: `test_allocations.py FAULTY DEM_BATCH [long]`.
+
+Our own code ends with exit code 6, or 5 where a file could not be written for want of memory, or goes on where a library
+could do without. Libraries may crash, or end the process: that is counted by library, and must cost no data. Whatever
+happens, what is published can be read, and the same command gives the data of an undisturbed run.
+`long`: each allocation once, and every tenth from then on."""
+import collections
+import sys
+import tempfile
+
+import machine
+import outputs
+from decks import OPTIONS, TINY
+
+SEED = 20261121
+SHARE = 0.0003  # of the allocations, by default
+CODES = (machine.DONE, machine.IO, machine.MEMORY)
+LIBRARIES = ("libhdf5", "libsundials", "libgsl", "libgomp", "libc.so")
+
+
+class Trials:
+    def __init__(self, problem, start):
+        self.problem, self.start = problem, start
+        self.crashes = collections.Counter()  # by library and function
+
+    def run(self, **faults):
+        with self.problem.folder(self.start) as folder, tempfile.NamedTemporaryFile("r") as crash:
+            before, saved = machine.names_in(folder), outputs.checkpoints(folder)
+            result = self.problem.run(folder, fail="memory", crash=crash.name, **faults)
+            culprit = crash.read().strip()
+            wrong = ["the checkpoint is lost"] if saved and not outputs.checkpoints(folder) else []
+            if culprit == "" and result.code in CODES:
+                wrong += self.problem.faults_after(folder, result, CODES, before)
+                return faults, (f"exit {result.code}", wrong)
+            self.crashes[culprit] += 1
+            wrong += [] if culprit.startswith(LIBRARIES) else [f"exit code {result.code} by {culprit or 'our code'}"]
+            wrong += outputs.faults_of_files(folder) + self.problem.faults_of_next_run(folder)
+            return faults, ("ended by a library", wrong)
+
+
+def run_out(report, problem, share, start, named):
+    n = problem.counts(start)["memory"]
+    trials = Trials(problem, start)
+    report.series(f"{named}, an allocation fails", (trials.run(nth=k) for k in machine.chosen(n, share, SEED)))
+    report.series(f"{named}, allocations fail from then on",
+                  (trials.run(nth=k, how="always") for k in machine.chosen(n, share / 10, SEED + 1)))
+    for culprit, times in trials.crashes.most_common():
+        print(f"    {times} times ended by {culprit}")
+
+
+def main(faulty, program, long):
+    report = machine.Report()
+    problem = machine.Problem(machine.Machine(faulty, program), TINY, *OPTIONS)
+    share = 1 if long else SHARE
+    run_out(report, problem, share, None, "run")
+    run_out(report, problem, share, problem.begun.name, "resumed run")
+    return report.exit_code()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2], "long" in sys.argv[3:]))
