@@ -346,11 +346,15 @@ void exit(int code)
 static void watch_crashes(void)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-    const struct sigaction action = {.sa_sigaction = name_culprit, .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
+    const struct sigaction action = {.sa_sigaction = name_culprit,
+                                     .sa_flags = SA_SIGINFO | SA_ONSTACK | (int)SA_RESETHAND};
+    static char stack[1 << 16]; /* the process may have run out of its own */
+    const stack_t other = {.ss_sp = stack, .ss_size = sizeof stack};
     void *frame;
     crash_path = getenv("FAULTY_CRASH");
     if (crash_path == NULL) return;
     (void)backtrace(&frame, 1); /* allocates when it is called first */
+    (void)sigaltstack(&other, NULL);
     for (size_t k = 0; k < sizeof fatal / sizeof fatal[0]; k++) (void)sigaction(fatal[k], &action, NULL);
 }
 
