@@ -13,7 +13,10 @@ typedef enum output_state {
     OUTPUT_TAKEN /* something else is there */
 } output_state;
 
-enum { OUTPUT_HASH = 20 }; /* bytes of a hash as text, with some to spare */
+enum {
+    OUTPUT_PATH = 4096, /* bytes of a path */
+    OUTPUT_HASH = 20    /* of a hash as text, with some to spare */
+};
 
 /** A hash as it stands in /provenance. */
 void output_print_hash(char text[OUTPUT_HASH], uint64_t hash);
@@ -21,7 +24,14 @@ void output_print_hash(char text[OUTPUT_HASH], uint64_t hash);
 /** Folder and name to the path of NAME.vtkhdf; false if it does not fit. */
 bool output_path(char *path, size_t size, const char *folder, const char *name);
 
+/** The path of a file beside it: with another end than ".vtkhdf". */
+void output_beside(char out[OUTPUT_PATH], const char *path, const char *end);
+
 /** Looks at what lies at `path` and at its part; `reason` says in words what was found. */
 output_state output_claim(const char *path, const deck *d, char *reason, size_t size);
+
+/** Renames every file of the output at `path` from NAME... to NAME.old..., or to NAME.old2... and so on if there are
+ *  such files; `reason` says what failed, or the new name. */
+bool output_set_aside(const char *path, char *reason, size_t size);
 
 #endif

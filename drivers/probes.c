@@ -74,6 +74,14 @@ void probes_check(const schema_deck *groups, namelist_errors *errors)
     }
 }
 
+void probes_drop_unused(schema_deck *groups)
+{
+    for (size_t i = 0; i < groups->n_instances; i++) {
+        schema_instance *probe = &groups->instances[i];
+        if (strcmp(probe->group->name, "probe") == 0 && schema_given(probe, "number")) schema_drop(probe, "body");
+    }
+}
+
 /* ---- what is nearest ---- */
 
 static double distance(const double *a, const double *b)

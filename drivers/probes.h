@@ -11,6 +11,9 @@
 /* What can be said without geometry. */
 void probes_check(const schema_deck *groups, namelist_errors *errors);
 
+/* Takes the default of 'body' away where a probe is found by its number: stated, it is a fault. */
+void probes_drop_unused(schema_deck *groups);
+
 /* Finds what is probed, for a deck without faults; faults are appended to `errors`. Returns false only when memory runs
  * out. Free with probes_free in any case.
  * \param[out] out     [number of &probe groups]

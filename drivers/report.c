@@ -14,8 +14,7 @@
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
 
-/* Velocity of the centre of mass of all bodies against gravity, m/s: upwards. */
-static double rising_speed(const dem_simulation *simulation)
+double report_rising_speed(const dem_simulation *simulation)
 {
     const dem_options options = dem_simulation_options(simulation);
     const double g = hypot(options.gravity[0], options.gravity[1]);
@@ -82,11 +81,11 @@ static void follow_contact(report *r, const dem_simulation *simulation, const de
     if (!contact) return;
     const dem_options options = dem_simulation_options(simulation);
     const double fallen = hypot(options.gravity[0], options.gravity[1]) * (state->t - r->last_contact);
-    r->speed_after = rising_speed(simulation) + fallen; /* since the last contact in the step it is in free flight */
+    r->speed_after =
+        report_rising_speed(simulation) + fallen; /* since the last contact in the step it is in free flight */
 }
 
-/* What the ledger has gained, over the largest energy so far. */
-static double closure_of(const report *r, dem_energy e)
+double report_closure(const report *r, dem_energy e)
 {
     return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
 }
@@ -96,10 +95,10 @@ static double closure_of(const report *r, dem_energy e)
 static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
-    if (r->warned || state->t < r->settled || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
+    if (r->warned || state->t < r->settled || !(fabs(report_closure(r, state->energy)) > r->closure)) return;
     r->warned = true;
     (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
-                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t,
+                  r->terminal ? "\n" : "", report_closure(r, state->energy), state->t,
                   fixed ? "shorter step" : "smaller 'rtol'");
 }
 
@@ -126,8 +125,8 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
     (void)fprintf(r->out,
                   "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
                   r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps,
-                  (long long)state->n_contacts, closure_of(r, state->energy), (double)counts.steps / fmax(spent, 1e-9),
-                  spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
+                  (long long)state->n_contacts, report_closure(r, state->energy),
+                  (double)counts.steps / fmax(spent, 1e-9), spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
     (void)fflush(r->out);
 }
 
@@ -174,7 +173,7 @@ static void print_contact(const report *r, const dem_simulation *simulation)
     (void)fprintf(
         r->out,
         "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at t_end\n",
-        r->speed_after, rising_speed(simulation));
+        r->speed_after, report_rising_speed(simulation));
 }
 
 static void print_strain(const report *r)
@@ -240,7 +239,7 @@ static void print_ledger(const report *r, dem_energy e)
     print_taken(r->out, "damping", e.damping);
     (void)fprintf(r->out, " - projection %.3g", e.projection);
     if (e.boundary != 0.0) (void)fprintf(r->out, " - put in by boundaries %.4g", e.boundary);
-    (void)fprintf(r->out, "; closure %+.2e\n", closure_of(r, e));
+    (void)fprintf(r->out, "; closure %+.2e\n", report_closure(r, e));
 }
 
 static void print_energy(const report *r, dem_energy e)

@@ -43,4 +43,10 @@ dem_observer report_observer(report *r);
  *  counts, wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
 
+/** What the ledger has gained, over the largest energy so far. */
+double report_closure(const report *r, dem_energy e);
+
+/** Velocity of the centre of mass of all bodies against gravity, m/s. */
+double report_rising_speed(const dem_simulation *simulation);
+
 #endif

@@ -2,6 +2,8 @@
 /* What is printed from the table: the resolved echo, the template and the reference of all keys. */
 #include "schema.h"
 
+#include "decimal.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,19 +17,6 @@ enum {
 static const char *const type_names[] = {"real", "integer", "logical", "string", "string"};
 
 /* ---- echo ---------------------------------------------------------------------------------------------------- */
-
-/* The fewest digits that read back to the same bits, also where "-0" is an integer. */
-static void format_real(char out[32], double x)
-{
-    if (x == 0 && signbit(x)) {
-        (void)snprintf(out, 32, "-0.0");
-        return;
-    }
-    for (int digits = 15; digits <= 17; digits++) {
-        (void)snprintf(out, 32, "%.*g", digits, x);
-        if (strtod(out, NULL) == x) return;
-    }
-}
 
 static int print_string(FILE *file, const char *text)
 {
@@ -44,7 +33,7 @@ static int print_string(FILE *file, const char *text)
 /* Returns the number of characters written. */
 static int print_value(FILE *file, const schema_key *key, const schema_value *value, int k)
 {
-    char number[32];
+    char number[DECIMAL_SIZE];
     switch (key->type) {
     case SCHEMA_STRING:
     case SCHEMA_CHOICE:
@@ -56,7 +45,7 @@ static int print_value(FILE *file, const schema_key *key, const schema_value *va
     case SCHEMA_REAL:
         break;
     }
-    format_real(number, value->reals[k]);
+    decimal_print(number, value->reals[k]);
     return fprintf(file, "%s", number);
 }
 

@@ -36,11 +36,15 @@ typedef enum dem_friction_law {
  *  the first. The ends of an open one are free: what has passed round an end may come back from behind, unhindered. */
 typedef struct dem_obstacle {
     dem_index n_points;   /**< >= 2 */
-    const double *points; /**< [n_points][2], m; consecutive points distinct */
+    const double *points; /**< [n_points][2], m; from one to the next a length that can be squared */
     double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
 } dem_obstacle;
+
+/** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
+ *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
+DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);
 
 /** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
 typedef struct dem_csr {

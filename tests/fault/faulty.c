@@ -12,8 +12,8 @@
  *    FAULTY_STACKS  a file that gets, for each allocation, 8 bytes: a hash of its eight innermost callers
  *    FAULTY_CRASH   a file that gets the library and the function where a signal, or exit(), ended the process
  *
- * Allocations are those of the whole process, from main() on. The other calls are caught where they enter the system, so
- * that no library's way round the C library is missed; those count that name a file by a relative path, or a
+ * Allocations are those of the whole process, from main() on. The other calls are caught where they enter the system,
+ * so that no library's way round the C library is missed; those count that name a file by a relative path, or a
  * descriptor that was opened by one, so the program's own files and nothing of /proc, say. */
 #define _GNU_SOURCE /* REG_RAX, syscall() */
 

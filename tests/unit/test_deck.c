@@ -228,6 +228,19 @@ static void faults_of_probes_come_with_the_others(void **state)
                   "4:20: probe 'a': there is no such node; they are numbered from 0, and there are 19\n");
 }
 
+/* The echo once stated the default of 'body' for a probe by number, which is not used there. */
+static void the_echo_of_a_probe_by_number_is_a_deck(void **state)
+{
+    (void)state;
+    deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
+                                  "&probe name = 'a', number = 1 /\n");
+    deck again = good_deck(d.echo);
+    assert_non_null(strstr(d.echo, "    ! body = (not given)\n    number = 1\n"));
+    assert_int_equal(again.run_hash, d.run_hash);
+    deck_free(&again);
+    deck_free(&d);
+}
+
 static void a_window_of_zero_is_not_the_default(void **state)
 {
     (void)state;
@@ -583,6 +596,16 @@ static void keys_of_another_profile_are_refused(void **state)
                   "'rough'?)\n");
 }
 
+/* Their extent was once asked for all the same. */
+static void a_profile_without_points_lacks_them(void **state)
+{
+    (void)state;
+    expect_errors(RUN RUBBER LIFTED "&obstacle profile = 'smooth', resolution = 1 /\n"
+                                    "&obstacle points = 0, profile = 'smooth', resolution = 1 /\n",
+                  "4:1: 'points' in &obstacle must be given\n"
+                  "5:11: 'points' in &obstacle expects at least 4 values, got 1\n");
+}
+
 #define SMOOTH "profile = 'smooth'"
 #define ROUGH  "profile = 'rough', roughness = 1e-3, correlation = 0.1"
 
@@ -909,6 +932,7 @@ int main(void)
         cmocka_unit_test(what_the_output_shows_finds_its_place),
         cmocka_unit_test(a_probe_s_place_moves_with_the_clearance),
         cmocka_unit_test(faults_of_probes_come_with_the_others),
+        cmocka_unit_test(the_echo_of_a_probe_by_number_is_a_deck),
         cmocka_unit_test(a_window_of_zero_is_not_the_default),
         cmocka_unit_test(friction_goes_with_its_law),
         cmocka_unit_test(keys_not_given_are_left_to_the_library),
@@ -927,6 +951,7 @@ int main(void)
         cmocka_unit_test(a_smooth_profile_is_compiled_to_segments),
         cmocka_unit_test(a_rough_profile_is_compiled_to_segments),
         cmocka_unit_test(keys_of_another_profile_are_refused),
+        cmocka_unit_test(a_profile_without_points_lacks_them),
         cmocka_unit_test(profiles_that_cannot_be_compiled_are_named),
         cmocka_unit_test(a_profile_of_endless_segments_is_refused),
         cmocka_unit_test(faults_of_syntax_keys_and_meaning_come_together_sorted),
