@@ -185,7 +185,8 @@ static void put_boundary(bytes *from, scene *sc)
 
 typedef struct judge {
     const scene *scene;
-    double deepest, error, start, most; /* m; allowed of an energy; J, the ledger at first, the largest of its sums */
+    double deepest, error; /* m; share of the energy that may be wrong */
+    double start, most;    /* J, the ledger at first, and the largest of its sums so far */
     long steps;
     int adaptive, round; /* nodes have passed an end of a wall: they may be behind it */
 } judge;
@@ -243,7 +244,7 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
 }
 
 /* An accepted state is as deep as the skin and what rounding adds, an interpolated one as far off as the method is; in
- * fixed steps that is not controlled. */
+ * fixed steps that is not controlled. A contact that turns back twice within a step may rub the wrong way between. */
 static judge make_judge(const scene *sc, const dem_simulation *simulation)
 {
     const dem_options o = dem_simulation_options(simulation);
@@ -251,7 +252,7 @@ static judge make_judge(const scene *sc, const dem_simulation *simulation)
     require(dem_method_describe(&traits, o.method) == DEM_OK);
     return (judge){.scene = sc,
                    .deepest = 5.0 * o.skin + (traits.adaptive ? 0.0 : 1e-2 * o.spacing),
-                   .error = traits.adaptive ? 10.0 * o.rtol : 1e-2,
+                   .error = traits.adaptive ? 1e-4 : 1e-2,
                    .start = dem_energy_ledger(dem_simulation_energy(simulation)),
                    .adaptive = traits.adaptive};
 }
