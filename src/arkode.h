@@ -71,7 +71,6 @@ static inline void arkode_free_controller(arkode_controller c)
 #define ARKodeGetCurrentTime        ERKStepGetCurrentTime
 #define ARKodeGetDky                ERKStepGetDky
 #define ARKodeGetNumErrTestFails    ERKStepGetNumErrTestFails
-#define ARKodeGetReturnFlagName     ERKStepGetReturnFlagName
 #define ARKodeReset                 ERKStepReset
 #define ARKodeRootInit              ERKStepRootInit
 #define ARKodeSetErrorBias          ERKStepSetErrorBias

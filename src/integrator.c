@@ -291,14 +291,23 @@ static dem_status retry(integrator *I, double *h)
     return integrator_restart(I, I->t, vector_values(I->y0));
 }
 
+static const char *cause(const integrator *I, int flag)
+{
+    switch (flag) {
+    case ARK_TOO_MUCH_ACC:
+        return "rounding alone is more than rtol allows";
+    case ARK_ERR_FAILURE:
+        return I->problem.fixed_step > 0.0 ? "it may be too long" : "no step is short enough for rtol";
+    case ARK_RTFUNC_FAIL:
+        return "a guard is not finite";
+    default:
+        return I->message;
+    }
+}
+
 static dem_status fail_step(integrator *I, int flag)
 {
-    char *name = ARKodeGetReturnFlagName(flag);
-    (void)status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails, %s: %s %s", I->t,
-                      I->problem.fixed_step > 0.0 ? "it may be too long" : "rtol may be out of reach",
-                      name != NULL ? name : "", I->message);
-    free(name);
-    return DEM_ERROR_INTEGRATOR;
+    return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
 }
 
 /* From the end of the path handed out. */

@@ -6,7 +6,6 @@ import dataclasses
 import os
 import pathlib
 import random
-import re
 import shutil
 import signal
 import subprocess
@@ -14,12 +13,11 @@ import sys
 import tempfile
 
 import outputs
+import words
 
 SECONDS = 120  # more than any of these runs takes
 DONE, INVALID, NUMERICS, IO, MEMORY, TAKEN, AGAIN = 0, 3, 4, 5, 6, 7, 75
 NOT_CAUGHT = 127
-# Words that are not ours.
-RAW = re.compile(r"HDF5-DIAG|#0\d\d:|HDF5: infinite|SUNDIALS|ARKODE|ERKStep|ARKStep|Assertion|libgomp")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -136,7 +134,7 @@ def faults_of_ending(result, codes):
     lines = result.stderr.splitlines()
     if (len(lines) == 0) != (result.code == DONE):
         faults.append(f"{len(lines)} lines of stderr")
-    faults += [f"not our words: {line}" for line in lines if RAW.search(line) or ": error: " not in line]
+    faults += words.faults(result.stderr)
     return faults and faults + [f"stderr: {result.stderr.strip()}"]
 
 

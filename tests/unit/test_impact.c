@@ -125,6 +125,16 @@ static void a_velocity_outside_the_cone_meets_one_wall_only(void **state)
     check_vector(second, alone.x, alone.y, 0.0);
 }
 
+/* 8e-10 rad apart: what one of them leaves of the velocity runs into the other, by 1.6e-19 of it. */
+static void two_walls_as_good_as_parallel_are_one(void **state)
+{
+    const impact_surface walls[2] = {smooth(4e-10, 1.0, 0.5), smooth(-4e-10, 1.0, 0.5)},
+                         exchanged[2] = {walls[1], walls[0]};
+    (void)state;
+    check_vector(rebound(walls, 2, (vec2){0.0, -1.0}), 6e-10, 0.5, 1e-15);
+    check_vector(rebound(exchanged, 2, (vec2){0.0, -1.0}), -6e-10, 0.5, 1e-15);
+}
+
 /* ---- friction ---- */
 
 /* (eta, mu) and the tangential velocities of the exact case f3 of the verification suite, v = (3, -2). */
@@ -403,6 +413,7 @@ int main(void)
         cmocka_unit_test(a_corner_turns_back_only_what_approaches_each_wall),
         cmocka_unit_test(a_groove_sends_a_velocity_inside_its_cone_straight_back),
         cmocka_unit_test(a_velocity_outside_the_cone_meets_one_wall_only),
+        cmocka_unit_test(two_walls_as_good_as_parallel_are_one),
         cmocka_unit_test(coulomb_friction_takes_up_to_mu_times_the_normal_change_from_what_slides),
         cmocka_unit_test(the_law_of_the_paper_keeps_mu_times_the_tangential_velocity),
         cmocka_unit_test(in_a_corner_friction_acts_where_one_wall_acts_alone),

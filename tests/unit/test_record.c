@@ -2,9 +2,11 @@
 /* record.c and publish.c: entries in memory, and files that are whole or refused. */
 #include "../verification/support.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -201,6 +203,31 @@ static void files_that_are_none_are_refused(void **state)
     dem_record_destroy(record);
 }
 
+/* RLIMIT_FSIZE stands in for a full disk; what is short comes to the disk as the file is closed. */
+static void a_disk_that_is_full_leaves_the_file_of_before(void **state)
+{
+    dem_record *record = make(), *little;
+    struct rlimit kept, small;
+    (void)state;
+    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_ok(dem_record_create(&little));
+    assert_ok(dem_record_put(little, "word", "spring", 5));
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
+    small = kept;
+    small.rlim_cur = 10;
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const dem_status status = dem_record_write(little, FILE_NAME);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    (void)signal(SIGXFSZ, handler);
+    refuse(status, DEM_ERROR_IO, FILE_NAME ".part: cannot be written (File too large)");
+    dem_record_destroy(little);
+    dem_record_destroy(record);
+    assert_ok(dem_record_read(&record, FILE_NAME));
+    check(record);
+    dem_record_destroy(record);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +236,7 @@ int main(void)
         cmocka_unit_test(a_file_holds_all_and_the_one_before_is_kept),
         cmocka_unit_test(damaged_files_are_refused),
         cmocka_unit_test(files_that_are_none_are_refused),
+        cmocka_unit_test(a_disk_that_is_full_leaves_the_file_of_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
