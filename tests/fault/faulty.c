@@ -9,6 +9,7 @@
  *    FAULTY_BUDGET  bytes that the files in the working folder may have together: what does not fit gets ENOSPC
  *    FAULTY_COUNTS  a file that gets the number of each kind of call when the program ends
  *    FAULTY_LOG     a file that gets every call that changes a file, with its data
+ *    FAULTY_STACKS  a file that gets, for each allocation, 8 bytes: a hash of its eight innermost callers
  *    FAULTY_CRASH   a file that gets the library and the function where a signal, or exit(), ended the process
  *
  * Allocations are those of the whole process, from main() on. The other calls are caught where they enter the system,
@@ -58,14 +59,19 @@ static const call calls[] = {
     {SYS_renameat2, RENAME, 1}, {SYS_close, CLOSE, -1},    {SYS_unlink, LINK, 0},       {SYS_unlinkat, LINK, 1},
     {SYS_link, LINK, 0},        {SYS_linkat, LINK, 1},     {SYS_ftruncate, RESIZE, -1}, {SYS_fallocate, RESIZE, -1},
     {SYS_flock, LOCK, -1},      {SYS_fcntl, LOCK, -1}};
-enum { N_CALLS = sizeof calls / sizeof calls[0], N_DESCRIPTORS = 1024, SELF = 64 /* bytes of syscall() */ };
+enum {
+    N_CALLS = sizeof calls / sizeof calls[0],
+    N_DESCRIPTORS = 1024,
+    SELF = 64 /* bytes of syscall() */,
+    CALLERS = 8
+};
 
 static bool active; /* main() has begun */
 static kind failing = N_KINDS;
 static manner how;
 static long nth, error = EIO, budget = -1;
 static const char *counts_path, *crash_path;
-static int log_to = -1;
+static int log_to = -1, stacks_to = -1;
 static char folder[4096];
 static bool watched[N_DESCRIPTORS];
 static atomic_long counted[N_KINDS];
@@ -92,9 +98,20 @@ void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *old, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
+static void keep_stack(void)
+{
+    void *frames[CALLERS + 2]; /* this function and malloc() */
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    const int n = backtrace(frames, CALLERS + 2);
+    for (int k = 0; k < n; k++) hash = (hash ^ (uint64_t)(uintptr_t)frames[k]) * UINT64_C(0x100000001b3);
+    (void)syscall(SYS_write, stacks_to, &hash, sizeof hash);
+}
+
 static bool out_of_memory(void)
 {
-    if (!active || !due(MEMORY)) return false;
+    if (!active) return false;
+    if (stacks_to >= 0) keep_stack();
+    if (!due(MEMORY)) return false;
     if (how == KILL) die();
     errno = ENOMEM;
     return true;
@@ -346,11 +363,13 @@ void exit(int code)
 static void watch_crashes(void)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-    const struct sigaction action = {.sa_sigaction = name_culprit, .sa_flags = SA_SIGINFO | (int)SA_RESETHAND};
-    void *frame;
+    const struct sigaction action = {.sa_sigaction = name_culprit,
+                                     .sa_flags = SA_SIGINFO | SA_ONSTACK | (int)SA_RESETHAND};
+    static char stack[1 << 16]; /* the process may have run out of its own */
+    const stack_t other = {.ss_sp = stack, .ss_size = sizeof stack};
     crash_path = getenv("FAULTY_CRASH");
     if (crash_path == NULL) return;
-    (void)backtrace(&frame, 1); /* allocates when it is called first */
+    (void)sigaltstack(&other, NULL);
     for (size_t k = 0; k < sizeof fatal / sizeof fatal[0]; k++) (void)sigaction(fatal[k], &action, NULL);
 }
 
@@ -394,9 +413,16 @@ static long number(const char *variable, long otherwise)
     return word != NULL ? strtol(word, NULL, 10) : otherwise;
 }
 
+/* Beyond the descriptors that are watched. */
+static int open_aside(const char *path)
+{
+    if (path == NULL) return -1;
+    return fcntl(open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666), F_DUPFD_CLOEXEC, N_DESCRIPTORS);
+}
+
 __attribute__((constructor)) static void begin(void)
 {
-    const char *log = getenv("FAULTY_LOG");
+    void *frame;
     failing = (kind)chosen("FAULTY_FAIL", kind_names, N_KINDS);
     how = (manner)(chosen("FAULTY_HOW", manner_names, N_MANNERS) % N_MANNERS);
     nth = number("FAULTY_NTH", 0);
@@ -404,7 +430,9 @@ __attribute__((constructor)) static void begin(void)
     budget = number("FAULTY_BUDGET", -1);
     counts_path = getenv("FAULTY_COUNTS");
     if (getcwd(folder, sizeof folder) == NULL) _exit(127);
-    if (log != NULL) log_to = fcntl(open(log, O_WRONLY | O_CREAT | O_APPEND, 0666), F_DUPFD_CLOEXEC, N_DESCRIPTORS);
+    log_to = open_aside(getenv("FAULTY_LOG"));
+    stacks_to = open_aside(getenv("FAULTY_STACKS"));
+    (void)backtrace(&frame, 1); /* allocates when it is called first */
     watch_crashes();
     if (!catch_calls()) _exit(127);
     active = true;

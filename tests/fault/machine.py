@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of dem_batch on a machine that fails them (faulty.c), and what has to hold afterwards."""
+import array
 import collections
 import dataclasses
 import os
@@ -85,6 +86,12 @@ class Problem:
             assert result.code == DONE, result
             rows = (row.split() for row in pathlib.Path(counts.name).read_text(encoding="ascii").splitlines())
             return {kind: int(n) for kind, n in rows}
+
+    def stacks(self, start=None):
+        """Of each allocation of a run, who asks for it."""
+        with self.folder(start) as folder, tempfile.NamedTemporaryFile() as stacks:
+            self.run(folder, stacks=stacks.name)
+            return array.array("Q", stacks.read())
 
     # What has to hold; each gives a list of what does not.
 

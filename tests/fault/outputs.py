@@ -14,13 +14,18 @@ import h5py
 HEADER = struct.Struct("<8sIIQQQ")  # of a checkpoint: magic, byte order, format, bytes, entries, checksum
 AT_CHECKSUM = slice(HEADER.size - 8, HEADER.size)
 CHANGING = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")  # when a run began, in /provenance
-TEMPORARY = (".part", ".lock", ".new")
+TEMPORARY = (".part", ".new")
+LOCK = ".lock"  # a file that stays locks nothing
+
+
+def is_temporary(path):
+    return any(mark in path.name for mark in TEMPORARY)
 
 
 def published(folder):
     """The files that a reader may take for whole."""
     paths = (path for path in pathlib.Path(folder).iterdir() if path.name != "deck.nml")
-    return {path.name: path for path in sorted(paths) if not any(mark in path.name for mark in TEMPORARY)}
+    return {path.name: path for path in sorted(paths) if path.suffix != LOCK and not is_temporary(path)}
 
 
 def checkpoints(folder):
@@ -91,7 +96,7 @@ def faults_of_data(folder, reference):
                     for place in (folder, reference))
     faults = [f"{name} is there in one of the runs only" for name in sorted(ours.keys() ^ theirs.keys())]
     faults += [f"{path.name} was left behind" for path in pathlib.Path(folder).iterdir()
-               if any(mark in path.name for mark in TEMPORARY)]
+               if is_temporary(path)]
     for name in sorted(ours.keys() & theirs.keys()):
         faults += (same_hdf5 if name.endswith(".vtkhdf") else same_result)(ours[name], theirs[name])
     return faults
