@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "command.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "wall.h"
 
 static const char usage[] =
     "usage: dem_batch [OPTION]... DECK...          run the decks; NAME.vtkhdf and NAME.json are written for each\n"
@@ -18,13 +21,17 @@ static const char usage[] =
     "  --set GROUP.KEY=VALUE  give a key, spelt as in a deck; GROUP(K).KEY in the K-th such group; any number of "
     "times\n"
     "  --index N              take only the N-th deck, from 1: for job arrays\n"
-    "  --overwrite            rename output of another problem or run that is in the way to NAME.old\n"
+    "  --overwrite            rename output of another problem that is in the way to NAME.old\n"
     "  --max-memory GB        refuse what takes more (default: the memory of the machine)\n"
     "  --max-steps N          refuse what takes more (default: 1e10)\n"
     "  --max-disk GB          refuse what takes more (default: what is free)\n"
+    "  --max-wall SECONDS     end with a checkpoint, exit code 75; the same command goes on\n"
+    "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600)\n"
+    "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
+    "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT and SIGXCPU end as --max-wall does\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
-    "            6 out of memory, or over --max-memory or --max-steps,\n"
-    "            7 the output belongs to another problem or process; of several decks the largest\n";
+    "            6 out of memory, or over --max-memory or --max-steps, 7 the output belongs to another problem or\n"
+    "            process, 75 stopped, run me again; of several decks the largest\n";
 
 typedef struct action_word {
     const char *word;
@@ -73,6 +80,26 @@ static bool parse_index(command *c, const char *number)
     return true;
 }
 
+static bool parse_seconds(double *out, const char *option, const char *text)
+{
+    char *end = NULL;
+    const double seconds = text == NULL ? 0.0 : strtod(text, &end);
+    if (text == NULL || end == text || *end != '\0' || !(seconds > 0.0))
+        return refuse("'%s' needs seconds, > 0%s%s", option, text == NULL ? "" : ", got ", text == NULL ? "" : text);
+    *out = seconds;
+    return true;
+}
+
+static bool parse_interval(command *c, const char *text)
+{
+    return parse_seconds(&c->checkpoint_interval, "--checkpoint-interval", text);
+}
+
+static bool parse_max_wall(command *c, const char *text)
+{
+    return parse_seconds(&c->max_wall, "--max-wall", text);
+}
+
 static bool parse_set(command *c, const char *text)
 {
     if (text == NULL || !setting_parse(&c->settings[c->n_settings], text))
@@ -106,8 +133,10 @@ static bool parse_disk(command *c, const char *number)
 static const struct {
     const char *word;
     bool (*parse)(command *c, const char *value);
-} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},     {"--set", parse_set},
-               {"--max-memory", parse_memory}, {"--max-steps", parse_steps}, {"--max-disk", parse_disk}};
+} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},
+               {"--set", parse_set},           {"--max-memory", parse_memory},
+               {"--max-steps", parse_steps},   {"--max-disk", parse_disk},
+               {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
 
 /* ---- words ---- */
 
@@ -119,10 +148,10 @@ static bool parse_word(command *c, const char *word)
         c->action = action_words[k].action;
         return true;
     }
-    if (strcmp(word, "--overwrite") == 0) {
-        c->overwrite = true;
-        return true;
-    }
+    const bool overwrite = strcmp(word, "--overwrite") == 0, anyway = strcmp(word, "--resume-anyway") == 0;
+    c->overwrite = c->overwrite || overwrite;
+    c->resume_anyway = c->resume_anyway || anyway;
+    if (overwrite || anyway) return true;
     if (word[0] == '-' || word[0] == '\0') return refuse("'%s' is no option", word);
     c->decks[c->n_decks++] = word;
     return true;
@@ -145,7 +174,12 @@ static bool parse_all(command *c, char **argv)
 exit_code command_parse(command *c, int argc, char **argv)
 {
     const size_t n = (size_t)argc + 1;
-    *c = (command){.action = COMMAND_RUN, .outdir = ".", .most = limit_default()};
+    *c = (command){.action = COMMAND_RUN,
+                   .outdir = ".",
+                   .most = limit_default(),
+                   .checkpoint_interval = 600.0,
+                   .max_wall = (double)INFINITY,
+                   .wall_start = wall_clock()};
     c->decks = calloc(n, sizeof *c->decks);
     c->settings = calloc(n, sizeof *c->settings);
     if (c->decks != NULL && c->settings != NULL) return parse_all(c, argv + 1) ? EXIT_DONE : EXIT_USAGE;

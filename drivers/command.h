@@ -24,9 +24,11 @@ typedef enum command_action {
 typedef struct command {
     command_action action;
     const char *outdir;
-    bool overwrite;
-    limits most; /* disk infinite: what is free */
-    long index;  /* of the only deck, from 1; 0: all of them */
+    bool overwrite, resume_anyway;
+    limits most;                          /* disk infinite: what is free */
+    double checkpoint_interval, max_wall; /* s on the wall */
+    double wall_start;                    /* s, of the whole command */
+    long index;                           /* of the only deck, from 1; 0: all of them */
     size_t n_decks, n_settings;
     const char **decks; /* [n_decks] files, and lists with an '@' before their names */
     setting *settings;  /* [n_settings] */

@@ -232,6 +232,13 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && strcmp(text + n - m, end) == 0;
 }
 
+/* As segments of a run do. */
+static bool ends_with_number(const char *text)
+{
+    const char *point = strrchr(text, '.');
+    return point != NULL && strlen(point + 1) >= 5 && strspn(point + 1, "0123456789") == strlen(point + 1);
+}
+
 static void check_name(const schema_instance *output, namelist_errors *errors)
 {
     const schema_value *name = schema_value_of(output, "name");
@@ -240,9 +247,10 @@ static void check_name(const schema_instance *output, namelist_errors *errors)
     if (length == 0 || length > 100 || strchr(text, '/') != NULL || text[0] == '.' || text[0] == '-')
         namelist_errors_add(errors, name->place,
                             "'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'");
-    else if (ends_with(text, ".obstacle") || ends_with(text, ".part"))
+    else if (ends_with(text, ".obstacle") || ends_with(text, ".part") || ends_with_number(text))
         namelist_errors_add(errors, name->place,
-                            "'name' in &output must not end in '.obstacle' or '.part': other files are called so");
+                            "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
+                            "other files are called so");
 }
 
 static void check(const schema_deck *groups, namelist_errors *errors)
@@ -427,7 +435,9 @@ static bool set_texts(deck *d, schema_deck *groups, const char *folder, namelist
     if (!schema_echo(groups, SCHEMA_MARKED, &d->echo)) return false;
     for (size_t k = 0; k < groups->n_instances; k++)
         if (is_file(&groups->instances[k]) && !hash_file(&groups->instances[k], errors)) return false;
-    if (!schema_echo(groups, SCHEMA_PHYSICS, &d->physics) || !schema_echo(groups, SCHEMA_BARE, &bare)) return false;
+    if (!schema_echo(groups, SCHEMA_PHYSICS, &d->physics) || !schema_echo(groups, SCHEMA_COURSE, &d->course) ||
+        !schema_echo(groups, SCHEMA_BARE, &bare))
+        return false;
     d->hash = hash_bytes(offset_basis, d->physics, strlen(d->physics));
     d->run_hash = hash_bytes(offset_basis, bare, strlen(bare));
     free(bare);
@@ -582,6 +592,7 @@ void deck_free(deck *d)
     free(d->source);
     free(d->echo);
     free(d->physics);
+    free(d->course);
     free(d->title);
     free(d->name);
     *d = (deck){0};

@@ -36,6 +36,7 @@ typedef struct deck {
     dem_index most_stressed; /* that are listed */
     /* What deck_build() makes. */
     char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
+    char *course;         /* resolved: what a run that goes on from another must have in common with it */
     uint64_t hash;       /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
     uint64_t run_hash;   /* the same with every key: the run */
     dem_lattice lattice; /* all bodies, in the order of the deck */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The batch driver. Exit codes: README.md. */
 #include <fcntl.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <dem/trajectory.h>
@@ -10,8 +9,9 @@
 #include "job.h"
 #include "preview.h"
 #include "schema.h"
+#include "signals.h"
 
-/* One after the other, whatever becomes of each; the largest code is the worst. */
+/* One after the other, whatever becomes of each, until one is stopped; the largest code is the worst. */
 static exit_code do_all(const command *c)
 {
     outcome found = {0};
@@ -19,7 +19,7 @@ static exit_code do_all(const command *c)
     exit_code worst = EXIT_DONE;
     if (!cases_find(&all, c, &found)) worst = found.code;
     for (size_t k = 0; k < all.n && found.code == EXIT_DONE; k++) {
-        const exit_code code = job_do(c, all.paths[k]);
+        const exit_code code = worst == EXIT_STOPPED ? job_leave(c, all.paths[k]) : job_do(c, all.paths[k]);
         if (code > worst) worst = code;
         (void)fflush(stdout);
     }
@@ -63,8 +63,7 @@ int main(int argc, char **argv)
 {
     command c;
     fill_streams();
-    (void)signal(SIGPIPE, SIG_IGN); /* without a reader of its log a run goes on all the same */
-    (void)signal(SIGXFSZ, SIG_IGN); /* a limit on file sizes is a full disk */
+    signals_catch();
     dem_hdf5_skip_exit();
     exit_code code = command_parse(&c, argc, argv);
     if (code == EXIT_DONE) code = act(&c);

@@ -44,3 +44,12 @@ void outcome_fail_status(outcome *o, dem_status status, const char *where)
 {
     outcome_fail(o, code_of(status), where, "%s", dem_status_message());
 }
+
+void outcome_set(outcome *o, exit_code code, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    o->code = code;
+    (void)vsnprintf(o->message, sizeof o->message, format, arguments);
+    va_end(arguments);
+}

@@ -12,7 +12,8 @@ typedef enum exit_code {
     EXIT_NUMERICS = 4,
     EXIT_IO = 5,
     EXIT_MEMORY = 6,
-    EXIT_TAKEN = 7
+    EXIT_TAKEN = 7,
+    EXIT_STOPPED = 75 /* EX_TEMPFAIL */
 } exit_code;
 
 enum { OUTCOME_MESSAGE = 8192 }; /* bytes: a path and the library's message have room */
@@ -29,5 +30,8 @@ void outcome_fail(outcome *o, exit_code code, const char *where, const char *for
 
 /** The same with the message of a failure of the library. */
 void outcome_fail_status(outcome *o, dem_status status, const char *where);
+
+/** Sets code and message of what is no fault; prints nothing. */
+void outcome_set(outcome *o, exit_code code, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -5,10 +5,13 @@
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include <dem/trajectory.h>
+
+#include "decimal.h"
 
 static const char suffix[] = ".vtkhdf", part_suffix[] = ".part.vtkhdf";
 
@@ -45,29 +48,33 @@ void output_print_hash(char text[OUTPUT_HASH], uint64_t hash)
     (void)snprintf(text, OUTPUT_HASH, "%016llx", (unsigned long long)hash);
 }
 
-output_state output_claim(const char *path, const deck *d, char *reason, size_t size)
+static bool is_later(const char *path, double t_end)
+{
+    char stored[DECIMAL_SIZE];
+    return dem_trajectory_read_note(path, "t_end", stored, sizeof stored) != DEM_OK || strtod(stored, NULL) > t_end;
+}
+
+static output_state look_at_whole(const char *path, const deck *d, char reason[OUTPUT_REASON])
+{
+    const bool same = same_problem(path, d);
+    if (same && same_hash(path, "run", d->run_hash)) {
+        (void)snprintf(reason, OUTPUT_REASON, "this run's result is there");
+        return OUTPUT_DONE;
+    }
+    (void)snprintf(reason, OUTPUT_REASON, "the file exists and belongs to another %s; " OUTPUT_WAY_OUT,
+                   same ? "run of the same problem, with other t_end, title or frames" : "problem");
+    return same && !is_later(path, d->t_end) ? OUTPUT_SHORTER : OUTPUT_TAKEN;
+}
+
+output_state output_claim(const char *path, const deck *d, char reason[OUTPUT_REASON])
 {
     char part[OUTPUT_PATH], problem[32];
     output_beside(part, path, part_suffix);
-    if (access(path, F_OK) == 0) {
-        const bool same = same_problem(path, d);
-        if (same && same_hash(path, "run", d->run_hash)) {
-            (void)snprintf(reason, size, "this run's result is there");
-            return OUTPUT_DONE;
-        }
-        (void)snprintf(
-            reason, size,
-            "the file exists and belongs to another %s; move it away, change 'name' in &output, or use --overwrite",
-            same ? "run of the same problem, with other t_end, title or frames" : "problem");
-        return OUTPUT_TAKEN;
-    }
+    if (access(path, F_OK) == 0) return look_at_whole(path, d, reason);
     /* A part that cannot be read was cut off while it was begun: there is nothing in it. */
     if (access(part, F_OK) == 0 && dem_trajectory_read_note(part, "problem", problem, sizeof problem) == DEM_OK &&
         !same_problem(part, d)) {
-        (void)snprintf(
-            reason, size,
-            "an unfinished run of another problem is in %s; move it away, change 'name' in &output, or use --overwrite",
-            part);
+        (void)snprintf(reason, OUTPUT_REASON, "an unfinished run of another problem is in %s; " OUTPUT_WAY_OUT, part);
         return OUTPUT_TAKEN;
     }
     return OUTPUT_FREE;
@@ -86,7 +93,7 @@ static bool is_segment(const char *end)
 static const char *end_of(const char *file, const char *name)
 {
     static const char *const ends[] = {suffix,  part_suffix,   ".obstacle.vtkhdf", ".obstacle.part.vtkhdf",
-                                       ".json", ".checkpoint", ".checkpoint.prev"};
+                                       ".json", ".checkpoint", ".checkpoint.prev", ".checkpoint.damaged"};
     const size_t n = strlen(name);
     if (strncmp(file, name, n) != 0) return NULL;
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
@@ -103,7 +110,7 @@ static bool is_used(DIR *folder, const char *name)
     return false;
 }
 
-static bool rename_all(DIR *folder, const char *from, const char *to, char *reason, size_t size)
+static bool rename_all(DIR *folder, const char *from, const char *to, char reason[OUTPUT_REASON])
 {
     char name[OUTPUT_PATH + 64];
     const struct dirent *entry;
@@ -114,13 +121,13 @@ static bool rename_all(DIR *folder, const char *from, const char *to, char *reas
         if (end == NULL) continue;
         (void)snprintf(name, sizeof name, "%s%s", to, end);
         if (renameat(at, entry->d_name, at, name) == 0) continue;
-        (void)snprintf(reason, size, "%s cannot be renamed to %s (%s)", entry->d_name, name, strerror(errno));
+        (void)snprintf(reason, OUTPUT_REASON, "%s cannot be renamed to %s (%s)", entry->d_name, name, strerror(errno));
         return false;
     }
     return true;
 }
 
-bool output_set_aside(const char *path, char *reason, size_t size)
+bool output_set_aside(const char *path, char reason[OUTPUT_REASON])
 {
     char stem[OUTPUT_PATH], folder[OUTPUT_PATH] = ".", aside[OUTPUT_PATH + 32];
     output_beside(stem, path, "");
@@ -128,13 +135,13 @@ bool output_set_aside(const char *path, char *reason, size_t size)
     if (slash != NULL) (void)snprintf(folder, sizeof folder, "%.*s", (int)(slash - stem) + 1, stem);
     DIR *files = opendir(folder);
     if (files == NULL) {
-        (void)snprintf(reason, size, "%s: %s", folder, strerror(errno));
+        (void)snprintf(reason, OUTPUT_REASON, "%s: %s", folder, strerror(errno));
         return false;
     }
     (void)snprintf(aside, sizeof aside, "%s.old", name);
     for (int k = 2; is_used(files, aside); k++) (void)snprintf(aside, sizeof aside, "%s.old%d", name, k);
-    (void)snprintf(reason, size, "%s%s", aside, suffix);
-    const bool good = rename_all(files, name, aside, reason, size);
+    (void)snprintf(reason, OUTPUT_REASON, "%s%s", aside, suffix);
+    const bool good = rename_all(files, name, aside, reason);
     (void)closedir(files);
     return good;
 }

@@ -18,7 +18,7 @@ enum { MOST_LINE = 64 << 20 }; /* bytes: obstacles and boundaries are listed */
 
 static const char *status_of(const outcome *o)
 {
-    return o->code == EXIT_DONE ? "done" : "failed";
+    return o->code == EXIT_DONE ? "done" : (o->code == EXIT_STOPPED ? "stopped" : "failed");
 }
 
 /* ---- the fields ---- */
@@ -46,8 +46,8 @@ static void write_case(json *j, const result *r)
     json_text(j, "versions", versions);
     if (r->read == NULL) return;
     json_text(j, "title", r->read->title);
-    write_hash(j, "problem", r->read->hash);
-    write_hash(j, "run", r->read->run_hash);
+    if (r->read->echo != NULL) write_hash(j, "problem", r->read->hash);
+    if (r->read->echo != NULL) write_hash(j, "run", r->read->run_hash);
     json_real(j, "t_end", r->read->t_end);
 }
 
@@ -71,17 +71,17 @@ static void write_contact(json *j, const report *log, const dem_state *state, co
 {
     const double never = (double)NAN;
     json_integer(j, "contacts", state->n_contacts);
-    json_real(j, "first_contact", log->touched ? log->first_contact : never);
-    json_real(j, "last_contact", log->touched ? log->last_contact : never);
-    json_real(j, "rebound_speed", log->touched ? log->speed_after : never);
+    json_real(j, "first_contact", log->so_far.touched ? log->so_far.first_contact : never);
+    json_real(j, "last_contact", log->so_far.touched ? log->so_far.last_contact : never);
+    json_real(j, "rebound_speed", log->so_far.touched ? log->so_far.speed_after : never);
     json_real(j, "rising_speed", report_rising_speed(simulation));
 }
 
 static void write_energy(json *j, const report *log, const dem_energy *e)
 {
     json_open(j, "energy", '{');
-    json_real(j, "start", log->energy_start);
-    json_real(j, "largest", log->energy_max);
+    json_real(j, "start", log->so_far.energy_start);
+    json_real(j, "largest", log->so_far.energy_max);
     json_real(j, "kinetic", e->kinetic);
     json_real(j, "elastic", e->elastic);
     json_real(j, "area", e->area);
@@ -94,8 +94,8 @@ static void write_energy(json *j, const report *log, const dem_energy *e)
     json_real(j, "boundary", e->boundary);
     json_close(j, '}');
     json_real(j, "closure", report_closure(log, *e));
-    json_real(j, "elastic_share", log->elastic_share_max);
-    json_real(j, "elastic_share_t", log->elastic_share_t);
+    json_real(j, "elastic_share", log->so_far.elastic_share_max);
+    json_real(j, "elastic_share_t", log->so_far.elastic_share_t);
 }
 
 static void write_extreme(json *j, const char *key, double strain, dem_index spring, double t)
@@ -109,14 +109,16 @@ static void write_extreme(json *j, const char *key, double strain, dem_index spr
 
 static void write_strain(json *j, const report *log)
 {
-    if (log->strain_min.spring_min >= 0)
-        write_extreme(j, "strain_min", log->strain_min.min, log->strain_min.spring_min, log->strain_min_t);
-    if (log->strain_max.spring_max >= 0)
-        write_extreme(j, "strain_max", log->strain_max.max, log->strain_max.spring_max, log->strain_max_t);
-    json_real(j, "area_min", log->area_min);
-    json_real(j, "area_min_t", log->area_min_t);
-    json_integer(j, "guarded", log->guarded_max);
-    json_integer(j, "inverted", log->inverted_max);
+    if (log->so_far.strain_min.spring_min >= 0)
+        write_extreme(j, "strain_min", log->so_far.strain_min.min, log->so_far.strain_min.spring_min,
+                      log->so_far.strain_min_t);
+    if (log->so_far.strain_max.spring_max >= 0)
+        write_extreme(j, "strain_max", log->so_far.strain_max.max, log->so_far.strain_max.spring_max,
+                      log->so_far.strain_max_t);
+    json_real(j, "area_min", log->so_far.area_min);
+    json_real(j, "area_min_t", log->so_far.area_min_t);
+    json_integer(j, "guarded", log->so_far.guarded_max);
+    json_integer(j, "inverted", log->so_far.inverted_max);
 }
 
 static void write_node_peak(json *j, const report *log)
@@ -192,8 +194,8 @@ static void write_run(json *j, const result *r)
     if (r->log->peaks != NULL) write_spring_peak(j, r->log);
     write_loads(j, r->simulation);
     write_overlap(j, r->simulation);
-    json_real(j, "formula_6", r->log->pace.largest);
-    json_real(j, "formula_6_t", r->log->pace.t);
+    json_real(j, "formula_6", r->log->so_far.pace.largest);
+    json_real(j, "formula_6_t", r->log->so_far.pace.t);
     if (r->read->residual > 0.0) json_real(j, "residual", r->rest->reached);
 }
 

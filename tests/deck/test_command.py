@@ -41,7 +41,7 @@ HANG = """
 &output name = 'hang', frame_interval = 1 /
 """
 
-OUTPUT = {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json"}
+OUTPUT = {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json", "rectangle.checkpoint"}
 UNPRINTED = "dem_batch: error: standard output cannot be written\n"
 OTHER_RUN = f"the file exists and belongs to another run of the same problem, with other t_end, title or frames; {WAY_OUT}"
 
@@ -357,7 +357,7 @@ class Run(Case):
         log = self.call(0, "deck.nml")
         self.assertEqual(self.files(), OUTPUT)
         self.assertIn("\noutput     rectangle.vtkhdf\n", log)
-        for name in self.files() - {"rectangle.json"}:
+        for name in self.files() - {"rectangle.json", "rectangle.checkpoint"}:
             self.assertEqual((self.folder / name).read_bytes()[:8], b"\x89HDF\r\n\x1a\n")
         self.assertEqual(log.splitlines(True)[-1], (self.folder / "rectangle.json").read_text(encoding="utf-8"))
 
@@ -365,7 +365,7 @@ class Run(Case):
         text = coarse(clearance="").replace("    clearance = ", "    ! ")
         self.put(re.sub(r"(?s)&obstacle.*?\n/\n", "", text))
         log = self.call(0, "deck.nml")
-        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.json"})
+        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.json", "rectangle.checkpoint"})
         self.assertIn("\ncontact    none\n", log)
         self.assertNotIn("\nrebound ", log)
 
@@ -502,7 +502,8 @@ class Run(Case):
         done = run("deck.nml", cwd=self.folder)
         self.assertEqual(done.returncode, 4)
         self.assertRegex(done.stderr, r"\Adeck\.nml: error: node \d+ at \(\S+, \S+\) m .* at t = \S+ s\n\Z")
-        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json"})
+        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json",
+                                        "rectangle.checkpoint", "rectangle.00001.vtkhdf"})
 
     def test_progress_is_plain_lines_where_there_is_no_terminal(self):
         done = run("deck.nml", cwd=self.folder, text=False)
@@ -591,11 +592,15 @@ class Run(Case):
         self.call(0, "deck.nml")
         names = self.files()
         before = self.state(*names)
-        for values in ({"t_end": "9e-3"}, {"frame_interval": "2e-3"}, {"title": "'another'"}):
-            with self.subTest(values):
-                self.put(coarse(**values))
-                self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
-                self.assertEqual(self.state(*names), before)
+        self.put(coarse(t_end="7e-3"))
+        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
+        self.put(coarse(frame_interval="2e-3"))
+        self.call(7, "deck.nml", stderr="rectangle.checkpoint: error: the run that it is of has 'frame_interval = 0.001' in "
+                                        f"&output, this one has 'frame_interval = 0.002'; {WAY_OUT}\n")
+        self.assertEqual(self.state(*names), before)
+        (self.folder / "rectangle.checkpoint").unlink()
+        self.put(coarse(t_end="9e-3"))
+        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
 
     def test_a_file_that_is_none_of_ours(self):
         (self.folder / "rectangle.vtkhdf").write_bytes(b"my notes\n")
@@ -611,6 +616,7 @@ class Run(Case):
         for part in (b"", b"garbage" * 1000, whole[:100], whole[:len(whole) // 2], b"\0" * len(whole)):
             with self.subTest(len(part)):
                 (self.folder / "rectangle.vtkhdf").unlink()
+                (self.folder / "rectangle.checkpoint").unlink()
                 (self.folder / "rectangle.part.vtkhdf").write_bytes(part)
                 self.assertIn("\nrun        ", self.call(0, "deck.nml"))
                 self.assertEqual(self.files(), OUTPUT)

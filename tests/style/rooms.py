@@ -15,7 +15,7 @@ LAYERS = [
     {"record"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
      "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
-     "outcome", "lock", "decimal"},
+     "outcome", "lock", "decimal", "signals"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
      "parts", "clearance", "grid", "table", "notes", "pgm", "png", "msh", "crack", "setting", "json"},
     {"layout"},
@@ -34,7 +34,7 @@ LAYERS = [
     {"run"},
     {"view", "recall"},
     {"simulation", "output", "preview", "report"},
-    {"result"},
+    {"result", "checkpoint"},
     {"job"},
     {"dem_batch"},
 ]
