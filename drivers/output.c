@@ -44,6 +44,16 @@ static bool same_problem(const char *path, const deck *d)
     return same_hash(path, "problem", d->hash);
 }
 
+/* A part that does not tell its problem, or cannot be read, was cut off: what is in it is computed again. */
+static bool is_part_of_another(const char *part, const deck *d)
+{
+    char stored[OUTPUT_HASH], ours[OUTPUT_HASH];
+    output_print_hash(ours, d->hash);
+    if (dem_trajectory_read_note(part, "problem", stored, sizeof stored) != DEM_OK) return false;
+    const bool whole = strlen(stored) == strlen(ours) && strspn(stored, "0123456789abcdef") == strlen(ours);
+    return whole && strcmp(stored, ours) != 0;
+}
+
 void output_print_hash(char text[OUTPUT_HASH], uint64_t hash)
 {
     (void)snprintf(text, OUTPUT_HASH, "%016llx", (unsigned long long)hash);
@@ -90,12 +100,10 @@ static output_state look_at_whole(const char *path, const deck *d, char reason[O
 
 output_state output_claim(const char *path, const deck *d, char reason[OUTPUT_REASON])
 {
-    char part[OUTPUT_PATH], problem[32], difference[DIFFERENCE];
+    char part[OUTPUT_PATH], difference[DIFFERENCE];
     output_beside(part, path, part_suffix);
     if (access(path, F_OK) == 0) return look_at_whole(path, d, reason);
-    /* A part that cannot be read was cut off while it was begun: there is nothing in it. */
-    if (access(part, F_OK) == 0 && dem_trajectory_read_note(part, "problem", problem, sizeof problem) == DEM_OK &&
-        !same_problem(part, d)) {
+    if (access(part, F_OK) == 0 && is_part_of_another(part, d)) {
         name_difference(part, d, difference);
         (void)snprintf(reason, OUTPUT_REASON, "the unfinished run in %s has %s; " OUTPUT_WAY_OUT, part, difference);
         return OUTPUT_TAKEN;

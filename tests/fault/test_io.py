@@ -85,10 +85,8 @@ def fill_true_disk(report, problem, enough, n):
     report.series("tmpfs full", (on_disk(size) for size in sizes(enough, n)))
 
 
-def limit_files(report, problem, n):
+def limit_files(report, problem, enough, n):
     """`ulimit -f`: the system stops a process that writes beyond it by a signal, unless that is ignored."""
-    largest = max(path.stat().st_size for path in pathlib.Path(problem.reference.name).iterdir())
-
     def limited(size):
         with problem.folder() as folder:
             def limit():
@@ -96,7 +94,7 @@ def limit_files(report, problem, n):
             result = problem.run(folder, prepare=limit)
             return size, (f"exit {result.code}", problem.faults_after(folder, result, CODES))
 
-    endings = report.series("file size limited", (limited(size) for size in sizes(4 * largest, n)))
+    endings = report.series("file size limited", (limited(size) for size in sizes(enough, n)))
     report.expect(len(endings) > 1, "all these limits were too small, or large enough")
 
 
@@ -111,7 +109,7 @@ def main(faulty, program, long):
     fill(report, problem, enough, disks)
     if long:
         fill_true_disk(report, problem, enough, disks)
-    limit_files(report, problem, disks)
+    limit_files(report, problem, enough, disks)
     return report.exit_code()
 
 
