@@ -110,6 +110,7 @@ static dem_status check_scales(const builder *b, const dem_material *m)
     const double spacing = b->facts.form.spacing, area = 0.43301270189221932 * spacing * spacing;
     const double mass = m->density * m->thickness * area / 3.0;
     const double stiffness = m->bond_stiffness > 0.0 ? m->bond_stiffness : m->youngs_modulus * m->thickness * spacing;
+    const double damping = m->damping_time * stiffness / (mass * spacing);
     if (fault_of(area) != NULL)
         namelist_errors_add(b->errors, place_of(b->body, key),
                             "body %zu: the area of a triangle, %g m^2, is %s; its sides are %g m", b->number, area,
@@ -128,7 +129,13 @@ static dem_status check_scales(const builder *b, const dem_material *m)
                             "body %zu: the stiffness of a spring, %g N, is %s; Young's modulus %g Pa, thickness %g m, "
                             "spacing %g m",
                             b->number, stiffness, fault_of(stiffness), m->youngs_modulus, m->thickness, spacing);
-    return isnormal(area) && isnormal(mass) && isnormal(stiffness) ? DEM_OK : DEM_ERROR_MODEL;
+    else if (!isfinite(damping * damping))
+        namelist_errors_add(b->errors, place_of(b->body, "material"),
+                            "body %zu: the damping of a spring, %g 1/s, is too large; damping_time %g s", b->number,
+                            damping, m->damping_time);
+    else
+        return DEM_OK;
+    return DEM_ERROR_MODEL;
 }
 
 /* ---- parts ---- */
@@ -259,13 +266,13 @@ static void measure_start(builder *b, const dem_model *model)
 }
 
 /* Whether a body is where its shape survives rounding. */
-static dem_status check_place(const builder *b)
+static dem_status check_place(const builder *b, const char *key)
 {
     double largest = 0.0, least = (double)INFINITY;
     for (dem_index k = 0; k < 2 * b->lattice.n_nodes; k++) largest = fmax(largest, fabs(b->lattice.x[k]));
     for (dem_index k = 0; k < b->lattice.n_springs; k++) least = fmin(least, b->lattice.rest_length[k]);
-    if (largest * DBL_EPSILON <= lost * least) return DEM_OK;
-    namelist_errors_add(b->errors, place_of(b->body, "position"),
+    if (largest * DBL_EPSILON <= lost * least || !isfinite(largest) || !(least > 0.0)) return DEM_OK; /* or no model */
+    namelist_errors_add(b->errors, place_of(b->body, key),
                         "body %zu has coordinates of up to %g m, so large that rounding blurs its spacing of %g m",
                         b->number, largest, least);
     return DEM_ERROR_MODEL;
@@ -281,12 +288,13 @@ static dem_status put(builder *b)
     dem_lattice_move(&b->lattice, b->start.angle, position);
     dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
     if (status == DEM_OK) status = report(b, dem_lattice_spin(&b->lattice, schema_real(b->body, "spin")), "spin");
-    if (status == DEM_OK) status = check_place(b);
+    if (status == DEM_OK) status = check_place(b, "position");
     if (status == DEM_OK)
         status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),
                         file ? "file" : "shape");
     if (status == DEM_OK) measure_start(b, model);
     if (status == DEM_OK && cleared) status = clear(b, model);
+    if (status == DEM_OK && cleared) status = check_place(b, "clearance");
     if (cleared) b->start.depth = -schema_real(b->body, "clearance");
     dem_model_destroy(model);
     const body_scene *scene = b->scene;

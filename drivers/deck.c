@@ -13,6 +13,7 @@
 #include "body.h"
 #include "file.h"
 #include "loading.h"
+#include "precision.h"
 #include "probes.h"
 #include "profile.h"
 #include "schema.h"
@@ -80,6 +81,21 @@ static bool check_segments(const double *points, size_t n_points, size_t number,
                         number, a[0], a[1], a[2], a[3],
                         length > 1.0 ? "is too long" : (length > 0.0 ? "is too short" : "has no length"), more);
     return false;
+}
+
+/* Reports two segments of an obstacle that have more than a point in common that joins them. False when memory runs
+ * out. */
+static bool check_crossings(const dem_obstacle *obstacle, size_t number, namelist_place place, namelist_errors *errors)
+{
+    dem_index pair[2];
+    if (dem_obstacle_check(obstacle, pair) == DEM_ERROR_MEMORY) return false;
+    if (pair[0] < 0) return true;
+    const bool follows = pair[1] == (pair[0] + 1) % (obstacle->n_points - 1);
+    namelist_errors_add(errors, place,
+                        follows ? "'points' in &obstacle: segment %lld of obstacle %zu goes back over segment %lld"
+                                : "'points' in &obstacle: segment %lld of obstacle %zu meets segment %lld",
+                        (long long)pair[follows] + 1, number, (long long)pair[!follows] + 1);
+    return true;
 }
 
 static bool has_profile(const schema_instance *obstacle)
@@ -216,6 +232,13 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && strcmp(text + n - m, end) == 0;
 }
 
+/* As segments of a run do. */
+static bool ends_with_number(const char *text)
+{
+    const char *point = strrchr(text, '.');
+    return point != NULL && strlen(point + 1) >= 5 && strspn(point + 1, "0123456789") == strlen(point + 1);
+}
+
 static void check_name(const schema_instance *output, namelist_errors *errors)
 {
     const schema_value *name = schema_value_of(output, "name");
@@ -224,9 +247,10 @@ static void check_name(const schema_instance *output, namelist_errors *errors)
     if (length == 0 || length > 100 || strchr(text, '/') != NULL || text[0] == '.' || text[0] == '-')
         namelist_errors_add(errors, name->place,
                             "'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'");
-    else if (ends_with(text, ".obstacle") || ends_with(text, ".part"))
+    else if (ends_with(text, ".obstacle") || ends_with(text, ".part") || ends_with_number(text))
         namelist_errors_add(errors, name->place,
-                            "'name' in &output must not end in '.obstacle' or '.part': other files are called so");
+                            "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
+                            "other files are called so");
 }
 
 static void check(const schema_deck *groups, namelist_errors *errors)
@@ -337,13 +361,14 @@ static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *e
         size_t n_points;
         double *points = make_points(&n_points, group);
         if (points == NULL) return false;
-        (void)check_segments(points, n_points, k + 1, schema_value_of(group, "points")->place, errors);
-        d->obstacles[d->n_obstacles++] =
-            (dem_obstacle){.n_points = (dem_index)n_points,
-                           .points = points,
-                           .restitution = schema_real(group, "restitution"),
-                           .friction = schema_real(group, "friction"),
-                           .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        const bool good = check_segments(points, n_points, k + 1, schema_place(group, "points"), errors);
+        dem_obstacle *made = &d->obstacles[d->n_obstacles++];
+        *made = (dem_obstacle){.n_points = (dem_index)n_points,
+                               .points = points,
+                               .restitution = schema_real(group, "restitution"),
+                               .friction = schema_real(group, "friction"),
+                               .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        if (good && !check_crossings(made, k + 1, schema_place(group, "points"), errors)) return false;
     }
     return d->obstacles != NULL;
 }
@@ -410,7 +435,9 @@ static bool set_texts(deck *d, schema_deck *groups, const char *folder, namelist
     if (!schema_echo(groups, SCHEMA_MARKED, &d->echo)) return false;
     for (size_t k = 0; k < groups->n_instances; k++)
         if (is_file(&groups->instances[k]) && !hash_file(&groups->instances[k], errors)) return false;
-    if (!schema_echo(groups, SCHEMA_PHYSICS, &d->physics) || !schema_echo(groups, SCHEMA_BARE, &bare)) return false;
+    if (!schema_echo(groups, SCHEMA_PHYSICS, &d->physics) || !schema_echo(groups, SCHEMA_COURSE, &d->course) ||
+        !schema_echo(groups, SCHEMA_BARE, &bare))
+        return false;
     d->hash = hash_bytes(offset_basis, d->physics, strlen(d->physics));
     d->run_hash = hash_bytes(offset_basis, bare, strlen(bare));
     free(bare);
@@ -472,6 +499,7 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
                                 .offset = {starts[k].offset[0], starts[k].offset[1]}};
     }
     good = good && check_starts(d, starts, &scene, errors);
+    if (good && errors->n == 0) precision_check(groups, &d->lattice, errors);
     if (good && errors->n == 0)
         good = loading_build(&d->boundaries, &d->n_boundaries, &d->lattice, places, groups, errors);
     if (good && errors->n == 0) good = set_probes(d, groups, places, errors);
@@ -484,63 +512,87 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
 
 /* ---- all of it ---- */
 
-static deck_status interpret(deck *d, schema_deck *groups, namelist_errors *errors)
+static bool interpret(deck *d)
 {
-    char *folder = folder_of(d->path);
-    body_drop_unused(groups);
-    loading_drop_unused(groups);
-    probes_drop_unused(groups);
-    uses_drop(groups, &profile_uses);
-    bool good = folder != NULL && set_scalars(d, groups) && set_obstacles(d, groups, errors);
-    if (good && errors->n == 0) good = set_bodies(d, groups, folder, errors);
-    if (good && errors->n == 0) good = set_texts(d, groups, folder, errors);
-    free(folder);
-    if (!good) return DECK_MEMORY;
-    return errors->n > 0 ? DECK_INVALID : DECK_OK;
+    body_drop_unused(&d->groups);
+    loading_drop_unused(&d->groups);
+    probes_drop_unused(&d->groups);
+    uses_drop(&d->groups, &profile_uses);
+    return set_scalars(d, &d->groups);
 }
 
-static deck_status resolve(deck *d, size_t size, namelist_errors *errors)
+static deck_status resolve(deck *d, const namelist *list, namelist_errors *errors)
+{
+    bool good = schema_resolve(&d->groups, list, errors);
+    if (good) check(&d->groups, errors);
+    if (good && errors->n == 0) good = interpret(d);
+    return good ? DECK_OK : DECK_MEMORY;
+}
+
+static deck_status parse(deck *d, size_t size, const setting *settings, size_t n, namelist_errors *errors)
 {
     namelist list;
-    schema_deck groups = {0};
-    deck_status status = DECK_MEMORY;
-    const bool parsed = namelist_parse(&list, d->source, size, errors);
-    if (parsed && list.unreadable) {
-        status = DECK_INVALID;
-    } else if (parsed && schema_resolve(&groups, &list, errors)) {
-        check(&groups, errors);
-        status = errors->n > 0 ? DECK_INVALID : interpret(d, &groups, errors);
-    }
-    schema_free(&groups);
+    deck_status status = DECK_OK;
+    bool good = namelist_parse(&list, d->source, size, errors);
+    for (size_t k = 0; k < n && good && !list.unreadable; k++)
+        good = setting_apply(&settings[k], -1 - (int)k, &list, errors);
+    if (!good)
+        status = DECK_MEMORY;
+    else if (!list.unreadable)
+        status = resolve(d, &list, errors);
     namelist_free(&list);
+    return status;
+}
+
+/* Sorts what was found. The deck stays where nothing was. */
+static deck_status conclude(deck *d, deck_status status, namelist_errors *errors)
+{
     namelist_errors_sort(errors);
-    return errors->out_of_memory ? DECK_MEMORY : status;
+    if (status == DECK_OK && errors->n > 0) status = DECK_INVALID;
+    if (errors->out_of_memory) status = DECK_MEMORY;
+    if (status != DECK_OK) deck_free(d);
+    return status;
+}
+
+deck_status deck_parse(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors)
+{
+    size_t size = 0;
+    *out = (deck){.path = strdup(path), .folder = folder_of(path)};
+    dem_lattice_init(&out->lattice);
+    deck_status status = out->path == NULL || out->folder == NULL ? DECK_MEMORY : read_text(out, &size, errors);
+    if (status == DECK_OK) status = parse(out, size, settings, n, errors);
+    return conclude(out, status, errors);
+}
+
+deck_status deck_build(deck *d, namelist_errors *errors)
+{
+    bool good = set_obstacles(d, &d->groups, errors);
+    if (good && errors->n == 0) good = set_bodies(d, &d->groups, d->folder, errors);
+    if (good && errors->n == 0) good = set_texts(d, &d->groups, d->folder, errors);
+    return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }
 
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors)
 {
-    deck d = {.path = strdup(path)};
-    size_t size = 0;
-    dem_lattice_init(&d.lattice);
-    deck_status status = d.path == NULL ? DECK_MEMORY : read_text(&d, &size, errors);
-    if (status == DECK_OK) status = resolve(&d, size, errors);
-    if (status != DECK_OK) deck_free(&d);
-    *out = d;
-    return status;
+    const deck_status status = deck_parse(out, path, NULL, 0, errors);
+    return status == DECK_OK ? deck_build(out, errors) : status;
 }
 
 void deck_free(deck *d)
 {
     for (dem_index k = 0; k < d->n_obstacles; k++) free((void *)d->obstacles[k].points);
     free(d->obstacles);
+    schema_free(&d->groups);
     probes_free(d->probes, (size_t)d->n_probes);
     dem_lattice_free(&d->lattice);
     free(d->bodies);
     loading_free(d->boundaries, d->n_boundaries);
     free(d->path);
+    free(d->folder);
     free(d->source);
     free(d->echo);
     free(d->physics);
+    free(d->course);
     free(d->title);
     free(d->name);
     *d = (deck){0};

@@ -7,7 +7,8 @@
 #include <dem/trajectory.h>
 
 #include "body.h"
-#include "namelist.h"
+#include "schema.h"
+#include "setting.h"
 
 typedef enum deck_status {
     DECK_OK,
@@ -18,15 +19,26 @@ typedef enum deck_status {
 
 /* Everything is owned by the deck. */
 typedef struct deck {
-    char *path, *source;  /* the file's name and text */
-    char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
-    uint64_t hash;     /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
-    uint64_t run_hash; /* the same with every key: the run */
+    char *path, *source; /* the file's name and text */
+    char *folder;        /* where it lies, with the last '/', or "" */
+    schema_deck groups;  /* as resolved */
+    /* What follows from the values of keys. */
     char *title, *name;
     double t_end;    /* s */
     double residual; /* > 0: a quasi-static run ends there */
     int stop_at_overlap;
-    double closure;      /* share of the energy from which on the log warns */
+    double closure;        /* share of the energy from which on the log warns */
+    dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` once built */
+    double frame_interval; /* s */
+    int double_precision, deflate, events;
+    uint32_t fields;         /* DEM_FIELD_... */
+    dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
+    dem_index most_stressed; /* that are listed */
+    /* What deck_build() makes. */
+    char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
+    char *course;         /* resolved: what a run that goes on from another must have in common with it */
+    uint64_t hash;       /* FNV-1a of `physics`, in which files of bodies stand as hashes of their bytes: the problem */
+    uint64_t run_hash;   /* the same with every key: the run */
     dem_lattice lattice; /* all bodies, in the order of the deck */
     body_facts *bodies;  /* [n_bodies], one for each group */
     size_t n_bodies;
@@ -34,20 +46,22 @@ typedef struct deck {
     dem_index n_obstacles;
     dem_boundary *boundaries; /* [n_boundaries] */
     dem_index n_boundaries;
-    dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` */
-    double frame_interval; /* s */
-    int double_precision, deflate, events;
-    uint32_t fields;         /* DEM_FIELD_... */
-    dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
-    dem_index most_stressed; /* that are listed */
-    dem_probe *probes;       /* [n_probes] */
+    dem_probe *probes; /* [n_probes] */
     dem_index n_probes;
 } deck;
 
-/* Reads and builds. Faults of syntax, of keys and of their meaning are reported together; geometry is built only where
- * there are none, and what is wrong with it is reported for all bodies. `errors` comes sorted by place; a file that is
- * unreadable has its message at 0:0. *out is empty unless DECK_OK is returned. */
+/* Reads the file, puts `settings`, [n], in it and checks its groups: faults of syntax, of keys and of their meaning are
+ * reported together, sorted by place; a file that is unreadable has its message at 0:0, a fault of settings[k] is at
+ * line -1 - k. Nothing is built yet. *out is empty unless DECK_OK is returned. */
+deck_status deck_parse(deck *out, const char *path, const setting *settings, size_t n, namelist_errors *errors);
+
+/* Builds what a deck that was parsed describes; what is wrong with the geometry is reported for all bodies. To be
+ * called once. *d is empty unless DECK_OK is returned. */
+deck_status deck_build(deck *d, namelist_errors *errors);
+
+/* Both in turn, without settings. */
 deck_status deck_read(deck *out, const char *path, namelist_errors *errors);
+
 void deck_free(deck *d);
 
 #endif

@@ -54,12 +54,35 @@ static file_status read_open(char **bytes, size_t *size, size_t most, int file, 
     return status;
 }
 
+/* A pipe without writer must not hang. */
+static int open_here(const char *path)
+{
+    return open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+}
+
 file_status file_read(char **bytes, size_t *size, const char *path, size_t most, char *why)
 {
     *bytes = NULL;
-    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); /* a pipe without writer must not hang */
+    const int file = open_here(path);
     if (file < 0) return refuse(why, strerror(errno));
     const file_status status = read_open(bytes, size, most, file, why);
     (void)close(file);
     return status;
+}
+
+size_t file_begin(char *bytes, size_t most, const char *path)
+{
+    const int file = open_here(path);
+    struct stat info;
+    ssize_t n = 0;
+    if (file < 0) return 0;
+    if (fstat(file, &info) == 0 && S_ISREG(info.st_mode)) n = read(file, bytes, most);
+    (void)close(file);
+    return n > 0 ? (size_t)n : 0;
+}
+
+double file_size(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode) ? (double)info.st_size : 0.0;
 }

@@ -14,4 +14,11 @@ enum { FILE_WHY = 128 }; /* bytes of a reason */
  * \param[out] why    [FILE_WHY] what is wrong, where FILE_REFUSED is returned */
 file_status file_read(char **bytes, size_t *size, const char *path, size_t most, char *why);
 
+/* Reads the first bytes of a regular file, at most `most`.
+ * \return how many; 0 also where there is none to read */
+size_t file_begin(char *bytes, size_t most, const char *path);
+
+/* Of a regular file, bytes; 0 where there is none. */
+double file_size(const char *path);
+
 #endif

@@ -51,6 +51,17 @@ image_status mask_read(mask *out, char *fault, const char *path, double scale, d
     return m.solid != NULL ? IMAGE_READ : IMAGE_MEMORY;
 }
 
+bool mask_measure(double size[2], const char *path, double scale)
+{
+    char bytes[4096];
+    image sides = {0};
+    const size_t n = file_begin(bytes, sizeof bytes, path);
+    const bool told = png_begins(bytes, n) ? png_measure(&sides, bytes, n) : pgm_measure(&sides, bytes, n);
+    size[0] = (double)sides.width * scale;
+    size[1] = (double)sides.height * scale;
+    return told;
+}
+
 void mask_free(mask *m)
 {
     free(m->solid);

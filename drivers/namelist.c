@@ -387,13 +387,18 @@ static void drop_values(namelist_key *key)
     key->n_values = 0;
 }
 
+static void free_key(namelist_key *key)
+{
+    drop_values(key);
+    free(key->name);
+}
+
 static void append_key(reader *r, namelist_group *group, namelist_key *key)
 {
     namelist_key *keys = key->name == NULL ? NULL : grown(group->keys, group->n_keys, sizeof *keys);
     if (keys == NULL) {
         fail(r);
-        drop_values(key);
-        free(key->name);
+        free_key(key);
         return;
     }
     group->keys = keys;
@@ -451,10 +456,7 @@ static void read_junk(reader *r, namelist_group *group)
 
 static void free_group(namelist_group *group)
 {
-    for (size_t k = 0; k < group->n_keys; k++) {
-        drop_values(&group->keys[k]);
-        free(group->keys[k].name);
-    }
+    for (size_t k = 0; k < group->n_keys; k++) free_key(&group->keys[k]);
     free(group->keys);
     free(group->name);
 }
@@ -590,6 +592,39 @@ bool namelist_parse(namelist *out, const char *text, size_t size, namelist_error
     free(copy);
     if (r.failed) namelist_free(out);
     return !r.failed;
+}
+
+static void drop_key(namelist_group *group, const char *name)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < group->n_keys; k++) {
+        if (strcmp(group->keys[k].name, name) == 0)
+            free_key(&group->keys[k]);
+        else
+            group->keys[n++] = group->keys[k];
+    }
+    group->n_keys = n;
+}
+
+bool namelist_merge(namelist *list, size_t at, namelist_group *from)
+{
+    if (at == list->n_groups) {
+        namelist_group *groups = realloc(list->groups, (at + 1) * sizeof *groups);
+        if (groups == NULL) return false;
+        list->groups = groups;
+        groups[list->n_groups++] = *from;
+    } else {
+        namelist_group *group = &list->groups[at];
+        namelist_key *keys = realloc(group->keys, (group->n_keys + from->n_keys + 1) * sizeof *keys);
+        if (keys == NULL) return false;
+        group->keys = keys;
+        for (size_t k = 0; k < from->n_keys; k++) drop_key(group, from->keys[k].name);
+        for (size_t k = 0; k < from->n_keys; k++) keys[group->n_keys++] = from->keys[k];
+        free(from->keys);
+        free(from->name);
+    }
+    *from = (namelist_group){0};
+    return true;
 }
 
 void namelist_free(namelist *list)

@@ -11,7 +11,7 @@
 enum { NAMELIST_MAX_FILE = 4 << 20 }; /* bytes: the echo of a deck of 1 MiB has room */
 
 typedef struct namelist_place {
-    int line, column; /* from 1 */
+    int line, column; /* from 1; a line of 0 or less is none of the file */
 } namelist_place;
 
 typedef enum namelist_kind {
@@ -72,6 +72,10 @@ typedef struct namelist {
  * Returns false only when memory runs out (`out` is then empty). Free `out` with namelist_free in any case. */
 bool namelist_parse(namelist *out, const char *text, size_t size, namelist_errors *errors);
 void namelist_free(namelist *list);
+
+/* Takes the keys of `from` into group `at`, in the place of those of their names; `at` = n_groups: as a group of its
+ * own. `from` is then empty. Returns false, and has done nothing, when memory runs out. */
+bool namelist_merge(namelist *list, size_t at, namelist_group *from);
 
 /* Appends a fault, printf-like. From the 1000th on they are counted as one. */
 void namelist_errors_add(namelist_errors *errors, namelist_place place, const char *format, ...)

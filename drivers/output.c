@@ -2,20 +2,34 @@
 /* Outputs carry the hashes of their problem and of their run in /provenance. */
 #include "output.h"
 
+#include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include <dem/trajectory.h>
 
+#include "decimal.h"
+
 static const char suffix[] = ".vtkhdf", part_suffix[] = ".part.vtkhdf";
+
+enum { longest_suffix = 32 }; /* of a file beside it */
 
 bool output_path(char *path, size_t size, const char *folder, const char *name)
 {
     const int n = strcmp(folder, ".") == 0 ? snprintf(path, size, "%s%s", name, suffix)
                                            : snprintf(path, size, "%s/%s%s", folder, name, suffix);
-    return n > 0 && (size_t)n + sizeof part_suffix < size;
+    return n > 0 && (size_t)n + longest_suffix < size;
 }
+
+void output_beside(char out[OUTPUT_PATH], const char *path, const char *end)
+{
+    (void)snprintf(out, OUTPUT_PATH, "%.*s%s", (int)(strlen(path) - strlen(suffix)), path, end);
+}
+
+/* ---- what is there ---- */
 
 static bool same_hash(const char *path, const char *note, uint64_t hash)
 {
@@ -34,27 +48,100 @@ void output_print_hash(char text[OUTPUT_HASH], uint64_t hash)
     (void)snprintf(text, OUTPUT_HASH, "%016llx", (unsigned long long)hash);
 }
 
-output_state output_claim(const char *path, const deck *d, char *reason, size_t size)
+static bool is_later(const char *path, double t_end)
 {
-    char part[4096], problem[32];
-    (void)snprintf(part, sizeof part, "%.*s%s", (int)(strlen(path) - strlen(suffix)), path, part_suffix);
-    if (access(path, F_OK) == 0) {
-        const bool same = same_problem(path, d);
-        if (same && same_hash(path, "run", d->run_hash)) {
-            (void)snprintf(reason, size, "this run's result is there");
-            return OUTPUT_DONE;
-        }
-        (void)snprintf(reason, size,
-                       "the file exists and belongs to another %s; move it away or change 'name' in &output",
-                       same ? "run of the same problem, with other t_end, title or frames" : "problem");
-        return OUTPUT_TAKEN;
+    char stored[DECIMAL_SIZE];
+    return dem_trajectory_read_note(path, "t_end", stored, sizeof stored) != DEM_OK || strtod(stored, NULL) > t_end;
+}
+
+static output_state look_at_whole(const char *path, const deck *d, char reason[OUTPUT_REASON])
+{
+    const bool same = same_problem(path, d);
+    if (same && same_hash(path, "run", d->run_hash)) {
+        (void)snprintf(reason, OUTPUT_REASON, "this run's result is there");
+        return OUTPUT_DONE;
     }
+    (void)snprintf(reason, OUTPUT_REASON, "the file exists and belongs to another %s; " OUTPUT_WAY_OUT,
+                   same ? "run of the same problem, with other t_end, title or frames" : "problem");
+    return same && !is_later(path, d->t_end) ? OUTPUT_SHORTER : OUTPUT_TAKEN;
+}
+
+output_state output_claim(const char *path, const deck *d, char reason[OUTPUT_REASON])
+{
+    char part[OUTPUT_PATH], problem[32];
+    output_beside(part, path, part_suffix);
+    if (access(path, F_OK) == 0) return look_at_whole(path, d, reason);
     /* A part that cannot be read was cut off while it was begun: there is nothing in it. */
     if (access(part, F_OK) == 0 && dem_trajectory_read_note(part, "problem", problem, sizeof problem) == DEM_OK &&
         !same_problem(part, d)) {
-        (void)snprintf(reason, size,
-                       "an unfinished run of another problem is in %s; move it away or change 'name' in &output", part);
+        (void)snprintf(reason, OUTPUT_REASON, "an unfinished run of another problem is in %s; " OUTPUT_WAY_OUT, part);
         return OUTPUT_TAKEN;
     }
     return OUTPUT_FREE;
+}
+
+/* ---- setting aside ---- */
+
+/* .00001.vtkhdf and so on, a segment. */
+static bool is_segment(const char *end)
+{
+    const size_t n = end[0] == '.' ? strspn(end + 1, "0123456789") : 0;
+    return n >= 5 && strcmp(end + 1 + n, suffix) == 0;
+}
+
+/* What is left of the name of a file of this output behind the output's name; NULL if it is none. */
+static const char *end_of(const char *file, const char *name)
+{
+    static const char *const ends[] = {suffix,  part_suffix,   ".obstacle.vtkhdf", ".obstacle.part.vtkhdf",
+                                       ".json", ".checkpoint", ".checkpoint.prev", ".checkpoint.damaged"};
+    const size_t n = strlen(name);
+    if (strncmp(file, name, n) != 0) return NULL;
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)
+        if (strcmp(file + n, ends[k]) == 0) return file + n;
+    return is_segment(file + n) ? file + n : NULL;
+}
+
+static bool is_used(DIR *folder, const char *name)
+{
+    const struct dirent *entry;
+    rewinddir(folder);
+    while ((entry = readdir(folder)) != NULL)
+        if (end_of(entry->d_name, name) != NULL) return true;
+    return false;
+}
+
+static bool rename_all(DIR *folder, const char *from, const char *to, char reason[OUTPUT_REASON])
+{
+    char name[OUTPUT_PATH + 64];
+    const struct dirent *entry;
+    const int at = dirfd(folder);
+    rewinddir(folder);
+    while ((entry = readdir(folder)) != NULL) {
+        const char *end = end_of(entry->d_name, from);
+        if (end == NULL) continue;
+        (void)snprintf(name, sizeof name, "%s%s", to, end);
+        if (renameat(at, entry->d_name, at, name) == 0) continue;
+        (void)snprintf(reason, OUTPUT_REASON, "%s cannot be renamed to %s (%s)", entry->d_name, name, strerror(errno));
+        return false;
+    }
+    return true;
+}
+
+bool output_set_aside(const char *path, char reason[OUTPUT_REASON])
+{
+    char stem[OUTPUT_PATH], folder[OUTPUT_PATH] = ".", aside[OUTPUT_PATH + 32];
+    output_beside(stem, path, "");
+    const char *slash = strrchr(stem, '/'), *name = slash == NULL ? stem : slash + 1;
+    if (slash != NULL) (void)snprintf(folder, sizeof folder, "%.*s", (int)(slash - stem) + 1, stem);
+    DIR *files = opendir(folder);
+    if (files == NULL) {
+        (void)snprintf(reason, OUTPUT_REASON, "%s: %s", folder, strerror(errno));
+        return false;
+    }
+    (void)snprintf(aside, sizeof aside, "%s.old", name);
+    for (int k = 2; is_used(files, aside); k++) (void)snprintf(aside, sizeof aside, "%s.old%d", name, k);
+    (void)snprintf(reason, OUTPUT_REASON, "%s%s", aside, suffix);
+    const bool good = rename_all(files, name, aside, reason);
+    (void)closedir(files);
+    return good;
 }

@@ -63,6 +63,13 @@ static bool read_bytes(image *out, words *w)
     return true;
 }
 
+bool pgm_measure(image *out, const char *bytes, size_t size)
+{
+    char word[WORDS_LONGEST + 1];
+    words w = words_begin(bytes, size, '#');
+    return read_header(out, &w, word);
+}
+
 image_status pgm_parse(image *out, char *fault, const char *bytes, size_t size)
 {
     char magic[WORDS_LONGEST + 1];

@@ -11,6 +11,21 @@ bool png_begins(const char *bytes, size_t size)
     return size >= sizeof magic && memcmp(bytes, magic, sizeof magic) == 0;
 }
 
+/* The highest byte first. */
+static size_t number_at(const char *bytes, size_t at)
+{
+    const unsigned char *b = (const unsigned char *)bytes + at;
+    return ((size_t)b[0] << 24) + ((size_t)b[1] << 16) + ((size_t)b[2] << 8) + b[3];
+}
+
+/* The first chunk begins behind the magic with its length and name, then width and height. */
+bool png_measure(image *out, const char *bytes, size_t size)
+{
+    if (size < 24) return false;
+    *out = (image){.width = number_at(bytes, 16), .height = number_at(bytes, 20), .white = 255};
+    return true;
+}
+
 static image_status refuse(char *fault, const char *why)
 {
     (void)snprintf(fault, IMAGE_FAULT, "%s", why);
@@ -33,13 +48,6 @@ static cairo_status_t give(void *closure, unsigned char *data, unsigned length)
     from->at += length;
     from->left -= length;
     return CAIRO_STATUS_SUCCESS;
-}
-
-/* The first chunk begins behind the magic with its length and name, then width and height, the highest byte first. */
-static size_t stated(const char *bytes, size_t at)
-{
-    const unsigned char *b = (const unsigned char *)bytes + at;
-    return ((size_t)b[0] << 24) + ((size_t)b[1] << 16) + ((size_t)b[2] << 8) + b[3];
 }
 
 /* Rec. 601 in 256ths; colours are multiplied by their opacity. */
@@ -72,11 +80,11 @@ image_status png_parse(image *out, char *fault, const char *bytes, size_t size)
 {
     source from = {bytes, size};
     *out = (image){0};
-    if (size < 24) return refuse(fault, "the PNG image ends too early");
-    const size_t width = stated(bytes, 16), height = stated(bytes, 20);
-    const bool sides = width >= 1 && width < IMAGE_MAX_SIDE && height >= 1 && height < IMAGE_MAX_SIDE;
-    if (!sides || width * height > PNG_MAX_PIXELS) {
-        (void)snprintf(fault, IMAGE_FAULT, "a PNG image of %zu x %zu pixels; the limit is %d", width, height,
+    image own;
+    if (!png_measure(&own, bytes, size)) return refuse(fault, "the PNG image ends too early");
+    const bool sides = own.width >= 1 && own.width < IMAGE_MAX_SIDE && own.height >= 1 && own.height < IMAGE_MAX_SIDE;
+    if (!sides || own.width * own.height > PNG_MAX_PIXELS) {
+        (void)snprintf(fault, IMAGE_FAULT, "a PNG image of %zu x %zu pixels; the limit is %d", own.width, own.height,
                        PNG_MAX_PIXELS);
         return IMAGE_REFUSED;
     }

@@ -10,6 +10,9 @@ enum { PNG_MAX_PIXELS = 1 << 26 }; /* compressed bytes do not tell how many ther
 /* Whether bytes begin like one. */
 bool png_begins(const char *bytes, size_t size);
 
+/* Width and height that it states in its first bytes; false where they do not tell. */
+bool png_measure(image *out, const char *bytes, size_t size);
+
 /* Reads one image as grey of 8 bits, of its luminance on black. The size that it states is looked at before memory is
  * asked for. Parameters as of pgm_parse(); the fault has no line. */
 image_status png_parse(image *out, char *fault, const char *bytes, size_t size);

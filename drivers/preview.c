@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "commit.h"
+#include "estimate.h"
 #include "memory.h"
 #include "pace.h"
 #include "wall.h"
@@ -67,24 +68,6 @@ static void print_sizes(FILE *out, const dem_model *model)
     (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments\n",
                   (long long)size.n_contact_nodes, (long long)size.n_obstacles, size.n_obstacles == 1 ? "" : "s",
                   (long long)size.n_segments);
-}
-
-static double frame_bytes(const deck *d, const dem_model_size *size)
-{
-    static const struct {
-        uint32_t field;
-        double of_node, of_spring; /* numbers */
-    } fields[] = {{DEM_FIELD_DISPLACEMENT, 3.0, 0.0}, {DEM_FIELD_VELOCITY, 3.0, 0.0},  {DEM_FIELD_STRESS, 6.0, 0.0},
-                  {DEM_FIELD_VON_MISES, 1.0, 0.0},    {DEM_FIELD_PRINCIPAL, 2.0, 0.0}, {DEM_FIELD_STRAIN, 0.0, 1.0},
-                  {DEM_FIELD_FORCE, 0.0, 1.0}};
-    const double width = d->double_precision ? 8.0 : 4.0;
-    double of_node = 24.0, of_spring = 1.0;
-    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {
-        if ((d->fields & fields[k].field) == 0) continue;
-        of_node += width * fields[k].of_node;
-        of_spring += width * fields[k].of_spring;
-    }
-    return of_node * (double)size->n_nodes + of_spring * (double)size->n_springs;
 }
 
 /* What is probed, where at rest. */
@@ -192,32 +175,11 @@ static void print_bodies(FILE *out, const deck *d)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
 }
 
-/* Tables grow by whole chunks. */
-static double table_bytes(double rows, double width)
-{
-    return 8.0 * width * 1024.0 * ceil(rows / 1024.0);
-}
-
-/* Of the history and the probes, in numbers a row. */
-static double tables_bytes(const deck *d, const dem_model_size *size, double steps)
-{
-    static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
-    const double bytes = table_bytes(steps, 35.0 + 5.0 * (double)size->n_bodies + 9.0 * (double)size->n_obstacles +
-                                                4.0 * (double)d->n_boundaries);
-    double of_probes = 0.0;
-    for (dem_index k = 0; k < d->n_probes; k++)
-        of_probes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
-    return bytes + of_probes;
-}
-
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
-    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
-    const dem_options o = dem_simulation_options(simulation);
-    const double steps = ceil(d->t_end / o.max_step), frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
+    const estimate e = estimate_run(d, simulation);
     (void)fprintf(out, "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output\n",
-                  steps, (int)pace_method(simulation).evaluations, frames,
-                  1e-6 * (frames * frame_bytes(d, &size) + tables_bytes(d, &size, steps)));
+                  e.steps, (int)pace_method(simulation).evaluations, e.frames, 1e-6 * e.output);
 }
 
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */

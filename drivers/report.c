@@ -4,6 +4,7 @@
 
 #include <gsl/gsl_math.h> /* M_PI */
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,8 +15,9 @@
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
 
-/* Velocity of the centre of mass of all bodies against gravity, m/s: upwards. */
-static double rising_speed(const dem_simulation *simulation)
+static const char entry[] = "report"; /* of a record */
+
+double report_rising_speed(const dem_simulation *simulation)
 {
     const dem_options options = dem_simulation_options(simulation);
     const double g = hypot(options.gravity[0], options.gravity[1]);
@@ -32,63 +34,73 @@ static double rising_speed(const dem_simulation *simulation)
 
 /* ---- following a run ---- */
 
+void report_tell(report *r, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (r->terminal) (void)fputc('\n', r->out);
+    (void)vfprintf(r->out, format, arguments);
+    (void)fflush(r->out);
+    va_end(arguments);
+}
+
 static void follow_energy(report *r, const dem_state *state)
 {
     const dem_energy e = state->energy;
-    if (state->t == 0.0) r->energy_start = dem_energy_ledger(e);
-    r->energy_max = fmax(r->energy_max, dem_energy_motion(e));
-    const double share = r->energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->energy_max : 0.0;
-    if (share <= r->elastic_share_max) return;
-    r->elastic_share_max = share;
-    r->elastic_share_t = state->t;
+    if (state->t == 0.0) r->so_far.energy_start = dem_energy_ledger(e);
+    r->so_far.energy_max = fmax(r->so_far.energy_max, dem_energy_motion(e));
+    const double share = r->so_far.energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->so_far.energy_max : 0.0;
+    if (share <= r->so_far.elastic_share_max) return;
+    r->so_far.elastic_share_max = share;
+    r->so_far.elastic_share_t = state->t;
 }
 
 static void follow_strain(report *r, const dem_simulation *simulation, double t)
 {
     const dem_strain strain = dem_simulation_strain(simulation);
-    if (strain.min < r->strain_min.min) {
-        r->strain_min = strain;
-        r->strain_min_t = t;
+    if (strain.min < r->so_far.strain_min.min) {
+        r->so_far.strain_min = strain;
+        r->so_far.strain_min_t = t;
     }
-    if (strain.max > r->strain_max.max) {
-        r->strain_max = strain;
-        r->strain_max_t = t;
+    if (strain.max > r->so_far.strain_max.max) {
+        r->so_far.strain_max = strain;
+        r->so_far.strain_max_t = t;
     }
-    if (strain.area_min < r->area_min) {
-        r->area_min = strain.area_min;
-        r->area_min_t = t;
+    if (strain.area_min < r->so_far.area_min) {
+        r->so_far.area_min = strain.area_min;
+        r->so_far.area_min_t = t;
     }
-    if (strain.guarded > r->guarded_max) r->guarded_max = strain.guarded;
-    if (strain.inverted > r->inverted_max) r->inverted_max = strain.inverted;
+    if (strain.guarded > r->so_far.guarded_max) r->so_far.guarded_max = strain.guarded;
+    if (strain.inverted > r->so_far.inverted_max) r->so_far.inverted_max = strain.inverted;
 }
 
 static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     report *r = context;
     (void)simulation;
-    if (!r->touched) r->first_contact = event->t;
-    r->touched = true;
-    r->last_contact = event->t;
+    if (!r->so_far.touched) r->so_far.first_contact = event->t;
+    r->so_far.touched = true;
+    r->so_far.last_contact = event->t;
     return DEM_OK;
 }
 
 static void follow_contact(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index impacts = dem_simulation_counts(simulation).impacts;
-    const bool contact = state->n_contacts > 0 || r->contacts_before > 0 || impacts > r->impacts_before;
-    r->contacts_before = state->n_contacts;
-    r->impacts_before = impacts;
-    if (state->n_contacts > 0) r->last_contact = state->t;
+    const bool contact = state->n_contacts > 0 || r->so_far.contacts_before > 0 || impacts > r->so_far.impacts_before;
+    r->so_far.contacts_before = state->n_contacts;
+    r->so_far.impacts_before = impacts;
+    if (state->n_contacts > 0) r->so_far.last_contact = state->t;
     if (!contact) return;
     const dem_options options = dem_simulation_options(simulation);
-    const double fallen = hypot(options.gravity[0], options.gravity[1]) * (state->t - r->last_contact);
-    r->speed_after = rising_speed(simulation) + fallen; /* since the last contact in the step it is in free flight */
+    const double fallen = hypot(options.gravity[0], options.gravity[1]) * (state->t - r->so_far.last_contact);
+    r->so_far.speed_after =
+        report_rising_speed(simulation) + fallen; /* since the last contact in the step it is in free flight */
 }
 
-/* What the ledger has gained, over the largest energy so far. */
-static double closure_of(const report *r, dem_energy e)
+double report_closure(const report *r, dem_energy e)
 {
-    return (dem_energy_ledger(e) - r->energy_start) / fmax(r->energy_max, 1e-300);
+    return (dem_energy_ledger(e) - r->so_far.energy_start) / fmax(r->so_far.energy_max, 1e-300);
 }
 
 /* While a load grows from nothing the largest energy so far is no measure yet: the first steps of a ramp may be off by
@@ -96,38 +108,36 @@ static double closure_of(const report *r, dem_energy e)
 static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
-    if (r->warned || state->t < r->settled || !(fabs(closure_of(r, state->energy)) > r->closure)) return;
-    r->warned = true;
-    (void)fprintf(r->out, "%swarning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
-                  r->terminal ? "\n" : "", closure_of(r, state->energy), state->t,
-                  fixed ? "shorter step" : "smaller 'rtol'");
+    if (r->so_far.warned || state->t < r->settled || !(fabs(report_closure(r, state->energy)) > r->closure)) return;
+    r->so_far.warned = true;
+    report_tell(r, "warning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
+                report_closure(r, state->energy), state->t, fixed ? "shorter step" : "smaller 'rtol'");
 }
 
 static void watch_overlap(report *r, const dem_simulation *simulation)
 {
     const dem_overlap o = dem_simulation_overlap(simulation);
-    if (r->overlapped || o.node < 0) return;
-    r->overlapped = true;
-    (void)fprintf(
-        r->out,
-        "%swarning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
-        "%.4e s\n",
-        r->terminal ? "\n" : "", (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+    if (r->so_far.overlapped || o.node < 0) return;
+    r->so_far.overlapped = true;
+    report_tell(r,
+                "warning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
+                "%.4e s\n",
+                (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
 }
 
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
     const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
-    if (!due || !(done > 0.0)) return;
+    if (!due || !(state->t > r->t_start)) return;
     const dem_counts counts = dem_simulation_counts(simulation);
     r->wall_shown = now;
     r->t_shown = state->t;
-    (void)fprintf(r->out,
-                  "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
-                  r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps,
-                  (long long)state->n_contacts, closure_of(r, state->energy), (double)counts.steps / fmax(spent, 1e-9),
-                  spent * (1.0 - done) / done, r->terminal ? "   " : "\n");
+    (void)fprintf(
+        r->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
+        r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts,
+        report_closure(r, state->energy), (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9),
+        spent * (r->t_end - state->t) / (state->t - r->t_start), r->terminal ? "   " : "\n");
     (void)fflush(r->out);
 }
 
@@ -138,7 +148,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     dem_simulation_state(simulation, &state);
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
-    pace_follow(&r->pace, simulation, &state);
+    pace_follow(&r->so_far.pace, simulation, &state);
     follow_contact(r, simulation, &state);
     watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
@@ -150,45 +160,67 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
-    *r = (report){.out = out, .terminal = terminal, .t_end = d->t_end, .closure = d->closure, .area_min = 1.0};
+    memset(r, 0, sizeof *r); /* gaps too: they get into records */
+    r->out = out;
+    r->terminal = terminal;
+    r->t_end = d->t_end;
+    r->closure = d->closure;
     r->settled = relaxation_settled(&d->options);
     r->most_stressed = d->most_stressed;
-    r->strain_min.spring_min = r->strain_max.spring_max = -1;
+    r->so_far.area_min = 1.0;
+    r->so_far.strain_min.spring_min = r->so_far.strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
+}
+
+dem_status report_resume(report *r, const dem_record *record, const dem_simulation *simulation)
+{
+    dem_state state = {.struct_size = sizeof state};
+    dem_simulation_state(simulation, &state);
+    r->t_start = r->t_shown = state.t;
+    r->steps_start = dem_simulation_counts(simulation).steps;
+    return dem_record_get(record, entry, &r->so_far, sizeof r->so_far);
+}
+
+static dem_status remember(void *context, const dem_simulation *simulation, dem_record *record)
+{
+    const report *r = context;
+    (void)simulation;
+    return dem_record_put(record, entry, &r->so_far, sizeof r->so_far);
 }
 
 dem_observer report_observer(report *r)
 {
-    return (dem_observer){.step = follow, .event = note_event, .context = r};
+    return (dem_observer){.step = follow, .event = note_event, .record = remember, .context = r};
 }
 
 static void print_contact(const report *r, const dem_simulation *simulation)
 {
-    if (!r->touched) {
+    if (!r->so_far.touched) {
         (void)fprintf(r->out, "contact    none\n");
         return;
     }
-    (void)fprintf(r->out, "contact    first at %.6e s, last at %.6e s, %.4e s apart%s\n", r->first_contact,
-                  r->last_contact, r->last_contact - r->first_contact,
-                  r->contacts_before > 0 ? " (still touching)" : "");
+    (void)fprintf(r->out, "contact    first at %.6e s, last at %.6e s, %.4e s apart%s\n", r->so_far.first_contact,
+                  r->so_far.last_contact, r->so_far.last_contact - r->so_far.first_contact,
+                  r->so_far.contacts_before > 0 ? " (still touching)" : "");
     (void)fprintf(
         r->out,
         "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at t_end\n",
-        r->speed_after, rising_speed(simulation));
+        r->so_far.speed_after, report_rising_speed(simulation));
 }
 
 static void print_strain(const report *r)
 {
-    if (r->strain_min.spring_min >= 0)
-        (void)fprintf(r->out, "strain     smallest %+.4g in spring %lld at %.4e s\n", r->strain_min.min,
-                      (long long)r->strain_min.spring_min, r->strain_min_t);
-    if (r->strain_max.spring_max >= 0)
-        (void)fprintf(r->out, "strain     largest %+.4g in spring %lld at %.4e s\n", r->strain_max.max,
-                      (long long)r->strain_max.spring_max, r->strain_max_t);
-    if (r->area_min < 1.0)
+    if (r->so_far.strain_min.spring_min >= 0)
+        (void)fprintf(r->out, "strain     smallest %+.4g in spring %lld at %.4e s\n", r->so_far.strain_min.min,
+                      (long long)r->so_far.strain_min.spring_min, r->so_far.strain_min_t);
+    if (r->so_far.strain_max.spring_max >= 0)
+        (void)fprintf(r->out, "strain     largest %+.4g in spring %lld at %.4e s\n", r->so_far.strain_max.max,
+                      (long long)r->so_far.strain_max.spring_max, r->so_far.strain_max_t);
+    if (r->so_far.area_min < 1.0)
         (void)fprintf(
             r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most, %lld inverted\n",
-            r->area_min, r->area_min_t, (long long)r->guarded_max, (long long)r->inverted_max);
+            r->so_far.area_min, r->so_far.area_min_t, (long long)r->so_far.guarded_max,
+            (long long)r->so_far.inverted_max);
 }
 
 /* Place at rest. */
@@ -234,13 +266,13 @@ static void print_taken(FILE *out, const char *by, double energy)
 
 static void print_ledger(const report *r, dem_energy e)
 {
-    (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->energy_start,
+    (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->so_far.energy_start,
                   dem_energy_motion(e) + e.gravity, e.impact);
     print_taken(r->out, "friction", e.friction);
     print_taken(r->out, "damping", e.damping);
     (void)fprintf(r->out, " - projection %.3g", e.projection);
     if (e.boundary != 0.0) (void)fprintf(r->out, " - put in by boundaries %.4g", e.boundary);
-    (void)fprintf(r->out, "; closure %+.2e\n", closure_of(r, e));
+    (void)fprintf(r->out, "; closure %+.2e\n", report_closure(r, e));
 }
 
 static void print_energy(const report *r, dem_energy e)
@@ -249,7 +281,7 @@ static void print_energy(const report *r, dem_energy e)
                   e.elastic, e.area, e.guard, e.gravity);
     print_ledger(r, e);
     (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
-                  r->elastic_share_max, r->elastic_share_t);
+                  r->so_far.elastic_share_max, r->so_far.elastic_share_t);
 }
 
 static void print_events(FILE *out, const dem_counts *c)
@@ -317,7 +349,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_boundaries(r->out, simulation);
     print_overlap(r->out, simulation);
     print_events(r->out, &c);
-    pace_print_largest(r->out, &r->pace);
+    pace_print_largest(r->out, &r->so_far.pace);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
                   wall_clock() - r->wall_start);

@@ -9,26 +9,32 @@
 #include "deck.h"
 #include "pace.h"
 
-typedef struct report {
-    FILE *out;
-    bool terminal;  /* progress is rewritten in place */
-    double t_end;   /* s */
-    double closure; /* from which on the ledger is warned of */
-    double settled; /* s, when the last ramp ends */
-    bool warned, overlapped;
-    double wall_start, wall_shown; /* s */
-    double t_shown;                /* s */
-    double energy_start;           /* J, total at t = 0 */
-    double energy_max;             /* J, largest kinetic + elastic + area + guard so far: what is compared */
+/** What a run is remembered by: in its records too. */
+typedef struct report_memory {
+    double energy_start; /* J, total at t = 0 */
+    double energy_max;   /* J, largest kinetic + elastic + area + guard so far: what is compared */
     double elastic_share_max, elastic_share_t; /* of energy_max as it was then */
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max, inverted_max;
     pace pace;
-    bool touched;                       /* there was a contact */
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
     dem_index contacts_before, impacts_before;
+    bool touched; /* there was a contact */
+    bool warned, overlapped;
+} report_memory;
+
+typedef struct report {
+    FILE *out;
+    bool terminal;                 /* progress is rewritten in place */
+    double t_end;                  /* s */
+    double closure;                /* from which on the ledger is warned of */
+    double settled;                /* s, when the last ramp ends */
+    double wall_start, wall_shown; /* s */
+    double t_start, t_shown;       /* s */
+    dem_index steps_start;         /* before this process */
+    report_memory so_far;
     const dem_peaks *peaks; /* for the summary; to be set behind report_start(), NULL: none */
     dem_index most_stressed;
 } report;
@@ -36,11 +42,23 @@ typedef struct report {
 /** Starts the log of a run. */
 void report_start(report *r, FILE *out, bool terminal, const deck *d);
 
+/** Goes on from the record of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
+dem_status report_resume(report *r, const dem_record *record, const dem_simulation *simulation);
+
+/** A line of the log, printf-like, with its end. */
+void report_tell(report *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
 /** First and last contact, rebound, strains, what was stressed most, energy ledger and its closure, obstacles,
  *  counts, wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
+
+/** What the ledger has gained, over the largest energy so far. */
+double report_closure(const report *r, dem_energy e);
+
+/** Velocity of the centre of mass of all bodies against gravity, m/s. */
+double report_rising_speed(const dem_simulation *simulation);
 
 #endif

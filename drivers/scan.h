@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A place in the text of a namelist, and the words ahead of it. Private to namelist.c. */
+/* A place in the text of a namelist, and the words ahead of it. */
 #ifndef DEM_SCAN_H
 #define DEM_SCAN_H
 

@@ -86,6 +86,7 @@ namelist_place schema_place(const schema_instance *instance, const char *key);
 typedef enum schema_form {
     SCHEMA_MARKED,  /* every key, "! default" behind what was not given */
     SCHEMA_PHYSICS, /* the keys that make the problem */
+    SCHEMA_COURSE,  /* those that a run must have in common with one that goes on from it */
     SCHEMA_BARE     /* every key, however it came to its value: the same for a deck and for its echo */
 } schema_form;
 

@@ -2,6 +2,8 @@
 /* What is printed from the table: the resolved echo, the template and the reference of all keys. */
 #include "schema.h"
 
+#include "decimal.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,19 +17,6 @@ enum {
 static const char *const type_names[] = {"real", "integer", "logical", "string", "string"};
 
 /* ---- echo ---------------------------------------------------------------------------------------------------- */
-
-/* The fewest digits that read back to the same bits, also where "-0" is an integer. */
-static void format_real(char out[32], double x)
-{
-    if (x == 0 && signbit(x)) {
-        (void)snprintf(out, 32, "-0.0");
-        return;
-    }
-    for (int digits = 15; digits <= 17; digits++) {
-        (void)snprintf(out, 32, "%.*g", digits, x);
-        if (strtod(out, NULL) == x) return;
-    }
-}
 
 static int print_string(FILE *file, const char *text)
 {
@@ -44,7 +33,7 @@ static int print_string(FILE *file, const char *text)
 /* Returns the number of characters written. */
 static int print_value(FILE *file, const schema_key *key, const schema_value *value, int k)
 {
-    char number[32];
+    char number[DECIMAL_SIZE];
     switch (key->type) {
     case SCHEMA_STRING:
     case SCHEMA_CHOICE:
@@ -56,7 +45,7 @@ static int print_value(FILE *file, const schema_key *key, const schema_value *va
     case SCHEMA_REAL:
         break;
     }
-    format_real(number, value->reals[k]);
+    decimal_print(number, value->reals[k]);
     return fprintf(file, "%s", number);
 }
 
@@ -95,21 +84,37 @@ static void echo_key(FILE *file, const schema_key *key, const schema_value *valu
     }
 }
 
-static bool has_physics(const schema_group *group)
+/* Keys on which neither a number that is computed nor a row that is written depends. */
+static bool is_aside(const char *group, const char *key)
+{
+    static const char *const all[][2] = {{"run", "title"},      {"run", "t_end"},      {"contact", "max_impacts"},
+                                         {"solver", "kernel"},  {"solver", "threads"}, {"output", "name"},
+                                         {"output", "deflate"}, {"output", "closure"}, {"output", "most_stressed"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        if (strcmp(group, all[k][0]) == 0 && strcmp(key, all[k][1]) == 0) return true;
+    return false;
+}
+
+static bool has_key(schema_form form, const schema_group *group, int k)
+{
+    if (form == SCHEMA_PHYSICS) return group->keys[k].physics;
+    return form != SCHEMA_COURSE || !is_aside(group->name, group->keys[k].name);
+}
+
+static bool has_keys(schema_form form, const schema_group *group)
 {
     for (int k = 0; k < group->n_keys; k++)
-        if (group->keys[k].physics) return true;
+        if (has_key(form, group, k)) return true;
     return false;
 }
 
 static void echo_instance(FILE *file, const schema_instance *instance, schema_form form)
 {
     const schema_group *group = instance->group;
-    if (form == SCHEMA_PHYSICS && !has_physics(group)) return;
+    if (!has_keys(form, group)) return;
     (void)fprintf(file, "&%s\n", group->name);
     for (int k = 0; k < group->n_keys; k++)
-        if (form != SCHEMA_PHYSICS || group->keys[k].physics)
-            echo_key(file, &group->keys[k], &instance->values[k], form == SCHEMA_MARKED);
+        if (has_key(form, group, k)) echo_key(file, &group->keys[k], &instance->values[k], form == SCHEMA_MARKED);
     (void)fprintf(file, "/\n");
 }
 

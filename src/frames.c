@@ -297,13 +297,26 @@ static dem_status append_energies(const frames *f, const hdf5_file *file, const 
     return DEM_OK;
 }
 
+static dem_status append_offsets(const frames *f, const hdf5_file *file, hsize_t n)
+{
+    for (int o = 0; o < N_OFFSETS; o++) {
+        const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        TRY(hdf5_append(file, &rows, n, 1, &(dem_index){(dem_index)n * count_of(f, offsets[o].of)}));
+    }
+    return DEM_OK;
+}
+
 static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
 {
-    for (int o = 0; o < N_OFFSETS; o++)
-        TRY(append_row(f, file, frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank),
-                       &(dem_index){f->n * count_of(f, offsets[o].of)}));
+    TRY(append_offsets(f, file, (hsize_t)f->n));
     TRY(append_row(f, file, frame_rows(STEPS "NumberOfParts", HDF5_I64, 1), &(dem_index){1}));
     return append_row(f, file, frame_rows(STEPS "Values", HDF5_F64, 1), &t);
+}
+
+/* The count of steps comes last: readers believe it. */
+static dem_status write_count(const hdf5_file *file, dem_index n)
+{
+    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &n);
 }
 
 hsize_t frames_bytes(const frames *f)
@@ -311,7 +324,6 @@ hsize_t frames_bytes(const frames *f)
     return 168 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs; /* all arrays in double */
 }
 
-/* The count of steps comes last: readers believe it. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
 {
     view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
@@ -319,7 +331,7 @@ dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simul
     TRY(append_arrays(f, file, &v));
     TRY(append_energies(f, file, &v.state));
     TRY(append_steps(f, file, v.state.t));
-    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &(dem_index){f->n + 1});
+    return write_count(file, f->n + 1);
 }
 
 /* ---- the end ---- */
@@ -345,10 +357,53 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
     return share_offset(file, offset, NONE);
 }
 
-dem_status frames_verify(const frames *f, const hdf5_file *file)
+/* ---- frames of other files ---- */
+
+/* What every frame has one row of, the offsets left out. */
+static hdf5_rows row_of(int k)
 {
-    for (int k = 0; k < N_ARRAYS; k++)
+    if (k < N_ENERGIES) return frame_rows(energies[k].name, HDF5_F64, 1);
+    if (k == N_ENERGIES) return frame_rows(STEPS "NumberOfParts", HDF5_I64, 1);
+    return frame_rows(STEPS "Values", HDF5_F64, 1);
+}
+enum { N_ROWS = N_ENERGIES + 2 };
+
+dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
+{
+    if (span.count == 0) return DEM_OK;
+    for (int k = 0; k < N_ARRAYS; k++) {
+        const hdf5_rows rows = array_rows(f, &arrays[k]);
+        const hsize_t n = (hsize_t)count_of(f, arrays[k].of);
         if (is_wanted(f, &arrays[k]))
-            TRY(hdf5_expect_rows(file, arrays[k].name, (hsize_t)(f->n * count_of(f, arrays[k].of))));
-    return hdf5_expect_attribute(file, "/VTKHDF/Steps", "NSteps", f->n);
+            TRY(hdf5_copy(from, to, &rows, (hdf5_span){n * span.first, n * span.count, n * span.at}));
+    }
+    for (int k = 0; k < N_ROWS; k++) {
+        const hdf5_rows rows = row_of(k);
+        TRY(hdf5_copy(from, to, &rows, span));
+    }
+    for (hsize_t n = span.at; n < span.at + span.count; n++) TRY(append_offsets(f, to, n));
+    return write_count(to, (dem_index)(span.at + span.count));
+}
+
+dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n)
+{
+    TRY(hdf5_count_rows(file, STEPS "Values", n));
+    return frames_verify(f, file, *n);
+}
+
+dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
+{
+    for (int k = 0; k < N_ARRAYS; k++) {
+        const hdf5_rows rows = array_rows(f, &arrays[k]);
+        if (is_wanted(f, &arrays[k])) TRY(hdf5_expect_rows(file, &rows, n * (hsize_t)count_of(f, arrays[k].of)));
+    }
+    for (int k = 0; k < N_ROWS; k++) {
+        const hdf5_rows rows = row_of(k);
+        TRY(hdf5_expect_rows(file, &rows, n));
+    }
+    for (int o = 0; o < N_OFFSETS; o++) {
+        const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        TRY(hdf5_expect_rows(file, &rows, n));
+    }
+    return hdf5_expect_attribute(file, "/VTKHDF/Steps", "NSteps", (dem_index)n);
 }

@@ -12,10 +12,11 @@ typedef struct frames {
     uint32_t fields; /* DEM_FIELD_... */
     hdf5_kind real;  /* of most arrays in the file: HDF5_F32 or HDF5_F64 */
     int deflate;
-    dem_index n;     /* written so far */
-    double last;     /* t of the last one, s */
-    double *scratch; /* what is written: [6 n_nodes] or [n_springs] */
-    double *stress;  /* [n_nodes][3] */
+    dem_index before; /* in files before this one */
+    dem_index n;      /* in the file */
+    double last;      /* t of the last one, s */
+    double *scratch;  /* what is written: [6 n_nodes] or [n_springs] */
+    double *stress;   /* [n_nodes][3] */
 } frames;
 
 /** An array that is the same in all frames. */
@@ -47,7 +48,13 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
 /** Stresses xx, yy, xy [n][3] as VTK has symmetric tensors: xx, yy, zz, xy, yz, xz [n][6]; zz is left at 0. */
 void frames_spread_stress(double *out, dem_index n, const double *stress);
 
-/** DEM_ERROR_IO unless the file has every row of every array. */
-dem_status frames_verify(const frames *f, const hdf5_file *file);
+/** Copies frames of another file; they begin elsewhere in this one. */
+dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
+
+/** The frames of a file; DEM_ERROR_IO unless every array has as many. */
+dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n);
+
+/** DEM_ERROR_IO unless every array has so many frames. */
+dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n);
 
 #endif

@@ -138,6 +138,16 @@ static herr_t read_slab(hid_t dataset, hid_t type, const hsize_t *start, const h
     return result;
 }
 
+/* The rank of a dataset; 0 where it is none of ours. */
+static int measure(hid_t dataset, hsize_t extent[MAX_RANK])
+{
+    const hid_t space = H5Dget_space(dataset);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    const bool fits = rank > 0 && rank <= MAX_RANK && H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
+    (void)H5Sclose(space);
+    return fits ? rank : 0;
+}
+
 /* Reading back gives DEM_OK, DEM_ERROR_MEMORY or DEM_ERROR_IO; the message is the caller's. */
 static dem_status read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
 {
@@ -198,12 +208,21 @@ static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *
     return u->status == DEM_OK ? 0 : -1;
 }
 
+/* Leaves HDF5 as it was found. */
+static void restore(const hdf5_file *file)
+{
+    (void)H5PLset_loading_state(file->plugins);
+    (void)H5Eset_auto2(H5E_DEFAULT, file->report, file->report_data);
+}
+
 static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
 {
     hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
     dem_status status = DEM_OK;
     (void)H5Eget_auto2(H5E_DEFAULT, &file.report, &file.report_data);
     (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    (void)H5PLget_loading_state(&file.plugins);
+    (void)H5PLset_loading_state(0);
     const hid_t how = make_access();
     if (access == H5F_ACC_TRUNC)
         file.id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, how);
@@ -214,7 +233,7 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
     if (status == DEM_OK)
         *out = file;
     else
-        (void)H5Eset_auto2(H5E_DEFAULT, file.report, file.report_data);
+        restore(&file);
     return status;
 }
 
@@ -292,7 +311,7 @@ dem_status hdf5_close(hdf5_file *file, dem_status status)
 {
     if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be flushed");
     if (H5Fclose(file->id) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be closed");
-    (void)H5Eset_auto2(H5E_DEFAULT, file->report, file->report_data);
+    restore(file);
     return status;
 }
 
@@ -335,6 +354,34 @@ dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t fir
     (void)H5Sclose(memory);
     if (dataset >= 0 && H5Dclose(dataset) < 0 && status == DEM_OK)
         status = hdf5_fail(file, rows->name, "cannot be written");
+    return status;
+}
+
+dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data)
+{
+    const hsize_t start[MAX_RANK] = {first}, block[MAX_RANK] = {count, rows->tail[0], rows->tail[1]};
+    dem_status status = DEM_OK;
+    const hid_t dataset = H5Dopen2(file->id, rows->name, H5P_DEFAULT);
+    if (dataset < 0 || read_slab(dataset, hdf5_memory_type(rows->kind), start, block, rows->rank, data) < 0)
+        status = hdf5_fail(file, rows->name, "cannot be read");
+    if (dataset >= 0) (void)H5Dclose(dataset);
+    return status;
+}
+
+/* Numbers pass through the types in memory, which hold those of every kind exactly. */
+dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span)
+{
+    const hsize_t step = rows->chunk > 1 ? rows->chunk : 1;
+    const hsize_t width = (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
+    dem_status status = DEM_OK;
+    void *buffer = malloc((size_t)(step * width) * sizeof(double));
+    CHECK_MEMORY(buffer);
+    for (hsize_t done = 0; done < span.count && status == DEM_OK; done += step) {
+        const hsize_t count = span.count - done < step ? span.count - done : step;
+        status = hdf5_read(from, rows, span.first + done, count, buffer);
+        if (status == DEM_OK) status = hdf5_append(to, rows, span.at + done, count, buffer);
+    }
+    free(buffer);
     return status;
 }
 
@@ -399,16 +446,28 @@ dem_status hdf5_read_text(const hdf5_file *file, const char *name, char *text, s
     return status;
 }
 
-dem_status hdf5_expect_rows(const hdf5_file *file, const char *name, hsize_t count)
+dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count)
 {
     hsize_t extent[MAX_RANK] = {0};
     const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0) return hdf5_fail(file, name, "cannot be opened");
-    const hid_t space = H5Dget_space(dataset);
-    (void)H5Sget_simple_extent_dims(space, extent, NULL);
-    (void)H5Sclose(space);
+    *count = measure(dataset, extent) > 0 ? extent[0] : 0;
     (void)H5Dclose(dataset);
-    CHECK(extent[0] == count, DEM_ERROR_IO, "%s: %s: has %llu rows, %llu were written", file->path, name,
+    return DEM_OK;
+}
+
+dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_t count)
+{
+    hsize_t extent[MAX_RANK] = {0};
+    const hid_t dataset = H5Dopen2(file->id, rows->name, H5P_DEFAULT);
+    if (dataset < 0) return hdf5_fail(file, rows->name, "cannot be opened");
+    const hid_t type = H5Dget_type(dataset);
+    bool alike = H5Tequal(type, file_type(rows->kind)) > 0 && measure(dataset, extent) == rows->rank;
+    for (int d = 1; d < rows->rank && alike; d++) alike = extent[d] == rows->tail[d - 1];
+    (void)H5Tclose(type);
+    (void)H5Dclose(dataset);
+    CHECK(alike, DEM_ERROR_IO, "%s: %s: is of another type or shape", file->path, rows->name);
+    CHECK(extent[0] == count, DEM_ERROR_IO, "%s: %s: has %llu rows, %llu were written", file->path, rows->name,
           (unsigned long long)extent[0], (unsigned long long)count);
     return DEM_OK;
 }

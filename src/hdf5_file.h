@@ -12,12 +12,14 @@
 /** Number types. In memory HDF5_F32 is double too, HDF5_I8 is int64_t; the others are what they say. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
 
-/** An open file. HDF5's own error printing is off in this thread from its opening to its closing. */
+/** An open file. From its opening to its closing HDF5's own error printing is off in this thread, and in this process
+ *  the loading of plugins, which are programs that a file names. */
 typedef struct hdf5_file {
     hid_t id;
     const char *path;
     H5E_auto2_t report; /**< the printing to restore */
     void *report_data;
+    unsigned plugins; /**< the loading to restore */
 } hdf5_file;
 
 /** A dataset that grows in its first dimension. */
@@ -30,11 +32,16 @@ typedef struct hdf5_rows {
     int deflate;     /**< 0: stored plain; 1 to 9: shuffled and deflated */
 } hdf5_rows;
 
+/** Rows of a file and where they go in another. */
+typedef struct hdf5_span {
+    hsize_t first, count; /**< taken */
+    hsize_t at;           /**< row that the first becomes, behind the last of those that are there */
+} hdf5_span;
+
 dem_status hdf5_open_read(hdf5_file *out, const char *path);
 
 /** Opens to add up to about `bytes`, which it makes sure there is room for: a full disk found out by HDF5 1.10 itself
- *  leaves a file that cannot be opened any more, and crashes the process at its exit. Takes no lock, so that looking at
- *  the file does not stop a run. */
+ *  leaves a file that cannot be opened any more. Takes no lock, so that looking at the file does not stop a run. */
 dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 
 /** The same with an empty file, replacing an older one. */
@@ -57,6 +64,12 @@ dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target
 /** Stores `count` rows from row `first` on, which then are the last ones. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
 
+/** Reads `count` rows from row `first` on, which are there. */
+dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data);
+
+/** Copies rows of a dataset to the end of that in another file, a chunk at a time. */
+dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span);
+
 /** Makes the dataset with `count` rows in one chunk. */
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data);
 
@@ -73,8 +86,10 @@ dem_status hdf5_write_text(const hdf5_file *file, const char *name, const char *
 /** Reads such a string and terminates it; DEM_ERROR_ARGUMENT if it needs more than `size` bytes. */
 dem_status hdf5_read_text(const hdf5_file *file, const char *name, char *text, size_t size);
 
-/** DEM_ERROR_IO unless the dataset has `count` rows. */
-dem_status hdf5_expect_rows(const hdf5_file *file, const char *name, hsize_t count);
+dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count);
+
+/** DEM_ERROR_IO unless the dataset has this kind of numbers, these extents and `count` rows. */
+dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_t count);
 
 /** DEM_ERROR_IO unless the scalar integer attribute is `value`. */
 dem_status hdf5_expect_attribute(const hdf5_file *file, const char *object, const char *name, int64_t value);

@@ -2,6 +2,8 @@
 /* Which columns there are, and what fills them. */
 #include "history.h"
 
+#include "status.h"
+
 enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column tells of */
 
 /* In the order in which history_record() fills a row. */
@@ -125,7 +127,7 @@ static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simula
 /* What the ledger has lost or gained since the first row, over the largest energy of motion and strain so far. */
 static double close_ledger(history *h, dem_energy e)
 {
-    if (h->table.written + h->table.buffered == 0) h->start = dem_energy_ledger(e);
+    if (table_total(&h->table) == 0) h->start = dem_energy_ledger(e);
     h->largest = dem_energy_motion(e) > h->largest ? dem_energy_motion(e) : h->largest;
     return h->largest > 0.0 ? (dem_energy_ledger(e) - h->start) / h->largest : 0.0;
 }
@@ -147,7 +149,7 @@ void history_record(history *h, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
-    if (h->table.written + h->table.buffered > 0 && state.t == h->last) return;
+    if (table_total(&h->table) > 0 && state.t == h->last) return;
     const double closure = close_ledger(h, state.energy);
     table_cell *cell = table_add(&h->table);
     cell = put_run(cell, simulation, &state, closure);
@@ -155,4 +157,14 @@ void history_record(history *h, const dem_simulation *simulation)
     cell = put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
     (void)put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);
     h->last = state.t;
+}
+
+dem_status history_expect_last(const history *h, const hdf5_file *file, hsize_t row)
+{
+    const hdf5_rows time = {columns[0].name, columns[0].kind, 1, {0}, 0, 0};
+    double t;
+    TRY(hdf5_read(file, &time, row, 1, &t));
+    CHECK(t == h->last, DEM_ERROR_IO, "%s: is of another run: row %llu of its history is at t = %.17g s, not %.17g s",
+          file->path, (unsigned long long)row, t, h->last);
+    return DEM_OK;
 }

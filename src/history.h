@@ -19,4 +19,7 @@ void history_free(history *h);
 /** Appends the state as a row, unless there is a row of that instant. The table's buffer must have room. */
 void history_record(history *h, const dem_simulation *simulation);
 
+/** DEM_ERROR_IO unless this row of a file is of the instant h->last. */
+dem_status history_expect_last(const history *h, const hdf5_file *file, hsize_t row);
+
 #endif

@@ -71,6 +71,8 @@ typedef struct reader {
     hsize_t rows[N_ROWS_OF]; /* valid once `known` */
     int known[N_ROWS_OF];
     int springs; /* one of their datasets is there */
+    int measure; /* nothing but extents is wanted */
+    int present[N_ARRAYS];
     void *data[N_ARRAYS];
 } reader;
 
@@ -126,7 +128,7 @@ static dem_status check_storage(const reader *r, const struct dataset *d, hid_t 
 {
     const hid_t layout = H5Dget_create_plist(dataset);
     const H5D_layout_t kind = H5Pget_layout(layout);
-    dem_status status = check_filters(r, d, layout);
+    dem_status status;
     hsize_t in_file = 0;
     (void)H5Fget_filesize(r->file.id, &in_file);
     const hsize_t stored = H5Dget_storage_size(dataset);
@@ -134,7 +136,8 @@ static dem_status check_storage(const reader *r, const struct dataset *d, hid_t 
         status = refuse(r, d->name, "keeps its data in an external file");
     else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
         status = refuse(r, d->name, "has a virtual or unknown layout");
-    else if (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0))
+    else if ((status = check_filters(r, d, layout)) == DEM_OK &&
+             (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0)))
         status = refuse(r, d->name, "claims more data than the file holds");
     (void)H5Pclose(layout);
     return status;
@@ -211,13 +214,13 @@ static dem_status check_link(const reader *r, const char *name, int *present)
 static dem_status read_array(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
-    int present = 0;
-    TRY(check_link(r, d->name, &present));
-    if (!present) return d->required && (d->of != SPRINGS || r->springs) ? refuse(r, d->name, "is missing") : DEM_OK;
+    TRY(check_link(r, d->name, &r->present[a]));
+    if (!r->present[a])
+        return d->required && (d->of != SPRINGS || r->springs) ? refuse(r, d->name, "is missing") : DEM_OK;
     const hid_t dataset = H5Dopen2(r->file.id, d->name, H5P_DEFAULT);
     if (dataset < 0) return hdf5_fail(&r->file, d->name, "is not a readable dataset");
     dem_status status = check_dataset(r, d, dataset);
-    if (status == DEM_OK) status = read_data(r, a, dataset);
+    if (status == DEM_OK && !r->measure) status = read_data(r, a, dataset);
     (void)H5Dclose(dataset);
     return status;
 }
@@ -266,7 +269,7 @@ static dem_status read_arrays(reader *r)
     TRY(check_names(r));
     for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
     for (int a = 0; a < N_ARRAYS; a++)
-        if (datasets[a].of == TRIANGLES && r->data[a] != NULL && r->data[CORNERS] == NULL)
+        if (datasets[a].of == TRIANGLES && r->present[a] && !r->present[CORNERS])
             return refuse(r, datasets[a].name, "is there without triangles");
     return DEM_OK;
 }
@@ -330,13 +333,21 @@ static dem_status check_indices(const dem_lattice *lattice, const char *path)
     return status_fail(DEM_ERROR_MODEL, "%s: /lattice: %s", path, reason);
 }
 
-static dem_status read_lattice(dem_lattice *out, const char *path)
+static dem_status read_file(reader *r, const char *path)
+{
+    struct stat kind;
+    CHECK(stat(path, &kind) != 0 || S_ISREG(kind.st_mode), DEM_ERROR_IO, "%s: is not a regular file", path);
+    TRY(hdf5_open_read(&r->file, path));
+    return hdf5_close(&r->file, read_arrays(r));
+}
+
+dem_status dem_lattice_read(dem_lattice *out, const char *path)
 {
     reader r = {0};
     dem_lattice lattice;
+    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_read: an argument is NULL");
     dem_lattice_init(&lattice);
-    TRY(hdf5_open_read(&r.file, path));
-    dem_status status = hdf5_close(&r.file, read_arrays(&r));
+    dem_status status = read_file(&r, path);
     if (status != DEM_OK) goto out;
     fill(&lattice, &r);
     status = check_indices(&lattice, path);
@@ -348,6 +359,17 @@ static dem_status read_lattice(dem_lattice *out, const char *path)
 out:
     for (int a = 0; a < N_ARRAYS; a++) free(r.data[a]);
     return status;
+}
+
+dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *n_springs)
+{
+    reader r = {.measure = 1};
+    CHECK(path != NULL && n_nodes != NULL && n_springs != NULL, DEM_ERROR_ARGUMENT,
+          "dem_lattice_measure: an argument is NULL");
+    TRY(read_file(&r, path));
+    *n_nodes = (dem_index)r.rows[NODES];
+    *n_springs = (dem_index)r.rows[SPRINGS];
+    return DEM_OK;
 }
 
 /* ---- writing ---- */
@@ -399,17 +421,4 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, POSITION, deflate, n, lattice->position));
     TRY(write_array(file, VELOCITY, deflate, n, lattice->velocity));
     return lattice->flags != NULL ? write_flags(file, lattice, deflate) : DEM_OK;
-}
-
-dem_status dem_lattice_read(dem_lattice *out, const char *path)
-{
-    struct stat kind;
-    unsigned plugins = 0;
-    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_read: an argument is NULL");
-    CHECK(stat(path, &kind) != 0 || S_ISREG(kind.st_mode), DEM_ERROR_IO, "%s: is not a regular file", path);
-    (void)H5PLget_loading_state(&plugins);
-    (void)H5PLset_loading_state(0);
-    const dem_status status = read_lattice(out, path);
-    (void)H5PLset_loading_state(plugins);
-    return status;
 }

@@ -26,14 +26,13 @@ static dem_status check_nodes(const dem_lattice *l)
           l->x == NULL ? "positions" : "masses");
     TRY(check_pairs("rest position", l->x, l->n_nodes));
     TRY(check_pairs("initial position", l->position, l->n_nodes));
-    TRY(check_pairs("initial velocity", l->velocity, l->n_nodes));
     for (dem_index i = 0; i < l->n_nodes; i++) {
         CHECK(isfinite(l->mass[i]) && l->mass[i] > 0.0, DEM_ERROR_MODEL, "node %lld: mass must be > 0, got %g kg",
               (long long)i, l->mass[i]);
         CHECK(l->body == NULL || (l->body[i] >= 0 && l->body[i] < l->n_nodes), DEM_ERROR_MODEL,
               "node %lld: body number %d is not in 0 to %lld", (long long)i, l->body[i], (long long)(l->n_nodes - 1));
     }
-    return DEM_OK;
+    return check_pairs("initial velocity", l->velocity, l->n_nodes); /* masses may have made them */
 }
 
 static dem_status check_springs(const dem_lattice *l)
@@ -150,7 +149,9 @@ static double frequency_bound(const dem_model *m)
         const sym2 areas = triangles_block(&m->triangles, i, x);
         const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
-        squared = fmax(squared, sym2_largest(sum) * m->inverse_mass[i]);
+        const double bound = sym2_largest(sum) * m->inverse_mass[i];
+        if (!isfinite(bound)) return (double)INFINITY;
+        squared = fmax(squared, bound);
     }
     return sqrt(squared);
 }
@@ -177,6 +178,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(obstacles_compile(&m->obstacles, list, n));
     TRY(compile_nodes(m));
     compile_scales(m);
+    CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return check_bodies(m);
 }
 

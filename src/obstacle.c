@@ -108,23 +108,41 @@ static dem_status plant_tree(obstacle_set *set, dem_index o)
     return DEM_OK;
 }
 
-/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told. */
-static dem_status check_crossings(const obstacle_set *set, dem_index o)
+static bool goes_back(const segment *s, const segment *next)
+{
+    const vec2 here = vec2_sub(s->end, s->start), there = vec2_sub(next->end, next->start);
+    return vec2_cross(here, there) == 0.0 && vec2_dot(here, there) < 0.0;
+}
+
+/* Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told.
+ * \param[out] pair  two that have more; the second follows the first if it goes back over it */
+static bool find_crossing(dem_index pair[2], const obstacle_set *set, dem_index o)
 {
     const segment *s = &set->segments[set->first[o]];
     const box_tree *tree = &set->trees[o];
-    for (dem_index i = 0; i + 1 < tree->n; i++) {
-        const vec2 here = vec2_sub(s[i].end, s[i].start), next = vec2_sub(s[i + 1].end, s[i + 1].start);
-        CHECK(vec2_cross(here, next) != 0.0 || vec2_dot(here, next) > 0.0, DEM_ERROR_MODEL,
-              "obstacle %lld: segment %lld goes back over segment %lld", (long long)o, (long long)(i + 1),
-              (long long)i);
+    for (dem_index i = 0; i < tree->n; i++) {
         const box around = cover(&s[i]);
         const dem_index end = i == 0 && s[0].before >= 0 ? tree->n - 1 : tree->n;
-        for (dem_index k = box_tree_seek(tree, i + 2, &around); k < end; k = box_tree_seek(tree, k + 1, &around))
-            CHECK(!meet(s[i].start, s[i].end, s[k].start, s[k].end), DEM_ERROR_MODEL,
-                  "obstacle %lld: segments %lld and %lld meet", (long long)o, (long long)i, (long long)k);
+        pair[0] = i;
+        pair[1] = s[i].after - set->first[o];
+        if (s[i].after >= 0 && goes_back(&s[i], &s[pair[1]])) return true;
+        for (dem_index k = box_tree_seek(tree, i + 2, &around); k < end; k = box_tree_seek(tree, k + 1, &around)) {
+            pair[1] = k;
+            if (meet(s[i].start, s[i].end, s[k].start, s[k].end)) return true;
+        }
     }
-    return DEM_OK;
+    return false;
+}
+
+static dem_status check_crossings(const obstacle_set *set, dem_index o)
+{
+    dem_index pair[2];
+    if (!find_crossing(pair, set, o)) return DEM_OK;
+    const bool follows = set->segments[set->first[o] + pair[0]].after == set->first[o] + pair[1];
+    return status_fail(DEM_ERROR_MODEL,
+                       follows ? "obstacle %lld: segment %lld goes back over segment %lld"
+                               : "obstacle %lld: segments %lld and %lld meet",
+                       (long long)o, (long long)pair[follows], (long long)pair[!follows]);
 }
 
 /* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
@@ -476,25 +494,45 @@ static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
     TRY(copy_points(&set->list[o], obstacle));
     set->n++;
     compile_segments(set, o);
-    TRY(plant_tree(set, o));
-    return check_crossings(set, o);
+    return plant_tree(set, o);
+}
+
+/* All but what obstacles are to each other. */
+static dem_status compile_all(obstacle_set *o, const dem_obstacle *list, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++) {
+        TRY(check_obstacle(&list[k], k));
+        o->n_segments += list[k].n_points - 1;
+    }
+    TRY(reserve(o, n));
+    for (dem_index k = 0; k < n; k++) TRY(append(o, &list[k]));
+    return DEM_OK;
 }
 
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
 {
     obstacle_set o = {0};
-    for (dem_index k = 0; k < n; k++) {
-        TRY(check_obstacle(&list[k], k));
-        o.n_segments += list[k].n_points - 1;
-    }
-    dem_status status = reserve(&o, n);
-    for (dem_index k = 0; k < n && status == DEM_OK; k++) status = append(&o, &list[k]);
+    dem_status status = compile_all(&o, list, n);
+    for (dem_index k = 0; k < n && status == DEM_OK; k++) status = check_crossings(&o, k);
     if (status == DEM_OK) status = find_vertices(&o);
     if (status == DEM_OK) bury_ends(&o);
     if (status == DEM_OK)
         *out = o;
     else
         obstacles_free(&o);
+    return status;
+}
+
+dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2])
+{
+    obstacle_set o = {0};
+    CHECK(obstacle != NULL && segments != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_check: %s is NULL",
+          obstacle ? "segments" : "obstacle");
+    segments[0] = segments[1] = -1;
+    dem_status status = compile_all(&o, obstacle, 1);
+    if (status == DEM_OK) status = check_crossings(&o, 0);
+    if (status == DEM_ERROR_MODEL && o.n == 1) (void)find_crossing(segments, &o, 0);
+    obstacles_free(&o);
     return status;
 }
 

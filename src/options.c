@@ -59,9 +59,10 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundaries
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
     if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
+    const double rate = damping_rate(o, model);
+    CHECK(isfinite(rate), DEM_ERROR_ARGUMENT, "damping of springs or masses is too strong to compute with");
     if (o->max_step == 0.0 && model->omega_max > 0.0)
-        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) /
-                      fmax(model->omega_max, damping_rate(o, model));
+        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) / fmax(model->omega_max, rate);
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
     if (!method.adaptive) o->fixed_step = o->max_step;
     if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;

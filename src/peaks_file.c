@@ -103,7 +103,8 @@ dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *rep
     return status;
 }
 
-hsize_t peaks_file_bytes(const peaks_report *report, const frames *f)
+hsize_t peaks_file_bytes(const peaks_report *report, hsize_t n)
 {
-    return 64 * (hsize_t)f->n_nodes + 16 * (hsize_t)f->n_springs + 40 * (hsize_t)f->n + 104 * (hsize_t)report->most;
+    const dem_lattice *l = report->lattice;
+    return 64 * (hsize_t)l->n_nodes + 16 * (hsize_t)l->n_springs + 40 * n + 104 * (hsize_t)report->most;
 }

@@ -16,7 +16,7 @@ dem_status peaks_file_write_arrays(const hdf5_file *file, const peaks_report *re
 
 dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *report);
 
-/** How many bytes both add, at most. */
-hsize_t peaks_file_bytes(const peaks_report *report, const frames *f);
+/** How many bytes both add to a file of n frames, at most. */
+hsize_t peaks_file_bytes(const peaks_report *report, hsize_t n);
 
 #endif

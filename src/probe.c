@@ -176,3 +176,31 @@ void probe_record(probe *p, const dem_simulation *simulation)
     else
         record_gauge(p, &state);
 }
+
+probe_memory probe_remember(const probe *p)
+{
+    probe_memory m = {.kind = (int64_t)p->what.kind,
+                      .every = p->what.every,
+                      .rows = (int64_t)table_total(&p->table),
+                      .left = p->left,
+                      .seen = p->seen,
+                      .last = p->last};
+    (void)snprintf(m.name, sizeof m.name, "%s", p->what.name);
+    for (int k = 0; k < count_numbers(&p->what); k++) m.number[k] = p->what.number[k];
+    return m;
+}
+
+dem_status probe_recall(probe *p, const probe_memory *memory)
+{
+    const probe_memory own = probe_remember(p);
+    CHECK(strncmp(own.name, memory->name, sizeof own.name) == 0 && own.kind == memory->kind &&
+              own.number[0] == memory->number[0] && own.number[1] == memory->number[1] && own.every == memory->every,
+          DEM_ERROR_ARGUMENT, "probe %s is none of those of the run that is to go on", own.name);
+    CHECK(memory->left >= 0 && memory->left < p->what.every, DEM_ERROR_IO,
+          "probe %s: the record has %lld steps until its next row, of %lld", own.name, (long long)memory->left,
+          (long long)p->what.every);
+    p->left = memory->left;
+    p->seen = memory->seen != 0;
+    p->last = memory->last;
+    return DEM_OK;
+}

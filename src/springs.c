@@ -182,7 +182,10 @@ sym2 springs_block(const springs *s, const double *strength, dem_index i, const 
 double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass)
 {
     double bound = 0.0;
-    for (dem_index i = 0; s->viscosity != NULL && i < s->n_nodes; i++)
-        bound = fmax(bound, 2.0 * sym2_largest(springs_block(s, s->viscosity, i, x)) * inverse_mass[i]);
+    for (dem_index i = 0; s->viscosity != NULL && i < s->n_nodes; i++) {
+        const double own = 2.0 * sym2_largest(springs_block(s, s->viscosity, i, x)) * inverse_mass[i];
+        if (!isfinite(own)) return (double)INFINITY;
+        bound = fmax(bound, own);
+    }
     return bound;
 }

@@ -89,9 +89,33 @@ dem_status table_flush(table *t, const hdf5_file *file)
     return DEM_OK;
 }
 
-dem_status table_verify(const table *t, const hdf5_file *file)
+hsize_t table_total(const table *t)
 {
-    for (int c = 0; c < t->n_columns; c++)
-        if (column_width(t, &t->columns[c]) > 0) TRY(hdf5_expect_rows(file, t->columns[c].name, t->written));
+    return t->before + t->written + t->buffered;
+}
+
+dem_status table_copy(const table *t, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
+{
+    for (int c = 0; c < t->n_columns; c++) {
+        const hdf5_rows rows = layout(t, &t->columns[c]);
+        if (column_width(t, &t->columns[c]) > 0) TRY(hdf5_copy(from, to, &rows, span));
+    }
+    return DEM_OK;
+}
+
+/* The first column is of one item, hence there. */
+dem_status table_count(const table *t, const hdf5_file *file, hsize_t *rows)
+{
+    *rows = 0;
+    if (t->n_columns > 0) TRY(hdf5_count_rows(file, t->columns[0].name, rows));
+    return table_verify(t, file, *rows);
+}
+
+dem_status table_verify(const table *t, const hdf5_file *file, hsize_t rows)
+{
+    for (int c = 0; c < t->n_columns; c++) {
+        const hdf5_rows column = layout(t, &t->columns[c]);
+        if (column_width(t, &t->columns[c]) > 0) TRY(hdf5_expect_rows(file, &column, rows));
+    }
     return DEM_OK;
 }

@@ -29,6 +29,7 @@ typedef struct table {
     int n_columns;
     hsize_t count[TABLE_SETS]; /**< items of a row; columns of which there are 0 are left out */
     hsize_t width;             /**< cells of a row */
+    hsize_t before;            /**< rows in files before this one */
     hsize_t written;           /**< rows in the file */
     hsize_t buffered;          /**< rows in the buffer */
     table_cell *buffer;        /**< [TABLE_ROWS][width] */
@@ -56,7 +57,16 @@ hsize_t table_bytes(const table *t);
 /** Moves the buffered rows to the file. */
 dem_status table_flush(table *t, const hdf5_file *file);
 
-/** DEM_ERROR_IO unless the file has every row of every column. */
-dem_status table_verify(const table *t, const hdf5_file *file);
+/** All rows so far. */
+hsize_t table_total(const table *t);
+
+/** Copies rows of another file that has this table. */
+dem_status table_copy(const table *t, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
+
+/** The rows of a file that has this table; DEM_ERROR_IO unless every column has as many. */
+dem_status table_count(const table *t, const hdf5_file *file, hsize_t *rows);
+
+/** DEM_ERROR_IO unless every column has so many rows. */
+dem_status table_verify(const table *t, const hdf5_file *file, hsize_t rows);
 
 #endif

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as a VTKHDF file: which dataset is where, and when it is written. docs/output.md lists them all. */
+/* A run as VTKHDF files: when what is written, and what a record has to remember of it. docs/output.md lists all
+ * datasets. */
 #include <dem/trajectory.h>
 
-#include "events.h"
-#include "frames.h"
-#include "hdf5_file.h"
-#include "history.h"
-#include "lattice_file.h"
 #include "obstacle_file.h"
-#include "peaks_file.h"
-#include "probe.h"
+#include "segments.h"
 #include "status.h"
 
 #include <math.h>
@@ -19,78 +14,60 @@
 #include <unistd.h>
 
 struct dem_trajectory {
-    char *path, *part, *obstacle, *obstacle_part; /* names: one allocation */
-    dem_trajectory_options options;
-    const dem_lattice *lattice; /* the model's */
-    dem_index n_obstacles;
+    reel reel;
+    segments segments;
     int finished;
-    frames frames;
-    history history;
-    table events;  /* without columns unless wanted */
-    probe *probes; /* [options.n_probes] */
 };
 
-static const char suffix[] = ".vtkhdf";
+static const char *path_of(const dem_trajectory *t)
+{
+    return t->segments.names[SEGMENTS_WHOLE];
+}
+
+static const char *part_of(const dem_trajectory *t)
+{
+    return t->segments.names[SEGMENTS_PART];
+}
 
 /* ---- following a run ---- */
 
-static dem_status flush_tables(dem_trajectory *t, const hdf5_file *file)
-{
-    TRY(table_flush(&t->history.table, file));
-    for (dem_index k = 0; k < t->options.n_probes; k++) TRY(table_flush(&t->probes[k].table, file));
-    return table_flush(&t->events, file);
-}
-
 static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation)
 {
-    TRY(flush_tables(t, file));
-    return frames_append(&t->frames, file, simulation);
-}
-
-/* Bounds of what is added, in bytes: deflate never lengthens. */
-static hsize_t tables_bytes(const dem_trajectory *t)
-{
-    hsize_t bytes = table_bytes(&t->history.table) + table_bytes(&t->events);
-    for (dem_index k = 0; k < t->options.n_probes; k++) bytes += table_bytes(&t->probes[k].table);
-    return bytes;
-}
-
-static hsize_t start_bytes(const dem_model *model)
-{
-    const dem_model_size size = dem_model_sizes(model);
-    return 104 * (hsize_t)size.n_nodes + 65 * (hsize_t)size.n_springs + 56 * (hsize_t)size.n_triangles +
-           32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles;
+    TRY(reel_flush(&t->reel, file));
+    return frames_append(&t->reel.frames, file, simulation);
 }
 
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
+    frames *f = &t->reel.frames;
     dem_state state = {.struct_size = sizeof state};
     hdf5_file file;
-    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", t->path);
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
     dem_simulation_state(simulation, &state);
-    if (t->frames.n > 0 && state.t == t->frames.last) return DEM_OK;
-    TRY(hdf5_open_write(&file, t->part, tables_bytes(t) + frames_bytes(&t->frames)));
+    if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
+    TRY(hdf5_open_write(&file, part_of(t), reel_flush_bytes(&t->reel) + frames_bytes(f)));
     TRY(hdf5_close(&file, append_frame(t, &file, simulation)));
-    t->frames.n++;
-    t->frames.last = state.t;
+    f->n++;
+    f->last = state.t;
     return DEM_OK;
 }
 
 static dem_status flush(dem_trajectory *t)
 {
     hdf5_file file;
-    TRY(hdf5_open_write(&file, t->part, tables_bytes(t)));
-    return hdf5_close(&file, flush_tables(t, &file));
+    TRY(hdf5_open_write(&file, part_of(t), reel_flush_bytes(&t->reel)));
+    return hdf5_close(&file, reel_flush(&t->reel, &file));
 }
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
-    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", t->path);
-    if (t->history.table.buffered == TABLE_ROWS) TRY(flush(t)); /* no probe has more rows */
-    history_record(&t->history, simulation);
-    for (dem_index k = 0; k < t->options.n_probes; k++) probe_record(&t->probes[k], simulation);
+    reel *r = &t->reel;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
+    if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t)); /* no probe has more rows */
+    history_record(&r->history, simulation);
+    for (dem_index k = 0; k < r->options.n_probes; k++) probe_record(&r->probes[k], simulation);
     return DEM_OK;
 }
 
@@ -98,38 +75,103 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 {
     dem_trajectory *t = context;
     (void)simulation;
-    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more events", t->path);
-    if (t->events.buffered == TABLE_ROWS) TRY(flush(t));
-    events_record(&t->events, event);
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more events", path_of(t));
+    if (t->reel.events.buffered == TABLE_ROWS) TRY(flush(t));
+    events_record(&t->reel.events, event);
+    return DEM_OK;
+}
+
+/* ---- records ---- */
+
+static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
+
+/* Without gaps: its bytes are those of its numbers. */
+typedef struct memory {
+    int64_t rows[REEL_PROBES];                          /* so far, over all segments */
+    int64_t n_probes, fields, double_precision, events; /* of the options, which have to be these again */
+    double frame_interval;
+    double last_frame, last_row; /* s */
+    double start, largest;       /* J, of the history */
+} memory;
+
+static memory remember(const dem_trajectory *t)
+{
+    const reel *r = &t->reel;
+    const dem_trajectory_options *o = &r->options;
+    memory m = {.n_probes = o->n_probes,
+                .fields = o->fields,
+                .double_precision = o->double_precision != 0,
+                .events = o->events != 0,
+                .frame_interval = o->frame_interval,
+                .last_frame = r->frames.last,
+                .last_row = r->history.last,
+                .start = r->history.start,
+                .largest = r->history.largest};
+    for (int k = 0; k < REEL_PROBES; k++) m.rows[k] = (int64_t)reel_total(r, k);
+    return m;
+}
+
+static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
+{
+    const dem_trajectory *t = context;
+    const memory m = remember(t);
+    const size_t n = (size_t)m.n_probes;
+    (void)simulation;
+    TRY(dem_record_put(record, entry, &m, sizeof m));
+    if (n == 0) return DEM_OK;
+    probe_memory *probes = malloc(n * sizeof *probes);
+    CHECK_MEMORY(probes);
+    for (size_t k = 0; k < n; k++) probes[k] = probe_remember(&t->reel.probes[k]);
+    const dem_status status = dem_record_put(record, probes_entry, probes, n * sizeof *probes);
+    free(probes);
+    return status;
+}
+
+static dem_status check_same(const char *what, double now, double then)
+{
+    CHECK(now == then, DEM_ERROR_ARGUMENT, "%s is %.17g, in the run that is to go on it is %.17g", what, now, then);
+    return DEM_OK;
+}
+
+static dem_status check_options_then(const memory *now, const memory *then)
+{
+    TRY(check_same("n_probes", (double)now->n_probes, (double)then->n_probes));
+    TRY(check_same("fields", (double)now->fields, (double)then->fields));
+    TRY(check_same("double_precision", (double)now->double_precision, (double)then->double_precision));
+    TRY(check_same("events", (double)now->events, (double)then->events));
+    return check_same("frame_interval", now->frame_interval, then->frame_interval);
+}
+
+/* What a record says of this trajectory. */
+typedef struct remembered {
+    memory memory;
+    const probe_memory *probes; /* [n_probes] */
+    hsize_t *rows;              /* [kinds] */
+} remembered;
+
+/* Free rows, after a failure too. */
+static dem_status recall(remembered *out, const dem_trajectory *t, const dem_record *record)
+{
+    const memory now = remember(t);
+    const size_t n = (size_t)now.n_probes;
+    size_t size = 0;
+    *out = (remembered){.rows = calloc((size_t)t->reel.n_kinds, sizeof *out->rows)};
+    CHECK_MEMORY(out->rows);
+    TRY(dem_record_get(record, entry, &out->memory, sizeof out->memory));
+    TRY(check_options_then(&now, &out->memory));
+    out->probes = dem_record_find(record, probes_entry, &size);
+    CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
+          "the record has no entry %s of %zu probes", probes_entry, n);
+    for (int k = 0; k < REEL_PROBES; k++) out->rows[k] = (hsize_t)out->memory.rows[k];
+    for (size_t k = 0; k < n; k++) out->rows[REEL_PROBES + k] = (hsize_t)out->probes[k].rows;
     return DEM_OK;
 }
 
 /* ---- creation ---- */
 
-static dem_status write_start(const dem_trajectory *t, const hdf5_file *file, const dem_model *model)
-{
-    const dem_lattice *lattice = dem_model_lattice(model);
-    if (t->options.frame_interval > 0.0) TRY(frames_create(&t->frames, file, lattice));
-    TRY(lattice_file_write(file, lattice, t->options.deflate));
-    TRY(obstacle_file_write(file, model));
-    if (t->options.events) TRY(events_create(&t->events, file));
-    for (dem_index k = 0; k < t->options.n_probes; k++) TRY(probe_create(&t->probes[k], file));
-    return table_create(&t->history.table, file);
-}
-
-static dem_status start(const dem_trajectory *t, const dem_model *model)
-{
-    hdf5_file file;
-    dem_status status = hdf5_open_new(&file, t->part, start_bytes(model));
-    if (status == DEM_OK) status = hdf5_close(&file, write_start(t, &file, model));
-    if (status == DEM_OK && t->n_obstacles > 0)
-        status = obstacle_file_publish(t->obstacle_part, t->obstacle, model, t->options.deflate);
-    if (status != DEM_OK) (void)unlink(t->part);
-    return status;
-}
-
 static dem_status check_options(const char *path, const dem_trajectory_options *options)
 {
+    static const char suffix[] = SEGMENTS_SUFFIX;
     const size_t length = strlen(path), end = sizeof suffix - 1;
     CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
           "%s: the name of a trajectory ends in %s", path, suffix);
@@ -147,106 +189,17 @@ static dem_status check_options(const char *path, const dem_trajectory_options *
     return DEM_OK;
 }
 
-static dem_status make_names(dem_trajectory *t, const char *path)
-{
-    const size_t size = strlen(path) + sizeof ".obstacle.part";
-    const int stem = (int)(strlen(path) - (sizeof suffix - 1));
-    t->path = malloc(4 * size);
-    CHECK_MEMORY(t->path);
-    t->part = t->path + size;
-    t->obstacle = t->part + size;
-    t->obstacle_part = t->obstacle + size;
-    (void)snprintf(t->path, size, "%s", path);
-    (void)snprintf(t->part, size, "%.*s.part%s", stem, path, suffix);
-    (void)snprintf(t->obstacle, size, "%.*s.obstacle%s", stem, path, suffix);
-    (void)snprintf(t->obstacle_part, size, "%.*s.obstacle.part%s", stem, path, suffix);
-    return DEM_OK;
-}
-
-static dem_status make_probes(dem_trajectory *t)
-{
-    const dem_probe *given = t->options.probes;
-    t->probes = calloc((size_t)t->options.n_probes + 1, sizeof *t->probes);
-    CHECK_MEMORY(t->probes);
-    for (dem_index k = 0; k < t->options.n_probes; k++) {
-        TRY(probe_init(&t->probes[k], &given[k], t->lattice));
-        for (dem_index q = 0; q < k; q++)
-            CHECK(strcmp(given[q].name, given[k].name) != 0, DEM_ERROR_ARGUMENT, "two probes have the name %s",
-                  given[k].name);
-    }
-    return DEM_OK;
-}
-
-static dem_status prepare(dem_trajectory *t, const char *path, const dem_simulation *simulation)
-{
-    const dem_model *model = dem_simulation_model(simulation);
-    t->lattice = dem_model_lattice(model);
-    t->n_obstacles = dem_model_sizes(model).n_obstacles;
-    TRY(make_names(t, path));
-    TRY(frames_init(&t->frames, model, &t->options));
-    TRY(make_probes(t));
-    if (t->options.events) TRY(events_init(&t->events));
-    return history_init(&t->history, simulation);
-}
-
-/* ---- the end ---- */
-
-static dem_status write_peaks(const dem_trajectory *t, const hdf5_file *file, const peaks_report *report)
-{
-    if (t->frames.n > 0) TRY(peaks_file_write_arrays(file, report, &t->frames));
-    return peaks_file_write_lists(file, report);
-}
-
-static dem_status complete(dem_trajectory *t)
-{
-    const peaks_report report = {t->options.peaks, t->lattice, t->options.most_stressed};
-    hdf5_file file;
-    TRY(flush(t));
-    if (report.peaks == NULL) return DEM_OK;
-    TRY(hdf5_open_write(&file, t->part, peaks_file_bytes(&report, &t->frames)));
-    return hdf5_close(&file, write_peaks(t, &file, &report));
-}
-
-static dem_status verify_counts(const dem_trajectory *t, const hdf5_file *file)
-{
-    TRY(table_verify(&t->history.table, file));
-    TRY(table_verify(&t->events, file));
-    for (dem_index k = 0; k < t->options.n_probes; k++) TRY(table_verify(&t->probes[k].table, file));
-    if (t->options.frame_interval <= 0.0) return DEM_OK;
-    return frames_verify(&t->frames, file);
-}
-
-static dem_status verify(const dem_trajectory *t)
-{
-    hdf5_file file;
-    TRY(hdf5_open_read(&file, t->part));
-    return hdf5_close(&file, verify_counts(t, &file));
-}
-
-/* ---- notes ---- */
-
-static dem_status name_note(char *out, size_t size, const char *name)
-{
-    CHECK(*name != '\0' && strpbrk(name, "/.") == NULL && strlen(name) < 64, DEM_ERROR_ARGUMENT,
-          "\"%s\" cannot name a note: 1 to 63 characters, none of them / or .", name);
-    (void)snprintf(out, size, "/provenance/%s", name);
-    return DEM_OK;
-}
-
-/* ---- public ---- */
-
-dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
-                                 const dem_trajectory_options *options)
+/* A trajectory without files yet. */
+static dem_status prepare(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                          const dem_trajectory_options *options)
 {
     CHECK(out != NULL && path != NULL && simulation != NULL && options != NULL, DEM_ERROR_ARGUMENT,
-          "dem_trajectory_create: an argument is NULL");
+          "a trajectory: an argument is NULL");
     TRY(check_options(path, options));
-    const dem_model *model = dem_simulation_model(simulation);
     dem_trajectory *t = calloc(1, sizeof *t);
     CHECK_MEMORY(t);
-    t->options = *options;
-    dem_status status = prepare(t, path, simulation);
-    if (status == DEM_OK) status = start(t, model);
+    dem_status status = reel_init(&t->reel, simulation, options);
+    if (status == DEM_OK) status = segments_init(&t->segments, path, &t->reel);
     if (status == DEM_OK)
         *out = t;
     else
@@ -254,31 +207,110 @@ dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const d
     return status;
 }
 
+/* Makes the part and the file of obstacles, and removes what is younger. */
+static dem_status start(dem_trajectory *t)
+{
+    const reel *r = &t->reel;
+    const segments *s = &t->segments;
+    TRY(segments_open(s, r));
+    dem_status status = DEM_OK;
+    if (dem_model_sizes(r->model).n_obstacles > 0)
+        status = obstacle_file_publish(s->names[SEGMENTS_OBSTACLE_PART], s->names[SEGMENTS_OBSTACLE], r->model,
+                                       r->options.deflate);
+    if (status == DEM_OK) status = segments_prune(&t->segments);
+    if (status != DEM_OK) (void)unlink(part_of(t));
+    return status;
+}
+
+/* Hands out what has started, or puts it away. */
+static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status status)
+{
+    if (status == DEM_OK)
+        *out = t;
+    else
+        dem_trajectory_destroy(t);
+    return status;
+}
+
+/* The history's last instant is known before the segments are looked for: they end with it. */
+static dem_status go_on(dem_trajectory *t, const dem_record *record)
+{
+    remembered then;
+    reel *r = &t->reel;
+    dem_status status = recall(&then, t, record);
+    for (dem_index k = 0; k < r->options.n_probes && status == DEM_OK; k++)
+        status = probe_recall(&r->probes[k], &then.probes[k]);
+    if (status == DEM_OK) {
+        r->frames.last = then.memory.last_frame;
+        r->history.last = then.memory.last_row;
+        r->history.start = then.memory.start;
+        r->history.largest = then.memory.largest;
+        status = segments_find(&t->segments, r, then.rows);
+    }
+    free(then.rows);
+    return status == DEM_OK ? start(t) : status;
+}
+
+/* ---- public ---- */
+
+dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                 const dem_trajectory_options *options)
+{
+    dem_trajectory *t = NULL;
+    TRY(prepare(&t, path, simulation, options));
+    return hand_out(out, t, start(t));
+}
+
+dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                 const dem_trajectory_options *options, const dem_record *record)
+{
+    dem_trajectory *t = NULL;
+    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_resume: the record is NULL");
+    TRY(prepare(&t, path, simulation, options));
+    return hand_out(out, t, go_on(t, record));
+}
+
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
 {
-    return (dem_observer){trajectory->options.frame_interval,           on_frame, on_step,
-                          trajectory->options.events ? on_event : NULL, NULL,     trajectory};
+    return (dem_observer){.interval = trajectory->reel.options.frame_interval,
+                          .frame = on_frame,
+                          .step = on_step,
+                          .event = trajectory->reel.options.events ? on_event : NULL,
+                          .record = on_record,
+                          .context = trajectory};
 }
 
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
 {
-    char path[96];
+    char path[NOTES_PATH];
     hdf5_file file;
     CHECK(trajectory != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
           "dem_trajectory_note: an argument is NULL");
-    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", trajectory->path);
-    TRY(name_note(path, sizeof path, name));
-    TRY(hdf5_open_write(&file, trajectory->part, strlen(text)));
-    return hdf5_close(&file, hdf5_write_text(&file, path, text));
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", path_of(trajectory));
+    TRY(notes_path(path, name));
+    TRY(hdf5_open_write(&file, part_of(trajectory), strlen(text)));
+    TRY(hdf5_close(&file, hdf5_write_text(&file, path, text)));
+    return notes_put(&trajectory->reel.notes, path, text);
+}
+
+dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record)
+{
+    remembered then;
+    CHECK(trajectory != NULL && record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
+    TRY(flush(trajectory));
+    dem_status status = recall(&then, trajectory, record);
+    if (status == DEM_OK) status = segments_cut(&trajectory->segments, &trajectory->reel, then.rows);
+    free(then.rows);
+    return status;
 }
 
 dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 {
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
-    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", trajectory->path);
-    TRY(complete(trajectory));
-    TRY(verify(trajectory));
-    TRY(hdf5_publish(trajectory->part, trajectory->path));
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", path_of(trajectory));
+    TRY(flush(trajectory));
+    TRY(segments_join(&trajectory->segments, &trajectory->reel));
     trajectory->finished = 1;
     return DEM_OK;
 }
@@ -286,25 +318,25 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 void dem_trajectory_destroy(dem_trajectory *trajectory)
 {
     if (trajectory == NULL) return;
-    history_free(&trajectory->history);
-    table_free(&trajectory->events);
-    for (dem_index k = 0; trajectory->probes != NULL && k < trajectory->options.n_probes; k++)
-        probe_free(&trajectory->probes[k]);
-    free(trajectory->probes);
-    frames_free(&trajectory->frames);
-    free(trajectory->path);
+    reel_free(&trajectory->reel);
+    segments_free(&trajectory->segments);
     free(trajectory);
 }
 
 dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size)
 {
-    char full[96];
+    char full[NOTES_PATH];
     hdf5_file file;
     CHECK(path != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
           "dem_trajectory_read_note: an argument is NULL");
-    TRY(name_note(full, sizeof full, name));
+    TRY(notes_path(full, name));
     TRY(hdf5_open_read(&file, path));
     return hdf5_close(&file, hdf5_read_text(&file, full, text, size));
+}
+
+void dem_hdf5_skip_exit(void)
+{
+    (void)H5dont_atexit();
 }
 
 const char *dem_version_hdf5(void)

@@ -42,6 +42,10 @@ typedef struct dem_obstacle {
     dem_friction_law friction_law;
 } dem_obstacle;
 
+/** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
+ *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
+DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);
+
 /** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
 typedef struct dem_csr {
     dem_index n_nodes;

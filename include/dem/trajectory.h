@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** dem/trajectory.h -- a run as one HDF5 file that ParaView opens (VTKHDF), and lattices from such files.
  *
- *  A trajectory is an observer: create it, hand dem_trajectory_observer() to the simulation, advance, finish.
+ *  A trajectory is an observer: create it, hand dem_trajectory_observer() to the simulation, advance, finish. A run
+ *  that is to survive being killed calls dem_trajectory_segment() before it writes a record to disk; the next one
+ *  begins with dem_trajectory_resume() from that record, and what it finishes is, dataset by dataset, what one run
+ *  would have made.
  *  docs/output.md lists every dataset. HDF5 is confined to the source files behind this header. */
 #ifndef DEM_TRAJECTORY_H
 #define DEM_TRAJECTORY_H
 
 #include <dem/dem.h>
+#include <dem/record.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -64,19 +68,40 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
 }
 
 /** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed after
- *  every frame so that it can be looked at while the run goes on; an older part is overwritten.
- *  Writes the lattice group and the obstacle file NAME.obstacle.vtkhdf (none without obstacles). */
+ *  every frame so that it can be looked at while the run goes on.
+ *  Writes the lattice group and the obstacle file NAME.obstacle.vtkhdf (none without obstacles).
+ *  The run starts anew: an older part is overwritten, and segments NAME.00001.vtkhdf, ... of an unfinished run are
+ *  removed, from which only dem_trajectory_resume() goes on. A file of such a name that is no segment stays; it stops
+ *  dem_trajectory_segment() when that comes to it. */
 DEM_API dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
                                          const dem_trajectory_options *options);
 
-/** The observer to hand to dem_simulation_observe(); borrows the trajectory. */
+/** Goes on with the trajectory of a run that was killed or stopped, or that is to be continued: the counterpart of
+ *  dem_trajectory_create(), with the same path and options (deflate, most_stressed and peaks may be others). The
+ *  segments must hold just the rows up to the record: younger ones are removed, as is the part. Where there are no such
+ *  segments, but a finished NAME.vtkhdf that has these rows, they become the first segment; NAME.vtkhdf stays.
+ *  Notes are not read back.
+ *  \param record  one that dem_trajectory_segment() was called with; only read
+ *  \return DEM_ERROR_IO with the segment that is missing or another run's, DEM_ERROR_ARGUMENT with the option that
+ *          differs; then nothing has changed */
+DEM_API dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                         const dem_trajectory_options *options, const dem_record *record);
+
+/** The observer to hand to dem_simulation_observe(); borrows the trajectory. Its entries in a record are "trajectory"
+ *  and "trajectory.probes". */
 DEM_API dem_observer dem_trajectory_observer(dem_trajectory *trajectory);
 
-/** Stores a string in /provenance under `name`. */
+/** Stores a string in /provenance under `name`, in the part and in every file that is made from now on. */
 DEM_API dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text);
 
-/** Writes what is buffered, and the peaks, syncs, and renames the part to its final name, replacing a file of that
- *  name. */
+/** Publishes what was seen up to the record, and is in no segment yet, as the next segment, a file of its own that is
+ *  synced and read back; what is later stays in the part. A record that is written to disk after this loses no row.
+ *  \param record  of this run, not older than that of the segment before
+ *  \return DEM_ERROR_IO, then the files are as they were */
+DEM_API dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record);
+
+/** Writes what is buffered, and the peaks, syncs, and gives the file its final name, replacing a file of that name:
+ *  that is the part, or a new file of all segments and the part, which then are removed. */
 DEM_API dem_status dem_trajectory_finish(dem_trajectory *trajectory);
 
 /** Accepts NULL. Without a finish before it the part file stays as of its last frame. */
@@ -94,6 +119,14 @@ DEM_API dem_status dem_trajectory_read_note(const char *path, const char *name, 
  *  \param[out] out  overwritten, not freed; caller owns it
  *  \return DEM_ERROR_IO with the file, dataset and reason; DEM_ERROR_MODEL for inconsistent extents */
 DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);
+
+/** How large the lattice of such a file is: the same checks, but for those of its numbers, which are not read.
+ *  \return as dem_lattice_read() */
+DEM_API dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *n_springs);
+
+/** For a program that uses HDF5 through this library only, as its first call of it: HDF5 then does not clean up at the
+ *  exit of the process, where version 1.10 crashes if a file could not be written or closed. By then all are closed. */
+DEM_API void dem_hdf5_skip_exit(void);
 
 /** Version of the HDF5 library in use, "MAJOR.MINOR.PATCH". */
 DEM_API const char *dem_version_hdf5(void);

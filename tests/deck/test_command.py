@@ -4,6 +4,7 @@
 
 Options, files written, running again, another problem's output, cut-off runs, the log. Standard library only: never
 skipped. Where h5py is there, outputs are compared with compare.py, otherwise only their summaries are."""
+import json
 import math
 import os
 import pathlib
@@ -20,7 +21,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 SECONDS = 120  # more than any of these runs takes, under a sanitizer too
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
-OTHER_PROBLEM = "the file exists and belongs to another problem; move it away or change 'name' in &output"
+WAY_OUT = "move it away, change 'name' in &output, or use --overwrite"
+OTHER_PROBLEM = f"the file exists and belongs to another problem; {WAY_OUT}"
 # Falls on a peak at 25 m/s, and folds.
 FOLD = """
 &run t_end = 4e-3 /
@@ -39,9 +41,9 @@ HANG = """
 &output name = 'hang', frame_interval = 1 /
 """
 
+OUTPUT = {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json", "rectangle.checkpoint"}
 UNPRINTED = "dem_batch: error: standard output cannot be written\n"
-OTHER_RUN = ("the file exists and belongs to another run of the same problem, with other t_end, title or frames; "
-             "move it away or change 'name' in &output")
+OTHER_RUN = f"the file exists and belongs to another run of the same problem, with other t_end, title or frames; {WAY_OUT}"
 
 
 def run(*arguments, cwd=None, text=True):
@@ -84,10 +86,12 @@ def numbers(pattern, text):
 
 
 def summary(log):
-    """What a run's log says of its result: without the time that it took."""
+    """What a run's log says of its result: without the time that it took, and where it was."""
     lines = log.split("output     ", 1)[1].splitlines()[1:]
+    told = {key: value for key, value in json.loads(lines.pop()).items()
+            if not key.startswith("wall_") and key not in ("deck", "output")}
     lines = [line for line in lines if not re.match(r" *\d+\.\d %  t ", line)]
-    return [re.sub(r", \d+\.\d\d s$", "", line) for line in lines]
+    return [re.sub(r", \d+\.\d\d s$", "", line) for line in lines] + [told]
 
 
 class Case(unittest.TestCase):
@@ -351,26 +355,26 @@ class Run(Case):
 
     def test_files_written(self):
         log = self.call(0, "deck.nml")
-        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+        self.assertEqual(self.files(), OUTPUT)
         self.assertIn("\noutput     rectangle.vtkhdf\n", log)
-        for name in self.files():
+        for name in self.files() - {"rectangle.json", "rectangle.checkpoint"}:
             self.assertEqual((self.folder / name).read_bytes()[:8], b"\x89HDF\r\n\x1a\n")
+        self.assertEqual(log.splitlines(True)[-1], (self.folder / "rectangle.json").read_text(encoding="utf-8"))
 
     def test_without_an_obstacle_there_is_no_file_of_it(self):
         text = coarse(clearance="").replace("    clearance = ", "    ! ")
         self.put(re.sub(r"(?s)&obstacle.*?\n/\n", "", text))
         log = self.call(0, "deck.nml")
-        self.assertEqual(self.files(), {"rectangle.vtkhdf"})
+        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.json", "rectangle.checkpoint"})
         self.assertIn("\ncontact    none\n", log)
-        self.assertNotIn("rebound", log)
+        self.assertNotIn("\nrebound ", log)
 
     def test_outdir(self):
         (self.folder / "out").mkdir()
         log = self.call(0, "deck.nml", "--outdir", "out")
         self.assertIn("\noutput     out/rectangle.vtkhdf\n", log)
         self.assertEqual(self.files(), {"out"})
-        self.assertEqual({path.name for path in (self.folder / "out").iterdir()},
-                         {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+        self.assertEqual({path.name for path in (self.folder / "out").iterdir()}, OUTPUT)
 
     def test_methods_agree(self):
         """Rebound of a body, to the 1e-3 that steps of an eighth of the bound are good for."""
@@ -498,7 +502,8 @@ class Run(Case):
         done = run("deck.nml", cwd=self.folder)
         self.assertEqual(done.returncode, 4)
         self.assertRegex(done.stderr, r"\Adeck\.nml: error: node \d+ at \(\S+, \S+\) m .* at t = \S+ s\n\Z")
-        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf"})
+        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json",
+                                        "rectangle.checkpoint", "rectangle.00001.vtkhdf"})
 
     def test_progress_is_plain_lines_where_there_is_no_terminal(self):
         done = run("deck.nml", cwd=self.folder, text=False)
@@ -541,8 +546,7 @@ class Run(Case):
                     (self.folder / name).mkdir()
                     done = self.started(["--outdir", name, "deck.nml"], **streams)
                     self.assertEqual((done.returncode, done.stderr), (5, UNPRINTED))
-                    self.assertEqual({path.name for path in (self.folder / name).iterdir()},
-                                     {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+                    self.assertEqual({path.name for path in (self.folder / name).iterdir()}, OUTPUT)
                     self.assertIn("done already", self.call(0, "--outdir", name, "deck.nml"))
         os.close(pipe)
 
@@ -551,7 +555,8 @@ class Run(Case):
     def test_the_second_run_is_done_already(self):
         self.call(0, "deck.nml")
         before = self.state(*self.files())
-        self.assertEqual(self.call(0, "deck.nml"), "rectangle.vtkhdf: done already, this run's result is there\n")
+        self.assertEqual(self.call(0, "deck.nml"), "rectangle.vtkhdf: done already, this run's result is there\n" +
+                         (self.folder / "rectangle.json").read_text(encoding="utf-8"))
         self.assertEqual(self.state(*self.files()), before)
 
     def test_a_comment_makes_no_other_run(self):
@@ -579,7 +584,7 @@ class Run(Case):
             with self.subTest(values):
                 self.put(coarse(**values))
                 out = self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_PROBLEM}\n")
-                self.assertEqual(out, "")
+                self.assertEqual(json.loads(out)["message"], f"rectangle.vtkhdf: error: {OTHER_PROBLEM}")
                 self.assertEqual(self.files(), names)
                 self.assertEqual(self.state(*names), before)
 
@@ -587,11 +592,15 @@ class Run(Case):
         self.call(0, "deck.nml")
         names = self.files()
         before = self.state(*names)
-        for values in ({"t_end": "9e-3"}, {"frame_interval": "2e-3"}, {"title": "'another'"}):
-            with self.subTest(values):
-                self.put(coarse(**values))
-                self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
-                self.assertEqual(self.state(*names), before)
+        self.put(coarse(t_end="7e-3"))
+        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
+        self.put(coarse(frame_interval="2e-3"))
+        self.call(7, "deck.nml", stderr="rectangle.checkpoint: error: the run that it is of has 'frame_interval = 0.001' in "
+                                        f"&output, this one has 'frame_interval = 0.002'; {WAY_OUT}\n")
+        self.assertEqual(self.state(*names), before)
+        (self.folder / "rectangle.checkpoint").unlink()
+        self.put(coarse(t_end="9e-3"))
+        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
 
     def test_a_file_that_is_none_of_ours(self):
         (self.folder / "rectangle.vtkhdf").write_bytes(b"my notes\n")
@@ -607,9 +616,10 @@ class Run(Case):
         for part in (b"", b"garbage" * 1000, whole[:100], whole[:len(whole) // 2], b"\0" * len(whole)):
             with self.subTest(len(part)):
                 (self.folder / "rectangle.vtkhdf").unlink()
+                (self.folder / "rectangle.checkpoint").unlink()
                 (self.folder / "rectangle.part.vtkhdf").write_bytes(part)
                 self.assertIn("\nrun        ", self.call(0, "deck.nml"))
-                self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+                self.assertEqual(self.files(), OUTPUT)
 
     def kill(self):
         """Runs the deck until its first lines of progress, and ends it with SIGKILL."""
@@ -620,7 +630,7 @@ class Run(Case):
                         break
                 process.kill()
             if process.returncode == -9:
-                self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf"})
+                self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.lock"})
                 return
             (self.folder / "rectangle.vtkhdf").unlink()  # it was faster
         self.fail("the run always ends before it can be killed")
@@ -629,7 +639,7 @@ class Run(Case):
         self.put(coarse(spacing="5e-3"))
         self.kill()
         log = self.call(0, "deck.nml")
-        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf"})
+        self.assertEqual(self.files(), OUTPUT)
         (self.folder / "fresh").mkdir()
         fresh = self.call(0, "--outdir", "fresh", "deck.nml")
         self.assertEqual(summary(log), summary(fresh))
@@ -641,7 +651,7 @@ class Run(Case):
         before = self.state(*names)
         self.put(coarse())
         self.call(7, "deck.nml", stderr="rectangle.vtkhdf: error: an unfinished run of another problem is in "
-                                        "rectangle.part.vtkhdf; move it away or change 'name' in &output\n")
+                                        f"rectangle.part.vtkhdf; {WAY_OUT}\n")
         self.assertEqual(self.files(), names)
         self.assertEqual(self.state(*names), before)
 
@@ -651,14 +661,12 @@ class Run(Case):
         self.call(3, "--outdir", "x" * 4090, "deck.nml", stderr="deck.nml: error: the path of the output is too long\n")
 
     def test_outdir_missing(self):
-        self.call(5, "--outdir", "no", "deck.nml", stderr="no/rectangle.vtkhdf: error: no/rectangle.part.vtkhdf: "
-                                                          "cannot be created (No such file or directory)\n")
+        self.call(5, "--outdir", "no", "deck.nml", stderr="no/rectangle.lock: error: cannot be created (No such file or directory)\n")
         self.assertEqual(self.files(), set())
 
     def test_outdir_is_a_file(self):
         self.call(5, "--outdir", "deck.nml", "deck.nml",
-                  stderr="deck.nml/rectangle.vtkhdf: error: deck.nml/rectangle.part.vtkhdf: cannot be created "
-                         "(Not a directory)\n")
+                  stderr="deck.nml/rectangle.lock: error: cannot be created (Not a directory)\n")
         self.assertEqual(self.files(), set())
 
     def test_outdir_is_read_only(self):
@@ -666,8 +674,7 @@ class Run(Case):
         out.mkdir()
         out.chmod(0o555)
         if os.geteuid() != 0:  # root writes everywhere
-            self.call(5, "--outdir", "out", "deck.nml", stderr="out/rectangle.vtkhdf: error: "
-                      "out/rectangle.part.vtkhdf: cannot be created (Permission denied)\n")
+            self.call(5, "--outdir", "out", "deck.nml", stderr="out/rectangle.lock: error: cannot be created (Permission denied)\n")
         self.assertEqual(list(out.iterdir()), [])
         out.chmod(0o755)
 

@@ -1,84 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What bad input gets: `test_refused.py DEM_BATCH`. The exact message, the exit code, and nothing written.
-
-A deck is refused with 3, a command line with 2. Needs the standard library only: never skipped."""
+"""Decks whose text, keys or values are refused, with 3, and command lines, with 2: `test_refused.py DEM_BATCH`."""
 import os
-import pathlib
-import subprocess
-import sys
-import tempfile
-import unittest
 
-DEM_BATCH = None
+import refusal
+from refusal import (BASE, DISC, FILE, MESH, OBSTACLE, ROUGH, edit, stderr_of, without)
 
-BASE = """&run
-    t_end = 1e-3
-    gravity = 0, -9.81
-/
-&material
-    name = 'rubber'
-    youngs_modulus = 1e7
-    density = 1050
-    thickness = 1
-/
-&body
-    shape = 'rectangle'
-    size = 0.04, 0.05
-    spacing = 0.01
-    material = 'rubber'
-    position = 0, 0.001
-    velocity = 0, -1
-/
-&obstacle
-    points = -0.1, 0, 0.1, 0
-    restitution = 0.5
-/
-&output
-    name = 'block'
-    frame_interval = 1e-4
-/
-"""
-
-
-def edit(text, *edits):
-    """The deck with each edit 'old -> new' made at the only place where `old` stands."""
-    for change in edits:
-        old, new = change.split(" -> ", 1)
-        if text.count(old) != 1:
-            raise ValueError(f"{old!r} stands at {text.count(old)} places of the deck")
-        text = text.replace(old, new)
-    return text
-
-
-def without(text, *parts):
-    return edit(text, *(part + " -> " for part in parts))
-
-
-DISC = edit(BASE, "'rectangle' -> 'disc'", "size = 0.04, 0.05 -> radius = 0.03")
-RING = edit(BASE, "'rectangle' -> 'ring'", "size = 0.04, 0.05 -> radius = 0.03, inner_radius = 0.01")
-POLYGON = edit(BASE, "'rectangle' -> 'polygon'", "size = 0.04, 0.05 -> points = 0,0, 0.04,0, 0.04,0.05, 0,0.05")
-MASK = edit(BASE, "'rectangle' -> 'mask'", "size = 0.04, 0.05 -> file = 'good.pgm', scale = 0.01")
-MESH = without(edit(BASE, "'rectangle' -> 'mesh'", "size = 0.04, 0.05 -> file = 'good.msh', scale = 0.01"),
-               "    spacing = 0.01\n")
-FILES = {  # beside the decks
-    "good.pgm": "P2 4 5 1\n" + 5 * "1 1 1 1\n", "black.pgm": "P2 4 5 1\n" + 5 * "0 0 0 0\n",
-    "bad.pgm": "P2\n# 2 x 2\n2 2\n255\n0 1\n2 256\n", "large.pgm": "P5 30000 30000 255\nxyz",
-    "good.msh": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
-                "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n"}
-FILES["bad.msh"] = FILES["good.msh"].replace("1 1 2 3\n", "1 1 2 4\n")
-FILES["large.msh"] = FILES["good.msh"].replace("1 3 1 3", "1 4000000000 1 3")
-FILES["quads.msh"] = FILES["good.msh"].replace("2 1 2 1\n", "2 1 3 1\n")
-FILE = without(edit(BASE, "'rectangle' -> 'file'", "size = 0.04, 0.05 -> file = 'part.h5'"),
-               "    spacing = 0.01\n", "    material = 'rubber'\n")
-OBSTACLE = "&obstacle\n    points = -0.1, 0, 0.1, 0\n    restitution = 0.5\n/\n"
-ROUGH = "profile = 'rough', roughness = 1e-3, correlation = 0.01"
-REVERSED = ", or reverse the obstacle's points: bodies live on the left of each segment"
-TALL = edit(BASE, "0.04, 0.05 -> 0.04, 0.2") + "".join(
-    f"&void shape = 'rectangle', centre = 0, {y}, size = 0.06, 0.02 /\n" for y in (0.03, 0.1, 0.17))
-
-# ---- the decks: name, text, messages; each of them is 'line:column message', with '-' where there is no place
-
+# name, text, messages
 DECKS = [
     # names
     ("unknown group", edit(BASE, "&obstacle -> &obstacel"),
@@ -270,16 +198,39 @@ DECKS = [
     ("name of the output empty", edit(BASE, "'block' -> ''"),
      ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
     ("name of the output like that of its obstacles", edit(BASE, "'block' -> 'block.obstacle'"),
-     ["24:5 'name' in &output must not end in '.obstacle' or '.part': other files are called so"]),
+     ["24:5 'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: other files are called so"]),
     ("name of the output like that of its part", edit(BASE, "'block' -> 'block.part'"),
-     ["24:5 'name' in &output must not end in '.obstacle' or '.part': other files are called so"]),
+     ["24:5 'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: other files are called so"]),
     ("too many frames", edit(BASE, "1e-4 -> 1e-12"),
      ["25:5 'frame_interval' in &output, 1e-12 s, makes 1e+09 frames until 't_end'; the limit is 10000000"]),
     ("too many frames of the default interval",
      without(edit(BASE, "t_end = 1e-3 -> t_end = 1e9"), "    frame_interval = 1e-4\n"),
      ["23:1 'frame_interval' in &output, 0.001 s, makes 1e+12 frames until 't_end'; the limit is 10000000"]),
-    ("too many steps", edit(BASE, "t_end = 1e-3 -> t_end = 1e9", "= 1e-4 -> = 1e8"),
-     ["- t_end = 1e+09 s takes at least 5.86e+13 steps of 1.71e-05 s; the limit is 1e+10"]),
+    ("skin that rounding hides", BASE + "&contact skin = 1e-300 /\n",
+     ["27:10 'skin' in &contact must be >= 1.2e-15 m, or rounding of coordinates of up to 0.0529615 m hides it, got "
+      "1e-300 m"]),
+    ("spacing for the error that rounding hides", BASE + "&solver spacing = 1e-20 /\n",
+     ["27:9 'rtol' in &solver, 1e-06 of a spacing of 1e-20 m, asks for less than rounding makes of coordinates of up to "
+      "0.0529615 m"]),
+    ("scale of speed that rounding hides", BASE + "&solver v_scale = 1e-15 /\n",
+     ["27:9 'rtol' in &solver, 1e-06 of 'v_scale', 1e-15 m/s, asks for less than rounding makes of velocities of up to "
+      "1 m/s"]),
+    ("rest_speed 0", BASE + "&contact rest_speed = 0 /\n",
+     ["27:23 'rest_speed' in &contact must be > 0, got 0"]),
+    ("v_scale negative", BASE + "&solver v_scale = -1 /\n",
+     ["27:19 'v_scale' in &solver must be > 0, got -1"]),
+    ("fixed_step 0", BASE + "&solver fixed_step = 0 /\n",
+     ["27:22 'fixed_step' in &solver must be > 0, got 0"]),
+    ("no thread", BASE + "&solver threads = 0 /\n",
+     ["27:19 'threads' in &solver must be in [1, 1024], got 0"]),
+    ("kernel unknown", BASE + "&solver kernel = 'sse' /\n",
+     ["27:18 'kernel' in &solver must be 'auto', 'portable', 'avx2' or 'avx512', got 'sse'"]),
+    ("residual too large", edit(BASE, "t_end = 1e-3 -> t_end = 1e-3, residual = 1"),
+     ["2:30 'residual' in &run must be in [1e-12, 0.1], got 1"]),
+    ("probe of nothing", BASE + "&probe name = 'tip' /\n",
+     ["27:1 &probe needs 'place' or 'number'"]),
+    ("two probes of one name", BASE + 2 * "&probe name = 'tip', number = 1 /\n",
+     ["28:8 two probes have the name 'tip', the first in line 27"]),
     ("name of the output hidden", edit(BASE, "'block' -> '.block'"),
      ["24:5 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'"]),
     ("string of 5000 characters", edit(BASE, "1e-3 -> 1e-3, title = '" + 5000 * "t" + "'"),
@@ -296,6 +247,18 @@ DECKS = [
       "3 of 5 segments"]),
     ("segment too short", edit(BASE, "-0.1, 0, 0.1, 0 -> 0, 0, 1e-200, 0"),
      ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (0, 0) to (1e-200, 0) m, is too short"]),
+    ("obstacle that crosses itself", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1,0, 0.1,0, 0.1,-0.1, 0,0.1"),
+     ["20:5 'points' in &obstacle: segment 1 of obstacle 1 meets segment 3"]),
+    ("obstacle that touches itself", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1,0, 0.1,0, 0.1,-0.1, 0,0, -0.1,-0.1"),
+     ["20:5 'points' in &obstacle: segment 1 of obstacle 1 meets segment 3"]),
+    ("obstacle that goes back", edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1,0, 0.1,0, 0,0"),
+     ["20:5 'points' in &obstacle: segment 2 of obstacle 1 goes back over segment 1"]),
+    ("closed obstacle that goes back", BASE + "&obstacle points = 0,-9, 1,-9, 2,-8, 2,-9, 0,-9 /\n",
+     ["27:11 'points' in &obstacle: segment 2 of obstacle 2 meets segment 4"]),
+    ("two obstacles that cross themselves",
+     edit(BASE, "-0.1, 0, 0.1, 0 -> -0.1,0, 0.1,0, 0.1,-0.1, 0,0.1") + "&obstacle points = 0,-9, 1,-9, 0,-9 /\n",
+     ["20:5 'points' in &obstacle: segment 1 of obstacle 1 meets segment 3",
+      "27:11 'points' in &obstacle: segment 2 of obstacle 2 goes back over segment 1"]),
     ("profile unknown", edit(BASE, "restitution = 0.5 -> profile = 'spline'"),
      ["21:15 'profile' in &obstacle must be 'polyline', 'smooth' or 'rough', got 'spline'"]),
     ("profile that runs back", edit(BASE, "0.1, 0\n    restitution = 0.5 -> 0.1, 0, 0, 1\n    profile = 'smooth'"),
@@ -402,6 +365,8 @@ DECKS = [
      ["1:1 the file is in UTF-16; UTF-8 is expected"]),
     ("ends of lines of old Macs", BASE.replace("\n", "\r"),
      ["1:5 byte 0x0D is not text; UTF-8 is expected"]),
+    ("line longer than 64 KiB", BASE + "!" + 2**16 * "x" + "\n",
+     ["27:65537 the line is longer than 65536 characters"]),
     ("empty file", b"",
      ["- the file is empty"]),
     ("file larger than 4 MiB", "!" * 2**22 + "\n" + BASE,
@@ -482,273 +447,19 @@ DECKS = [
      ["16:5 'clearance' in &body needs an &obstacle"]),
     ("clearance without gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 0"),
      ["16:5 'clearance' in &body needs gravity, which is 0"]),
-    # shapes
-    ("ring whose hole is larger", edit(RING, "inner_radius = 0.01 -> inner_radius = 0.03"),
-     ["13:20 'inner_radius' in &body must be less than 'radius', 0.03 m, got 0.03 m"]),
-    ("spacing larger than a ring is wide", edit(RING, "    spacing = 0.01 ->     spacing = 0.021"),
-     ["14:5 'spacing' in &body must not exceed the ring's width, 0.02 m, got 0.021 m"]),
-    ("keys missing for a ring", edit(BASE, "'rectangle' -> 'ring'"),
-     ["11:1 'radius' in &body must be given for shape 'ring'",
-      "11:1 'inner_radius' in &body must be given for shape 'ring'",
-      "13:5 'size' in &body is not used by shape 'ring'"]),
-    ("polygon of an odd number of coordinates", edit(POLYGON, "0,0.05 -> 0,0.05, 1"),
-     ["13:5 'points' in &body must be pairs of x and y, got 9 values"]),
-    ("polygon of two points", edit(POLYGON, "0.04,0.05, 0,0.05 -> 0,0"),
-     ["13:5 'points' in &body must be at least 3 points, got 2"]),
-    ("polygon of too many points", edit(POLYGON, "0,0.05 -> 20000*1"),
-     ["13:5 'points' in &body must be at most 10000 points, got 10003"]),
-    ("polygon with a side of no length", edit(POLYGON, "0.04,0.05 -> 0.04,0"),
-     ["13:5 'points' in &body: from point 2, (0.04, 0) m, to the next, (0.04, 0) m, is no length to compute with"]),
-    ("polygon that meets itself", edit(POLYGON, "0.04,0.05, 0,0.05 -> 0,0.05, 0.04,0.05"),
-     ["13:5 'points' in &body: the polygon meets itself: edge 2, from (0.04, 0) m, and edge 4, from (0.04, 0.05) m"]),
-    ("spacing larger than the polygon", edit(POLYGON, "    spacing = 0.01 ->     spacing = 0.041"),
-     ["14:5 'spacing' in &body must not exceed the polygon's extent, 0.04 m x 0.05 m, got 0.041 m"]),
-    ("polygon between nodes",
-     edit(POLYGON, "points = 0,0, 0.04,0, 0.04,0.05, 0,0.05 -> points = 0,0.001, 0.04,0.05, 0.0401,0.05"),
-     ["11:1 body 1: its outline, voids and pores leave none of 52 nodes"]),
-    ("void of a polygon that meets itself",
-     BASE + "&void shape = 'polygon', centre = 0, 0.02, points = 0,0, 1,1, 1,0, 0,1 /\n",
-     ["27:44 'points' in &void: the polygon meets itself: edge 1, from (0, 0) m, and edge 3, from (1, 0) m"]),
-    ("angle of a round void", BASE + "&void centre = 0, 0.02, radius = 0.005, angle = 0 /\n",
-     ["27:41 'angle' in &void is not used by shape 'disc'"]),
-    ("void of a polygon outside its body",
-     BASE + "&void shape = 'polygon', centre = 0, 0.02, points = 1,0, 2,0, 1,1 /\n",
-     ["27:26 void takes no node of body 1: its centre is in the body's own coordinates"]),
-    ("void of a mesh", MESH + "&void centre = 0, 0.02, radius = 0.005 /\n",
-     ["26:1 &void is for body 1, which is of shape 'mesh'"]),
-    ("pores of a mesh", MESH + "&pores number = 1, radius = 5e-3, 6e-3 /\n",
-     ["26:1 &pores is for body 1, which is of shape 'mesh'"]),
-    ("part on a node only", BASE + "&void shape = 'rectangle', centre = -0.0125, 0.017320508, size = 0.0235, 1e-3 /\n"
-     "&void shape = 'rectangle', centre = 0.0125, 0.017320508, size = 0.0235, 1e-3 /\n",
-     ["11:1 body 1 has 1 part that shares no edge with its largest, of 8 triangles at (-0.02, 0) m in its own "
-      "coordinates; 'disconnected' can remove or keep such parts"]),
-    # pores
-    ("pores without a number", BASE + "&pores radius = 5e-3, 6e-3 /\n",
-     ["27:1 'number' or 'porosity' in &pores must be given"]),
-    ("pores with a number and a porosity", BASE + "&pores number = 1, porosity = 0.1, radius = 5e-3, 6e-3 /\n",
-     ["27:20 'porosity' in &pores does not go with 'number'"]),
-    ("porosity of 1", BASE + "&pores porosity = 1, radius = 5e-3, 6e-3 /\n",
-     ["27:19 'porosity' in &pores must be in (0, 1), got 1"]),
-    ("porosity that needs too many pores", BASE + "&pores porosity = 0.1, radius = 2*1e-5 /\n",
-     ["27:8 'porosity' in &pores, 0.1, needs more than 10000 pores of such radii in body 1"]),
-    ("porosity that finds no place", BASE + "&pores porosity = 0.5, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
-     ["27:1 pore 9 of 11, of radius 0.00512812 m, finds no place in body 1 with walls of 0.001 m; take fewer or "
-      "smaller ones, or a thinner 'wall'"]),
-    ("normal pores without a mean", BASE + "&pores number = 1, radius = 5e-3, 6e-3, distribution = 'normal' /\n",
-     ["27:1 'mean' in &pores must be given for distribution 'normal'",
-      "27:1 'deviation' in &pores must be given for distribution 'normal'"]),
-    ("radii that hardly ever come", BASE + "&pores number = 1, radius = 5e-3, 6e-3, distribution = 'normal',\n"
-     "mean = 1, deviation = 1e-3 /\n",
-     ["28:1 'mean' and 'deviation' in &pores, 1 m and 0.001 m, give next to no radius from 0.005 m to 0.006 m"]),
-    # inclusions
-    ("inclusion without a material", BASE + "&inclusion centre = 0, 0.02, radius = 0.01 /\n",
-     ["27:1 'material' in &inclusion must be given"]),
-    ("inclusion of an unknown material", BASE + "&inclusion material = 'ruber', centre = 0, 0.02, radius = 0.01 /\n",
-     ["27:12 there is no material 'ruber' (did you mean 'rubber'?)"]),
-    ("inclusion that misses its body", BASE + "&inclusion material = 'rubber', centre = 1, 0.02, radius = 0.01 /\n",
-     ["27:33 inclusion has no triangle of body 1: its centre is in the body's own coordinates"]),
-    ("inclusion of equal springs", BASE + "&material name = 'raw', bond_stiffness = 1, density = 1 /\n"
-     "&inclusion material = 'raw', centre = 0, 0.02, radius = 0.01 /\n",
-     ["15:5 body 1: a bond stiffness, 1 N, is for bodies of one material"]),
-    # cracks
-    ("crack of an odd number of coordinates", BASE + "&crack points = 0, 0, 1, 1, 2 /\n",
-     ["27:8 'points' in &crack must be pairs of x and y, got 5 values"]),
-    ("crack of no length", BASE + "&crack points = 0, 0, 1, 1, 1, 1 /\n",
-     ["27:8 'points' in &crack: from point 2, (1, 1) m, to the next, (1, 1) m, is no length to compute with"]),
-    ("crack that misses its body", BASE + "&crack points = 0.03, 0, 0.03, 0.1 /\n",
-     ["27:8 crack crosses no triangle of body 1: its points are in the body's own coordinates"]),
-    ("crack of a body that does not exist", BASE + "&crack body = 2, points = 0.03, 0, 0.03, 0.1 /\n",
-     ["27:8 &crack is for body 2, but the number of bodies is 1"]),
-    ("crack of a lattice file", FILE + "&crack points = 0, 0, 1, 1 /\n",
-     ["25:1 &crack is for body 1, which is of shape 'file'"]),
-    ("crack that takes everything", MESH + "&crack points = 0, 0, 1, 1 /\n",
-     ["11:1 body 1: its cracks leave none of 1 triangles"]),
-    ("crack through the body", BASE + "&crack points = -0.1, 0.02, 0.1, 0.02 /\n",
-     ["11:1 body 1 has 1 part that shares no edge with its largest, of 14 triangles at (-0.02, 0) m in its own "
-      "coordinates; 'disconnected' can remove or keep such parts"]),
-    # masks and meshes
-    ("mask without a name", edit(MASK, "good.pgm -> "),
-     ["13:5 'file' in &body must name an image, got ''"]),
-    ("mask without a scale", without(MASK, ", scale = 0.01"),
-     ["11:1 'scale' in &body must be given for shape 'mask'"]),
-    ("mask missing", edit(MASK, "good -> none"),
-     ["13:5 body 1: none.pgm: No such file or directory"]),
-    ("mask that is no image", edit(MASK, "good.pgm -> deck.nml"),
-     ["13:5 body 1: deck.nml: neither a PGM image (P2, P5) nor a PNG image"]),
-    ("mask with a pixel too bright", edit(MASK, "good -> bad"),
-     ["13:5 body 1: bad.pgm:6: a pixel must be in [0, 255], got 256"]),
-    ("mask of absurd size", edit(MASK, "good -> large"),
-     ["13:5 body 1: large.pgm:1: 30000 x 30000 pixels take 900000000 bytes, but 3 follow the header"]),
-    ("mask that is black", edit(MASK, "good -> black"),
-     ["11:1 body 1: its outline, voids and pores leave none of 52 nodes"]),
-    ("spacing larger than the image", edit(MASK, "    spacing = 0.01 ->     spacing = 0.041"),
-     ["14:5 'spacing' in &body must not exceed the image, 0.04 m x 0.05 m, got 0.041 m"]),
-    ("threshold above 1", edit(MASK, "scale = 0.01 -> scale = 0.01, threshold = 1.1"),
-     ["13:50 'threshold' in &body must be in [0, 1], got 1.1"]),
-    ("mesh without a name", edit(MESH, "good.msh -> "),
-     ["13:5 'file' in &body must name a mesh, got ''"]),
-    ("mesh with a spacing", edit(MESH, "scale = 0.01 -> scale = 0.01, spacing = 0.01"),
-     ["13:38 'spacing' in &body is not used by shape 'mesh'"]),
-    ("mesh missing", edit(MESH, "good -> none"),
-     ["13:5 body 1: none.msh: No such file or directory"]),
-    ("mesh that is an image", edit(MESH, "good.msh -> good.pgm"),
-     ["13:5 body 1: good.pgm:1: '$MeshFormat' is expected, got 'P2'"]),
-    ("mesh with a node that is not there", edit(MESH, "good -> bad"),
-     ["13:5 body 1: bad.msh:17: there is no node 4"]),
-    ("mesh of absurd size", edit(MESH, "good -> large"),
-     ["13:5 body 1: large.msh:5: 4000000000 nodes do not fit in the 94 bytes that follow"]),
-    ("mesh of quadrangles", edit(MESH, "good -> quads"),
-     ["13:5 body 1: quads.msh:16: elements of type 3; only triangles of 3 nodes, type 2, can be read"]),
-    ("mesh scaled to nothing", edit(MESH, "scale = 0.01 -> scale = 1e-200"),
-     ["13:24 body 1: the area of a triangle, 0 m^2, is too small; its sides are 0 m"]),
-    # geometry
-    ("void that takes everything", BASE + "&void centre = 0, 0.02, radius = 1 /\n",
-     ["11:1 body 1: its outline, voids and pores leave none of 32 nodes"]),
-    ("a loose part", BASE + "&void shape = 'rectangle', centre = 0, 0.025, size = 0.06, 0.02 /\n",
-     ["11:1 body 1 has 1 part that shares no edge with its largest, of 7 triangles at (-0.015, 0.0433013) m in "
-      "its own coordinates; 'disconnected' can remove or keep such parts"]),
-    ("three loose parts", TALL,
-     ["11:1 body 1 has 3 parts that share no edge with its largest, of 35 triangles at (-0.015, 0.112583), 14 at "
-      "(-0.02, 0), 14 at (-0.015, 0.181865) m in its own coordinates; 'disconnected' can remove or keep such parts"]),
-    ("pores that find no place", BASE + "&pores number = 20, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
-     ["27:1 pore 8 of 20, of radius 0.00553882 m, finds no place in body 1 with walls of 0.001 m; take fewer or "
-      "smaller ones, or a thinner 'wall'"]),
-    ("pores larger than the body", BASE + "&pores number = 1, radius = 0.05, 0.06 /\n",
-     ["27:1 pore 1 of 1, of radius 0.0541702 m, finds no place in body 1 with walls of 0.02 m, the default; take "
-      "fewer or smaller ones, or a thinner 'wall'"]),
-    ("void outside its body", BASE + "&void centre = 0, -0.01, radius = 0.005 /\n",
-     ["27:7 void takes no node of body 1: its centre is in the body's own coordinates"]),
-    ("voids of which one is where the body is placed", edit(BASE, "0, 0.001 -> 1, 1") +
-     "&void centre = 0, 0.02, radius = 0.009 /\n&void shape = 'rectangle', centre = 1, 1.02, size = 0.02, 0.02 /\n",
-     ["28:28 void takes no node of body 1: its centre is in the body's own coordinates"]),
-    ("rectangle of too many nodes", edit(BASE, "0.04, 0.05 -> 1e9, 1e9", "0.01\n -> 1e-9\n"),
-     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-09 m"]),
-    ("disc of too many nodes", edit(DISC, "0.03 -> 1e9", "0.01\n -> 1e-9\n"),
-     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-09 m"]),
-    ("numbers of nodes that overflow", edit(BASE, "0.04, 0.05 -> 1e300, 1e300", "0.01\n -> 1e-300\n"),
-     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-300 m"]),
-    ("spacing far too small", edit(BASE, "0.01\n -> 1e-300\n"),
-     ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-300 m"]),
-    ("position far away", edit(BASE, "0, 0.001 -> 0, 1e300"),
-     ["16:5 body 1 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 0.01 m"]),
-    ("masses that underflow", edit(BASE, "1050 -> 1e-308", "thickness = 1 -> thickness = 1e-308"),
-     ["15:5 body 1: the mass of a node, 0 kg, is too small; density 1e-308 kg/m^3, thickness 1e-308 m, spacing "
-      "0.01 m"]),
-    ("areas that underflow", edit(BASE, "0.04, 0.05 -> 2*1e-200", "0.01\n -> 1e-200\n"),
-     ["14:5 body 1: the area of a triangle, 0 m^2, is too small; its sides are 1e-200 m"]),
-    ("masses that overflow", edit(BASE, "1050 -> 1e308", "thickness = 1 -> thickness = 1e308"),
-     ["15:5 body 1: the mass of a node, inf kg, is too large; density 1e+308 kg/m^3, thickness 1e+308 m, spacing "
-      "0.01 m"]),
-    ("stiffness that underflows", edit(BASE, "1e7 -> 1e-308"),
-     ["15:5 body 1: the stiffness of a spring, 1e-310 N, is too small; Young's modulus 1e-308 Pa, thickness 1 m, "
-      "spacing 0.01 m"]),
-    ("obstacle that overflows", edit(BASE, "-0.1, 0, 0.1, 0 -> -1e300, 0, 1e300, 0"),
-     ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too long"]),
-    ("body deeper in the obstacle than the skin", edit(BASE, "0, 0.001 -> 0, -0.001"),
-     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("body just deeper than the skin", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
-     ["11:1 body 1 starts 1.1e-08 m inside obstacle 1, at (-0.02, -1.1e-08) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("second body in the obstacle",
-     BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n",
-     ["27:1 body 2 starts 0.0173205 m inside obstacle 1, at (0.05, -0.0173205) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("two bodies in two obstacles", edit(BASE, "0, 0.001 -> 0, -0.001") + "&obstacle points = 0.2, 0, 0.1, 0 /\n"
-     "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.15, 0.01 /\n",
-     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED,
-      "28:1 body 2 starts 0.0273205 m inside obstacle 2, at (0.14, 0.0273205) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("body deeper than the skin given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact skin = 1e-4 /\n",
-     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the skin of 0.0001 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> position = 0, 1e-4") +
-     "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n",
-     ["11:1 body 1 starts with point 2 of obstacle 2, at (0.002, 0.004) m, 0.0039 m inside it between its nodes, "
-      "deeper than the skin of 1e-08 m; 'position' or 'clearance' can put it in front"]),
-    ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
-     ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the skin of 1e-08 m; "
-      "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),
-     ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1; move it"
-      + REVERSED]),
-    ("clearance against gravity", edit(BASE, "position = 0, 0.001 -> clearance = 1e-3", "-9.81 -> 9.81"),
-     ["16:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1; move it"
-      + REVERSED]),
-    ("lattice file missing", FILE,
-     ["13:5 body 1: part.h5: cannot be opened (No such file or directory)"]),
-    ("lattice file that is not HDF5", edit(FILE, "part.h5 -> deck.nml"),
-     ["13:5 body 1: deck.nml: is not an HDF5 file"]),
-    ("lattice file that is a folder", edit(FILE, "part.h5 -> ."),
-     ["13:5 body 1: .: is not a regular file"]),
-    ("lattice file given by its whole path", edit(FILE, "part.h5 -> /nowhere/part.h5"),
-     ["13:5 body 1: /nowhere/part.h5: cannot be opened (No such file or directory)"]),
 ]
 
 
-def stderr_of(messages):
-    """What a deck's messages look like on the terminal."""
-    lines = (message.split(" ", 1) for message in messages)
-    return "".join(f"deck.nml{'' if place == '-' else ':' + place}: error: {text}\n" for place, text in lines)
-
-
-class Refused(unittest.TestCase):
-    maxDiff = None
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        (self.folder / "out").mkdir()
-        for name, text in FILES.items():
-            (self.folder / name).write_text(text, encoding="ascii")
-
-    def snapshot(self):
-        """Every file with its size and times; folders, whose times tell of what came and went."""
-        found = {}
-        for path in [self.folder, *self.folder.rglob("*")]:
-            info = path.lstat()
-            found[path] = (info.st_mode, info.st_size, info.st_mtime_ns)
-        return found
-
-    def refuse(self, code, stderr, *arguments):
-        before = self.snapshot()
-        done = subprocess.run([DEM_BATCH, *arguments], cwd=self.folder, capture_output=True, timeout=60, check=False)
-        self.assertEqual(done.stderr.decode(), stderr)
-        self.assertEqual(done.returncode, code)
-        self.assertEqual(done.stdout, b"", "a refusal prints nothing to stdout")
-        self.assertEqual(self.snapshot(), before, "a refusal writes nothing")
-
-    def refuse_usage(self, reason, *arguments):
-        usage = subprocess.run([DEM_BATCH, "--help"], capture_output=True, timeout=60, check=True).stdout.decode()
-        self.assertTrue(usage.startswith("usage: dem_batch "))
-        self.refuse(2, f"dem_batch: error: {reason}\n{usage}", *arguments)
-
-    def put(self, deck):
-        (self.folder / "deck.nml").write_bytes(deck if isinstance(deck, bytes) else deck.encode())
-
+class Refused(refusal.Refusal):
     # ---- decks
 
     def test_the_base_deck_is_good(self):
         self.put(BASE)
-        done = subprocess.run([DEM_BATCH, "--check", "deck.nml"], cwd=self.folder, capture_output=True, timeout=60,
-                              check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        code, _, stderr, _ = self.run_program("--check", "deck.nml")
+        self.assertEqual((code, stderr), (0, ""))
 
     def test_decks(self):
-        self.assertEqual(len({name for name, _, _ in DECKS}), len(DECKS))
-        for name, deck, messages in DECKS:
-            with self.subTest(name):
-                self.put(deck)
-                self.refuse(3, stderr_of(messages), "--outdir", "out", "deck.nml")
-                self.refuse(3, stderr_of(messages), "deck.nml")
-
-    def test_check_refuses_alike(self):
-        for name, deck, messages in DECKS[::5]:
-            with self.subTest(name):
-                self.put(deck)
-                self.refuse(3, stderr_of(messages), "--check", "deck.nml")
+        self.refuse_all(DECKS)
 
     def test_messages_have_a_limit(self):
         self.put(BASE + 1500 * "&weather /\n")
@@ -756,8 +467,8 @@ class Refused(unittest.TestCase):
         self.refuse(3, stderr_of(lines + ["1026:1 too many errors"]), "deck.nml")
 
     def test_methods_that_sundials_lacks(self):
-        version = subprocess.run([DEM_BATCH, "--version"], capture_output=True, timeout=60, check=True).stdout.decode()
-        version = version.split("SUNDIALS ")[1].split(",")[0]
+        _, version, _, _ = self.run_program("--version")
+        version = version.decode().split("SUNDIALS ")[1].split(",")[0]
         if tuple(map(int, version.split(".")[:2])) >= (6, 7):
             return
         self.put(BASE + "&solver method = 'verner89' /\n")
@@ -776,6 +487,10 @@ class Refused(unittest.TestCase):
     def test_deck_is_a_pipe_that_nobody_writes_to(self):
         os.mkfifo(self.folder / "pipe")
         self.refuse(3, "pipe: error: not a regular file\n", "pipe")
+
+    def test_deck_is_a_device(self):
+        self.refuse(3, "/dev/null: error: not a regular file\n", "/dev/null")
+        self.refuse(3, "/dev/zero: error: not a regular file\n", "/dev/zero")
 
     def test_deck_may_not_be_read(self):
         self.put(BASE)
@@ -796,9 +511,20 @@ class Refused(unittest.TestCase):
         self.refuse_usage("no deck", "--echo")
         self.refuse_usage("no deck", "--outdir", "out")
 
-    def test_two_decks(self):
+    def test_settings_that_are_none(self):
         self.put(BASE)
-        self.refuse_usage("'out' is a second deck, behind 'deck.nml'", "deck.nml", "out")
+        self.refuse_usage("'--set' needs group.key=value or group(k).key=value", "deck.nml", "--set")
+        for text in ("", "run", "run.t_end", "t_end=1", ".t_end=1", "run.=1", "run t_end=1", "run.t_end(1)=1", "run(0).t_end=1",
+                     "run().t_end=1", "run(1.t_end=1", "run(1234567).t_end=1", "9run.t_end=1", "run. t_end=1", "x" * 64 + ".t_end=1"):
+            with self.subTest(text):
+                self.refuse_usage(f"'--set' needs group.key=value or group(k).key=value, got {text}", "deck.nml", "--set", text)
+
+    def test_an_index_that_is_none(self):
+        self.put(BASE)
+        self.refuse_usage("'--index' needs the number of a deck, from 1", "deck.nml", "--index")
+        for text in ("", "0", "-1", "1.5", "one", "1000000000000"):
+            with self.subTest(text):
+                self.refuse_usage(f"'--index' needs the number of a deck, from 1, got {text}", "deck.nml", "--index", text)
 
     def test_two_actions(self):
         self.put(BASE)
@@ -825,5 +551,4 @@ class Refused(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    DEM_BATCH = os.path.abspath(sys.argv.pop(1))
-    unittest.main()
+    refusal.main()

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation of the library's own code in a standard run fails in turn, once and from then on: the status says
- * so, nothing crashes, nothing leaks (the sanitizers' run sees that), and what was built before is still good. The
- * linker wraps malloc, calloc and realloc of the library's objects; HDF5 and SUNDIALS keep theirs. */
+/* Allocations of the library's own code in standard runs fail in turn, once and from then on: the status says so,
+ * nothing crashes, nothing leaks (the sanitizers' run sees that), and what was built or published before is still good.
+ * The linker wraps malloc, calloc and realloc of the library's objects; HDF5 and SUNDIALS keep theirs.
+ * `test_memory [SHARE]`: the share of them that is tried, chosen by a seed; default 0.1. */
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +14,7 @@
 #include "../unit/close.h"
 
 #include "allocations.h"
+#include "random.h"
 
 static int left_half(void *context, const double x[2])
 {
@@ -126,36 +130,172 @@ static dem_status run(void)
     return status;
 }
 
-static void each_allocation_may_fail(int stays_so)
+/* ---- a run with friction that keeps records and segments, and goes on from one of them ---- */
+
+static const char *const checkpoints[] = {"fault.checkpoint", "fault.checkpoint.prev"};
+static bool kept; /* a record has been written */
+
+static dem_status keep_record(void *context, const dem_simulation *simulation, dem_record *record)
 {
-    failing = allocations = 0;
-    assert_int_equal(run(), DEM_OK);
+    if (dem_simulation_counts(simulation).steps == 0) return DEM_OK;
+    dem_status status = dem_trajectory_segment(context, record);
+    if (status == DEM_OK) status = dem_record_write(record, checkpoints[0]);
+    if (status == DEM_OK) kept = true;
+    return status;
+}
+
+static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem_record *record, bool to_the_end)
+{
+    dem_trajectory *trajectory = NULL;
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.frame_interval = 1e-4;
+    options.fields = DEM_FIELD_VELOCITY;
+    options.events = 1;
+    options.peaks = peaks;
+    dem_status status = record == NULL
+                            ? dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options)
+                            : dem_trajectory_resume(&trajectory, "fault.vtkhdf", simulation, &options, record);
+    if (status != DEM_OK) return status;
+    const dem_observer observers[3] = {
+        dem_peaks_observer(peaks), dem_trajectory_observer(trajectory), {.record = keep_record, .context = trajectory}};
+    for (int k = 0; k < 3 && status == DEM_OK; k++) status = dem_simulation_observe(simulation, &observers[k]);
+    if (status == DEM_OK) status = dem_simulation_advance(simulation, to_the_end ? 3e-4 : 2e-4);
+    if (status == DEM_OK && to_the_end) status = dem_trajectory_finish(trajectory);
+    dem_trajectory_destroy(trajectory);
+    return status;
+}
+
+/* From the beginning but not to the end, or to the end from a record. */
+static dem_status run_from(const dem_record *record, const dem_model *model)
+{
+    dem_options options = dem_options_default();
+    dem_simulation *simulation = NULL;
+    dem_peaks *peaks = NULL;
+    options.contact = DEM_CONTACT_EXACT;
+    options.record_steps = 12;
+    dem_status status = record == NULL ? dem_simulation_create(&simulation, model, &options)
+                                       : dem_simulation_resume(&simulation, model, &options, record);
+    if (status == DEM_OK)
+        status = record == NULL ? dem_peaks_create(&peaks, model, 2) : dem_peaks_resume(&peaks, model, 2, record);
+    if (status == DEM_OK) status = follow(simulation, peaks, record, record != NULL);
+    dem_peaks_destroy(peaks);
+    dem_simulation_destroy(simulation);
+    return status;
+}
+
+static dem_status build_model(dem_model **model)
+{
+    const dem_obstacle obstacle = {.n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    dem_status status = build(&lattice);
+    if (status == DEM_OK) status = dem_model_create(model, &lattice, &obstacle, 1);
+    dem_lattice_free(&lattice);
+    return status;
+}
+
+static dem_status run_with_records(void)
+{
+    dem_model *model = NULL;
+    dem_record *record = NULL;
+    kept = false;
+    dem_status status = build_model(&model);
+    if (status == DEM_OK) status = run_from(NULL, model);
+    if (status == DEM_OK) status = dem_record_read(&record, checkpoints[0]);
+    if (status == DEM_OK) status = run_from(record, model);
+    dem_record_destroy(record);
+    dem_model_destroy(model);
+    return status;
+}
+
+/* A record that was on disk still is, in one of its two files, and the run comes to its end from there. */
+static dem_status go_on(void)
+{
+    dem_model *model = NULL;
+    dem_record *record = NULL;
+    if (!kept) return DEM_OK;
+    for (int k = 0; k < 2 && record == NULL; k++) (void)dem_record_read(&record, checkpoints[k]);
+    dem_status status = record == NULL ? DEM_ERROR_IO : build_model(&model);
+    if (status == DEM_OK) status = run_from(record, model);
+    dem_record_destroy(record);
+    dem_model_destroy(model);
+    return status;
+}
+
+/* ---- failures ---- */
+
+typedef dem_status standard_run(void);
+
+static double share = 0.1;
+static const double segment_share = 0.1; /* of that: a trial takes a tenth of a second */
+
+static int remove_outputs(void **unused)
+{
+    char segment[32];
+    static const char *const names[] = {"vtkhdf", "part.vtkhdf", "obstacle.vtkhdf", "checkpoint", "checkpoint.prev"};
+    (void)unused;
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        (void)snprintf(segment, sizeof segment, "fault.%s", names[k]);
+        (void)remove(segment);
+    }
+    for (int k = 1; k < 100; k++) {
+        (void)snprintf(segment, sizeof segment, "fault.%05d.vtkhdf", k);
+        (void)remove(segment);
+    }
+    return 0;
+}
+
+static dem_status run_afresh(standard_run *run_it, long failing_one)
+{
+    (void)remove_outputs(NULL);
+    allocations = 0;
+    failing = failing_one;
+    const dem_status status = run_it();
+    failing = 0;
+    return status;
+}
+
+static void allocations_may_fail(standard_run *run_it, double of_share, int stays_so)
+{
+    const double tried = share < 1.0 ? of_share * share : 1.0;
+    uint64_t seed = 1;
+    assert_int_equal(run_afresh(run_it, 0), DEM_OK);
     const long all = allocations;
     assert_true(all > 60);
     from_then_on = stays_so;
-    for (failing = 1; failing <= all; failing++) {
-        allocations = 0;
-        const dem_status status = run();
+    for (long k = 1; k <= all; k++) {
+        if (fabs(random_next(&seed)) > tried) continue;
+        const dem_status status = run_afresh(run_it, k);
         if (status != DEM_ERROR_MEMORY)
-            fail_msg("allocation %ld of %ld: status %d, %s", failing, all, status, dem_status_message());
+            fail_msg("allocation %ld of %ld: status %d, %s", k, all, status, dem_status_message());
+        if (go_on() != DEM_OK) fail_msg("allocation %ld of %ld, then: %s", k, all, dem_status_message());
     }
-    failing = allocations = 0;
-    assert_int_equal(run(), DEM_OK);
-    (void)remove("fault.vtkhdf");
-    (void)remove("fault.part.vtkhdf");
-    (void)remove("fault.obstacle.vtkhdf");
+    assert_int_equal(run_afresh(run_it, 0), DEM_OK);
+    print_message("# %g of %ld allocations\n", tried, all);
 }
 
 static void one_failed_allocation_ends_a_run_with_its_status(void **unused)
 {
     (void)unused;
-    each_allocation_may_fail(0);
+    allocations_may_fail(run, 1.0, 0);
 }
 
 static void memory_that_stays_away_ends_a_run_with_its_status(void **unused)
 {
     (void)unused;
-    each_allocation_may_fail(1);
+    allocations_may_fail(run, 1.0, 1);
+}
+
+static void one_failed_allocation_loses_no_record(void **unused)
+{
+    (void)unused;
+    allocations_may_fail(run_with_records, segment_share, 0);
+}
+
+static void memory_that_stays_away_loses_no_record(void **unused)
+{
+    (void)unused;
+    allocations_may_fail(run_with_records, segment_share, 1);
 }
 
 /* A body that has fallen on the ground in steps of one length. In `now` its state at the end, to be freed; an
@@ -208,12 +348,15 @@ static void a_run_goes_on_where_memory_ran_out_to_the_same_bits(void **unused)
     free(undisturbed);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_failed_allocation_ends_a_run_with_its_status),
-        cmocka_unit_test(memory_that_stays_away_ends_a_run_with_its_status),
+        cmocka_unit_test_teardown(one_failed_allocation_ends_a_run_with_its_status, remove_outputs),
+        cmocka_unit_test_teardown(memory_that_stays_away_ends_a_run_with_its_status, remove_outputs),
+        cmocka_unit_test_teardown(one_failed_allocation_loses_no_record, remove_outputs),
+        cmocka_unit_test_teardown(memory_that_stays_away_loses_no_record, remove_outputs),
         cmocka_unit_test(a_run_goes_on_where_memory_ran_out_to_the_same_bits),
     };
+    if (argc > 1) share = strtod(argv[1], NULL);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

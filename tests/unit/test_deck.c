@@ -748,17 +748,21 @@ static void one_fault_is_told_once(void **state)
 static void names_and_numbers_of_the_output_are_checked(void **state)
 {
     (void)state;
-    const char *told = "'name' in &output must not end in '.obstacle' or '.part': other files are called so\n";
+    const char *told = "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
+                       "other files are called so\n";
     char expected[200];
     (void)snprintf(expected, sizeof expected, "4:9: %s", told);
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.obstacle' /\n", expected);
     expect_errors(RUN RUBBER DISC("") "&output name = '.part' /\n",
                   "4:9: 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'\n");
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.part' /\n", expected);
+    expect_errors(RUN RUBBER DISC("") "&output name = 'a.00001' /\n", expected);
     expect_errors(
         "&run t_end = 1e9 /\n" RUBBER DISC("") "&output frame_interval = 1e-3 /\n",
         "4:9: 'frame_interval' in &output, 0.001 s, makes 1e+12 frames until 't_end'; the limit is 10000000\n");
     deck d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
+    deck_free(&d);
+    d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.0001' /\n");
     deck_free(&d);
 }
 

@@ -45,7 +45,7 @@ static stored begin(void)
 
 static void end(stored *s)
 {
-    assert_ok(table_verify(&s->table, &s->file));
+    assert_ok(table_verify(&s->table, &s->file, s->table.written));
     assert_ok(hdf5_close(&s->file, DEM_OK));
     table_free(&s->table);
     assert_int_equal(unlink(path), 0);

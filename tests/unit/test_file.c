@@ -65,12 +65,30 @@ static void what_is_no_file_is_refused(void **state)
     assert_int_equal(unlink(fifo), 0);
 }
 
+static void the_beginning_and_the_size_of_a_file_are_told(void **state)
+{
+    (void)state;
+    char bytes[4] = "";
+    put("abcdef", 6);
+    assert_int_equal(file_begin(bytes, 4, path), 4);
+    assert_memory_equal(bytes, "abcd", 4);
+    assert_true(file_size(path) == 6.0);
+    put("x", 1);
+    assert_int_equal(file_begin(bytes, 4, path), 1);
+    static const char *const none[] = {"/tmp", "/no/such/file", "/dev/zero"};
+    for (size_t k = 0; k < sizeof none / sizeof *none; k++) {
+        assert_int_equal(file_begin(bytes, 4, none[k]), 0);
+        assert_true(file_size(none[k]) == 0.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_bytes_are_read_with_a_nul_behind),
         cmocka_unit_test(what_is_too_large_or_empty_is_refused),
         cmocka_unit_test(what_is_no_file_is_refused),
+        cmocka_unit_test(the_beginning_and_the_size_of_a_file_are_told),
     };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;

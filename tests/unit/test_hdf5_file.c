@@ -274,17 +274,67 @@ static void rows_that_cannot_be_stored_are_named(void **state)
     finish(&file);
 }
 
-static void a_lost_row_is_noticed(void **state)
+static void a_lost_row_and_another_type_are_noticed(void **state)
 {
     (void)state;
-    const double value[3] = {1.0, 2.0, 3.0};
+    const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+    const hdf5_rows rows = {"/r", HDF5_F64, 2, {2, 0}, 1, 0}, none = {"/s", HDF5_F64, 1, {0, 0}, 1, 0};
+    const hdf5_rows others[] = {{"/r", HDF5_F32, 2, {2, 0}, 1, 0},
+                                {"/r", HDF5_I64, 2, {2, 0}, 1, 0},
+                                {"/r", HDF5_F64, 1, {0, 0}, 1, 0},
+                                {"/r", HDF5_F64, 3, {2, 1}, 1, 0},
+                                {"/r", HDF5_F64, 2, {3, 0}, 1, 0}};
+    hsize_t count = 0;
     hdf5_file file = open_new();
-    assert_ok(hdf5_write(&file, (hdf5_rows){"/r", HDF5_F64, 1, {0, 0}, 0, 0}, 3, value));
-    assert_ok(hdf5_expect_rows(&file, "/r", 3));
-    assert_int_equal(hdf5_expect_rows(&file, "/r", 4), DEM_ERROR_IO);
+    assert_ok(hdf5_write(&file, rows, 3, value));
+    assert_ok(hdf5_count_rows(&file, "/r", &count));
+    assert_int_equal(count, 3);
+    assert_ok(hdf5_expect_rows(&file, &rows, 3));
+    assert_int_equal(hdf5_expect_rows(&file, &rows, 4), DEM_ERROR_IO);
     assert_message(": /r: has 3 rows, 4 were written");
-    assert_int_equal(hdf5_expect_rows(&file, "/s", 0), DEM_ERROR_IO);
+    for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
+        assert_int_equal(hdf5_expect_rows(&file, &others[k], 3), DEM_ERROR_IO);
+        assert_message(": /r: is of another type or shape");
+    }
+    assert_int_equal(hdf5_expect_rows(&file, &none, 0), DEM_ERROR_IO);
     assert_message_has("a.h5: /s: cannot be opened (");
+    assert_int_equal(hdf5_count_rows(&file, "/s", &count), DEM_ERROR_IO);
+    finish(&file);
+}
+
+/* Of five rows in chunks of two, those from 1 to 4 go behind the one that is there, so no block begins with a chunk. */
+static void rows_are_read_and_copied(void **state)
+{
+    (void)state;
+    const double reals[10] = {0.5, 1.5, 2.5, 3.5, NAN, -0.0, INFINITY, 7.5, 8.5, 9.5};
+    const int64_t bytes[5] = {-128, -1, 0, 1, 127};
+    const hdf5_rows real = {"/a/r", HDF5_F32, 2, {2, 0}, 2, 1}, byte = {"/b", HDF5_I8, 1, {0, 0}, 2, 0};
+    double back[8];
+    int64_t wholes[4];
+    hdf5_file file = open_new(), copy;
+    assert_ok(hdf5_open_new(&copy, other, 0));
+    assert_ok(hdf5_create(&file, &real));
+    assert_ok(hdf5_create(&file, &byte));
+    assert_ok(hdf5_append(&file, &real, 0, 5, reals));
+    assert_ok(hdf5_append(&file, &byte, 0, 5, bytes));
+    assert_ok(hdf5_create(&copy, &real));
+    assert_ok(hdf5_create(&copy, &byte));
+    assert_ok(hdf5_append(&copy, &real, 0, 1, reals));
+    assert_ok(hdf5_append(&copy, &byte, 0, 1, bytes));
+    assert_ok(hdf5_copy(&file, &copy, &real, (hdf5_span){1, 3, 1}));
+    assert_ok(hdf5_copy(&file, &copy, &byte, (hdf5_span){1, 3, 1}));
+    assert_ok(hdf5_copy(&file, &copy, &byte, (hdf5_span){5, 0, 4}));
+    assert_ok(hdf5_expect_rows(&copy, &real, 4));
+    assert_ok(hdf5_expect_rows(&copy, &byte, 4));
+    assert_ok(hdf5_read(&copy, &real, 0, 4, back));
+    assert_ok(hdf5_read(&copy, &byte, 0, 4, wholes));
+    assert_memory_equal(wholes, bytes, sizeof wholes);
+    for (int k = 0; k < 8; k++)
+        assert_true(k == 4 ? isnan(back[k]) : back[k] == reals[k] && !signbit(back[k]) == !signbit(reals[k]));
+    assert_int_equal(hdf5_read(&file, &real, 4, 2, back), DEM_ERROR_IO);
+    assert_message_has("a.h5: /a/r: cannot be read (");
+    assert_int_equal(hdf5_copy(&file, &copy, &byte, (hdf5_span){3, 3, 4}), DEM_ERROR_IO);
+    assert_ok(hdf5_close(&copy, DEM_OK));
     finish(&file);
 }
 
@@ -540,6 +590,32 @@ static void hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards(void
     assert_true(H5Eset_auto2(H5E_DEFAULT, kept, kept_data) >= 0);
 }
 
+static unsigned plugins(void)
+{
+    unsigned loaded = 99;
+    assert_true(H5PLget_loading_state(&loaded) >= 0);
+    return loaded;
+}
+
+static void no_plugin_is_loaded_while_a_file_is_open(void **state)
+{
+    (void)state;
+    static const unsigned before[] = {H5PL_ALL_PLUGIN, 0};
+    for (int k = 0; k < 2; k++) {
+        hdf5_file file;
+        assert_true(H5PLset_loading_state(before[k]) >= 0);
+        const unsigned kept = plugins();
+        assert_int_equal(hdf5_open_read(&file, path), DEM_ERROR_IO);
+        assert_int_equal(plugins(), kept);
+        file = open_new();
+        assert_int_equal(plugins(), 0);
+        finish(&file);
+        assert_int_equal(plugins(), kept);
+        assert_int_equal(unlink(path), 0);
+    }
+    assert_true(H5PLset_loading_state(H5PL_ALL_PLUGIN) >= 0);
+}
+
 /* ---- publishing ---- */
 
 static void fill(const char *text)
@@ -671,7 +747,8 @@ int main(void)
         CASE(a_chunk_has_the_rows_asked_for),
         CASE(deflated_rows_take_less_room_and_come_back_the_same),
         CASE(rows_that_cannot_be_stored_are_named),
-        CASE(a_lost_row_is_noticed),
+        CASE(a_lost_row_and_another_type_are_noticed),
+        CASE(rows_are_read_and_copied),
         CASE(attributes_are_made_and_overwritten),
         CASE(a_wrong_or_missing_attribute_is_noticed),
         CASE(a_text_attribute_has_its_characters_and_no_terminator),
@@ -685,6 +762,7 @@ int main(void)
         CASE(without_room_a_file_stays_as_it_was),
         CASE(closing_passes_a_failure_on),
         CASE(hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards),
+        CASE(no_plugin_is_loaded_while_a_file_is_open),
         CASE(equal_data_makes_equal_files),
         CASE(publishing_renames_and_replaces),
         CASE(what_cannot_be_read_back_is_not_published),

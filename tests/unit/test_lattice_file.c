@@ -106,6 +106,10 @@ static dem_lattice read_lattice(void)
 static void assert_refused(const char *file, dem_status status, const char *message)
 {
     dem_lattice lattice = {.n_nodes = -7};
+    dem_index size[2] = {-7, -7};
+    const dem_status measured = dem_lattice_measure(file, &size[0], &size[1]);
+    if (status == DEM_ERROR_IO) assert_int_equal(measured, status);
+    if (measured != DEM_OK) assert_int_equal(size[0], -7);
     assert_int_equal(dem_lattice_read(&lattice, file), status);
     assert_string_equal(dem_status_message(), message);
     assert_int_equal(lattice.n_nodes, -7);
@@ -431,6 +435,18 @@ static void sizes_without_data_behind_them_are_refused(void **state)
     (void)H5Pclose(layout);
 }
 
+static void a_lattice_is_measured_without_its_numbers(void **state)
+{
+    (void)state;
+    dem_index n_nodes, n_springs;
+    put_whole("ends", 6, 2, (int64_t[12]){99});
+    assert_int_equal(dem_lattice_measure(path, &n_nodes, &n_springs), DEM_OK);
+    assert_int_equal(n_nodes, 5);
+    assert_int_equal(n_springs, 6);
+    assert_int_equal(dem_lattice_measure(path, NULL, &n_springs), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_lattice_measure(path, &n_nodes, NULL), DEM_ERROR_ARGUMENT);
+}
+
 static void plugins_are_as_they_were(void **state)
 {
     (void)state;
@@ -464,6 +480,7 @@ int main(void)
         WITH_FILE(storage_elsewhere_is_refused),
         WITH_FILE(other_filters_are_refused),
         WITH_FILE(sizes_without_data_behind_them_are_refused),
+        WITH_FILE(a_lattice_is_measured_without_its_numbers),
         WITH_FILE(plugins_are_as_they_were),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -123,9 +123,27 @@ static void files_at_fault_are_refused(void **state)
     assert_non_null(strstr(fault, "PNG image"));
 }
 
+static void an_image_is_measured_by_its_first_bytes(void **state)
+{
+    (void)state;
+    double size[2];
+    put(TEXT("P5\n# wide\n40 30\n255\n")); /* and no pixel */
+    assert_true(mask_measure(size, path, 0.5));
+    assert_true(size[0] == 20.0 && size[1] == 15.0);
+    put(TEXT("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\1\2\0\0\0\3"));
+    assert_true(mask_measure(size, path, 2.0));
+    assert_true(size[0] == 516.0 && size[1] == 6.0);
+    put(TEXT("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\1\2\0\0\0"));
+    assert_false(mask_measure(size, path, 2.0));
+    put(TEXT("P2\n4 x\n"));
+    assert_false(mask_measure(size, path, 2.0));
+    assert_false(mask_measure(size, "/no/such/file", 2.0));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_image_is_measured_by_its_first_bytes),
         cmocka_unit_test(bright_pixels_are_material_and_the_top_row_comes_first),
         cmocka_unit_test(edges_of_pixels_belong_to_the_material),
         cmocka_unit_test(a_disc_fits_as_far_as_the_nearest_dark_pixel),

@@ -865,6 +865,30 @@ static void of_10000_segments_the_pair_that_meets_is_named(void **state)
     refuse(&obstacle, 1, "obstacle 0: segments 5000 and 9999 meet");
 }
 
+static void an_obstacle_is_checked_by_itself(void **state)
+{
+    (void)state;
+    static const double crossing[] = {0, 0, 2, 0, 2, -1, 1, 1}, back[] = {0, 0, 2, 0, 1, 0}, point[] = {1, 1, 1, 1};
+    static const struct {
+        dem_obstacle obstacle;
+        dem_status status;
+        dem_index pair[2];
+    } cases[] = {{{.n_points = 4, .points = valley}, DEM_OK, {-1, -1}},
+                 {{.n_points = 5, .points = block}, DEM_OK, {-1, -1}},
+                 {{.n_points = 4, .points = crossing}, DEM_ERROR_MODEL, {0, 2}},
+                 {{.n_points = 3, .points = back}, DEM_ERROR_MODEL, {0, 1}},
+                 {{.n_points = 2, .points = point}, DEM_ERROR_MODEL, {-1, -1}},
+                 {{.n_points = 4, .points = valley, .restitution = 2.0}, DEM_ERROR_MODEL, {-1, -1}}};
+    dem_index pair[2];
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        assert_int_equal(dem_obstacle_check(&cases[k].obstacle, pair), cases[k].status);
+        assert_int_equal(pair[0], cases[k].pair[0]);
+        assert_int_equal(pair[1], cases[k].pair[1]);
+    }
+    assert_int_equal(dem_obstacle_check(NULL, pair), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_obstacle_check(&cases[0].obstacle, NULL), DEM_ERROR_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -899,6 +923,7 @@ int main(void)
         cmocka_unit_test(height_and_place_are_measured_from_the_start),
         cmocka_unit_test(a_polyline_that_meets_itself_is_refused),
         cmocka_unit_test(segments_in_line_do_not_meet),
+        cmocka_unit_test(an_obstacle_is_checked_by_itself),
         cmocka_unit_test(of_10000_segments_the_pair_that_meets_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

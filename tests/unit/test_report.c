@@ -138,7 +138,7 @@ static void what_friction_and_damping_took_is_told_if_they_did(void **state)
     (void)state;
     const dem_energy e = {.kinetic = 5.0, .impact = 1.0, .friction = 2.5, .damping = 0.75, .projection = 0.125};
     logged *l = drop_node(false, 0.1);
-    l->report.energy_start = 9.125, l->report.energy_max = 10.0;
+    l->report.so_far.energy_start = 9.125, l->report.so_far.energy_max = 10.0;
     other_energy = &e;
     report_summary(&l->report, l->run.simulation);
     other_energy = NULL;

@@ -159,7 +159,7 @@ static void what_there_is_none_of_has_no_column(void **state)
     assert_int_equal(H5Lexists(s.file.id, "/rows/wholes", H5P_DEFAULT), 0);
     assert_true(H5Lexists(s.file.id, "/rows/vectors", H5P_DEFAULT) > 0);
     expect_rows(&s, 2);
-    assert_ok(table_verify(&s.table, &s.file));
+    assert_ok(table_verify(&s.table, &s.file, s.table.written));
     end(&s);
 }
 
@@ -171,7 +171,7 @@ static void a_table_without_columns_is_never_written(void **state)
     assert_int_equal(table_bytes(&none), 0);
     assert_ok(table_create(&none, &s.file));
     assert_ok(table_flush(&none, &s.file));
-    assert_ok(table_verify(&none, &s.file));
+    assert_ok(table_verify(&none, &s.file, 0));
     table_free(&none);
     end(&s);
 }
@@ -213,7 +213,7 @@ static void flushing_goes_on_where_it_ended(void **state)
         assert_ok(table_flush(&s.table, &s.file));
         assert_int_equal(s.table.buffered, 0);
         assert_int_equal(s.table.written, n + piece);
-        assert_ok(table_verify(&s.table, &s.file));
+        assert_ok(table_verify(&s.table, &s.file, s.table.written));
     }
     expect_rows(&s, 6);
     end(&s);
@@ -234,7 +234,7 @@ static void a_full_buffer_is_written_and_takes_no_more_room_than_said(void **sta
         before = now;
     }
     expect_rows(&s, n);
-    assert_ok(table_verify(&s.table, &s.file));
+    assert_ok(table_verify(&s.table, &s.file, s.table.written));
     end(&s);
 }
 
@@ -258,10 +258,10 @@ static void a_lost_row_or_column_is_noticed(void **state)
     add_rows(&s, 0, 3);
     assert_ok(table_flush(&s.table, &s.file));
     cut(&s, "/rows/wholes", 2);
-    assert_int_equal(table_verify(&s.table, &s.file), DEM_ERROR_IO);
+    assert_int_equal(table_verify(&s.table, &s.file, s.table.written), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/rows/wholes: has 2 rows, 3 were written"));
     assert_true(H5Ldelete(s.file.id, "/rows/whole", H5P_DEFAULT) >= 0);
-    assert_int_equal(table_verify(&s.table, &s.file), DEM_ERROR_IO);
+    assert_int_equal(table_verify(&s.table, &s.file, s.table.written), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/rows/whole: cannot be opened"));
     end(&s);
 }
@@ -280,7 +280,7 @@ static void rows_that_could_not_be_written_stay_in_the_buffer(void **state)
     assert_ok(hdf5_close(&s.file, DEM_OK));
     assert_ok(hdf5_open_write(&s.file, path, table_bytes(&s.table)));
     assert_ok(table_flush(&s.table, &s.file));
-    assert_ok(table_verify(&s.table, &s.file));
+    assert_ok(table_verify(&s.table, &s.file, s.table.written));
     expect_rows(&s, 2);
     end(&s);
 }

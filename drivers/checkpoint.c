@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "checkpoint.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "preview.h"
+#include "signals.h"
+#include "wall.h"
+
+enum { VERSIONS = 256 };
+
+static const double patience = 10.0; /* s: a scheduler that asks for the end waits 30 */
+
+static const char time_entry[] = "driver.time", course_entry[] = "driver.course", lineage_entry[] = "driver.lineage";
+
+/* ---- what is there ---- */
+
+static size_t line_length(const char *text)
+{
+    return strcspn(text, "\n");
+}
+
+static void show_line(char out[64], const char *line)
+{
+    const size_t blank = strspn(line, " ");
+    (void)snprintf(out, 64, "%.*s", (int)(line_length(line) - (blank < line_length(line) ? blank : 0)), line + blank);
+}
+
+/* Two resolved decks, line by line: names the first that differ, and the group that they are in. */
+static bool is_same(const char *then, const char *now, char reason[OUTPUT_REASON])
+{
+    const char *group = now;
+    while (line_length(then) == line_length(now) && strncmp(then, now, line_length(now)) == 0) {
+        if (*now == '\0') return true;
+        if (*now == '&') group = now;
+        then += line_length(then) + (then[line_length(then)] != '\0');
+        now += line_length(now) + (now[line_length(now)] != '\0');
+    }
+    char was[64], is[64];
+    show_line(was, then);
+    show_line(is, now);
+    (void)snprintf(reason, OUTPUT_REASON, "the run that it is of has '%s' in %.*s, this one has '%s'; " OUTPUT_WAY_OUT,
+                   was, (int)line_length(group), group, is);
+    return false;
+}
+
+/* A text among the entries; NULL if it is none. */
+static const char *find_text(const dem_record *record, const char *name)
+{
+    size_t size;
+    const char *text = dem_record_find(record, name, &size);
+    return text != NULL && size > 0 && text[size - 1] == '\0' ? text : NULL;
+}
+
+static const char *last_line(const char *lineage)
+{
+    const char *last = strrchr(lineage, '\n');
+    return last == NULL ? lineage : last + 1;
+}
+
+/* Adds the version at work, if it is another than the last. */
+static bool extend_lineage(checkpoint_source *s, const char *lineage, const char *versions)
+{
+    const bool other = strcmp(last_line(lineage), versions) != 0;
+    const size_t size = strlen(lineage) + strlen(versions) + 2;
+    s->lineage = malloc(size);
+    if (s->lineage != NULL)
+        (void)snprintf(s->lineage, size, "%s%s%s", lineage, other ? "\n" : "", other ? versions : "");
+    return s->lineage != NULL;
+}
+
+static checkpoint_state examine(checkpoint_source *s, const deck *d, bool anyway, char reason[OUTPUT_REASON])
+{
+    char versions[VERSIONS];
+    const char *course = find_text(s->record, course_entry), *lineage = find_text(s->record, lineage_entry);
+    if (course == NULL || lineage == NULL || dem_record_get(s->record, time_entry, &s->t, sizeof s->t) != DEM_OK) {
+        (void)snprintf(reason, OUTPUT_REASON, "it is not of this program; " OUTPUT_WAY_OUT);
+        return CHECKPOINT_OTHER;
+    }
+    preview_versions(versions, sizeof versions);
+    if (!is_same(course, d->course, reason)) return CHECKPOINT_OTHER;
+    if (strcmp(last_line(lineage), versions) != 0 && !anyway) {
+        (void)snprintf(reason, OUTPUT_REASON, "it is of '%s', this is '%s'; --resume-anyway goes on all the same",
+                       last_line(lineage), versions);
+        return CHECKPOINT_OTHER;
+    }
+    if (s->t > d->t_end) {
+        (void)snprintf(reason, OUTPUT_REASON, "the run is at %g s already, beyond t_end = %g s; " OUTPUT_WAY_OUT, s->t,
+                       d->t_end);
+        return CHECKPOINT_OTHER;
+    }
+    return extend_lineage(s, lineage, versions) ? CHECKPOINT_FOUND : CHECKPOINT_MEMORY;
+}
+
+/* Reads the checkpoint or the one before; that must not be replaced by a damaged one when the next is written. */
+static dem_status read_either(dem_record **out, const char *path, char reason[OUTPUT_REASON])
+{
+    char file[OUTPUT_PATH], before[OUTPUT_PATH], damaged[OUTPUT_PATH];
+    output_beside(file, path, ".checkpoint");
+    output_beside(before, path, ".checkpoint.prev");
+    output_beside(damaged, path, ".checkpoint.damaged");
+    dem_status status = dem_record_read(out, file);
+    if (status != DEM_ERROR_IO) return status;
+    (void)snprintf(reason, OUTPUT_REASON, "%s; " OUTPUT_WAY_OUT, dem_status_message());
+    status = dem_record_read(out, before);
+    if (status == DEM_OK && rename(file, damaged) != 0 && errno != ENOENT) status = DEM_ERROR_IO;
+    return status;
+}
+
+checkpoint_state checkpoint_find(checkpoint_source *out, const char *path, const deck *d, bool anyway,
+                                 char reason[OUTPUT_REASON])
+{
+    char file[OUTPUT_PATH], before[OUTPUT_PATH];
+    *out = (checkpoint_source){0};
+    output_beside(file, path, ".checkpoint");
+    output_beside(before, path, ".checkpoint.prev");
+    if (access(file, F_OK) != 0 && access(before, F_OK) != 0) return CHECKPOINT_NONE;
+    const dem_status status = read_either(&out->record, path, reason);
+    if (status == DEM_ERROR_MEMORY) return CHECKPOINT_MEMORY;
+    return status == DEM_OK ? examine(out, d, anyway, reason) : CHECKPOINT_DAMAGED;
+}
+
+void checkpoint_source_free(checkpoint_source *source)
+{
+    dem_record_destroy(source->record);
+    free(source->lineage);
+    *source = (checkpoint_source){0};
+}
+
+/* ---- what is written ---- */
+
+checkpoint checkpoint_start(const command *c, const char *path, const deck *d, const checkpoint_source *source)
+{
+    checkpoint new = {.deck = d,
+                      .source = source,
+                      .interval = c->checkpoint_interval,
+                      .deadline = c->wall_start + c->max_wall,
+                      .wall_written = wall_clock(),
+                      .t_written = source->record != NULL ? source->t : -1.0};
+    output_beside(new.path, path, ".checkpoint");
+    preview_versions(new.versions, sizeof new.versions);
+    return new;
+}
+
+static double time_of(const dem_record *record)
+{
+    double t = -1.0;
+    (void)dem_record_get(record, time_entry, &t, sizeof t);
+    return t;
+}
+
+static dem_status put_on_disk(checkpoint *c, const dem_record *record)
+{
+    const double t = time_of(record);
+    if (t == c->t_written) return DEM_OK;
+    const dem_status status = dem_record_write(record, c->path);
+    if (status != DEM_OK) return status;
+    c->t_written = t;
+    c->wall_written = wall_clock();
+    return DEM_OK;
+}
+
+static dem_status save(checkpoint *c, const dem_record *record)
+{
+    if (time_of(record) == c->t_written) return DEM_OK;
+    dem_status status = dem_trajectory_segment(c->trajectory, record);
+    if (status == DEM_OK) status = put_on_disk(c, record);
+    if (status == DEM_OK) report_tell(c->log, "checkpoint t %.6g s in %s\n", c->t_written, c->path);
+    return status;
+}
+
+/* Whether the end is asked for. */
+static bool is_ending(checkpoint *c, const char **why)
+{
+    *why = signals_end();
+    const double now = wall_clock();
+    if (*why == NULL && now >= c->deadline) *why = "--max-wall";
+    if (*why != NULL && c->wall_ending == 0.0) c->wall_ending = now;
+    return *why != NULL;
+}
+
+static dem_status put_entries(const checkpoint *c, const dem_simulation *simulation, dem_record *record)
+{
+    dem_state state = {.struct_size = sizeof state};
+    dem_simulation_state(simulation, &state);
+    const char *lineage = c->source->lineage != NULL ? c->source->lineage : c->versions;
+    dem_status status = dem_record_put(record, time_entry, &state.t, sizeof state.t);
+    if (status == DEM_OK) status = dem_record_put(record, course_entry, c->deck->course, strlen(c->deck->course) + 1);
+    if (status == DEM_OK) status = dem_record_put(record, lineage_entry, lineage, strlen(lineage) + 1);
+    return status;
+}
+
+static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
+{
+    checkpoint *c = context;
+    const char *why;
+    dem_status status = put_entries(c, simulation, record);
+    const bool ending = is_ending(c, &why), wanted = signals_checkpoint();
+    if (status == DEM_OK && (ending || wanted || wall_clock() - c->wall_written >= c->interval))
+        status = save(c, record);
+    if (status != DEM_OK || !ending) return status;
+    c->ended = why;
+    return DEM_STOPPED;
+}
+
+static dem_status on_step(void *context, const dem_simulation *simulation)
+{
+    checkpoint *c = context;
+    const char *why;
+    if (!is_ending(c, &why) || wall_clock() - c->wall_ending < patience) return DEM_OK;
+    const dem_status status = checkpoint_save(c, simulation);
+    if (status != DEM_OK) return status;
+    c->ended = why;
+    return DEM_STOPPED;
+}
+
+dem_observer checkpoint_observer(checkpoint *c)
+{
+    return (dem_observer){.step = on_step, .record = on_record, .context = c};
+}
+
+dem_status checkpoint_save(checkpoint *c, const dem_simulation *simulation)
+{
+    const dem_record *record = dem_simulation_record(simulation);
+    return record == NULL ? DEM_OK : save(c, record);
+}
+
+dem_status checkpoint_close(checkpoint *c, const dem_simulation *simulation)
+{
+    const dem_record *record = dem_simulation_record(simulation);
+    const dem_status status = record == NULL ? DEM_OK : put_on_disk(c, record);
+    char before[OUTPUT_PATH + 8];
+    (void)snprintf(before, sizeof before, "%s.prev", c->path);
+    if (status == DEM_OK) (void)unlink(before);
+    return status;
+}

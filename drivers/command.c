@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "command.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "wall.h"
+
+static const char usage[] =
+    "usage: dem_batch [OPTION]... DECK...          run the decks; NAME.vtkhdf and NAME.json are written for each\n"
+    "       dem_batch --check [OPTION]... DECK...  read, build, print sizes and estimates, write nothing\n"
+    "       dem_batch --echo [OPTION]... DECK...   print with every key resolved; the echo is a deck of the same run\n"
+    "       dem_batch --template                   print a deck with every key, its default and its meaning\n"
+    "       dem_batch --keys                       print the description of every key, in Markdown\n"
+    "       dem_batch --version | --help\n"
+    "decks: files, or @LIST for those in a file, one a line, relative to its folder; '#' begins a comment\n"
+    "options:\n"
+    "  --outdir FOLDER        where to write (default: here)\n"
+    "  --set GROUP.KEY=VALUE  give a key, spelt as in a deck; GROUP(K).KEY in the K-th such group; any number of "
+    "times\n"
+    "  --index N              take only the N-th deck, from 1: for job arrays\n"
+    "  --overwrite            rename output of another problem that is in the way to NAME.old\n"
+    "  --max-memory GB        refuse what takes more (default: the memory of the machine)\n"
+    "  --max-steps N          refuse what takes more (default: 1e10)\n"
+    "  --max-disk GB          refuse what takes more (default: what is free)\n"
+    "  --max-wall SECONDS     end with a checkpoint, exit code 75; the same command goes on\n"
+    "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600)\n"
+    "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
+    "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT and SIGXCPU end as --max-wall does\n"
+    "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
+    "            6 out of memory, or over --max-memory or --max-steps, 7 the output belongs to another problem or\n"
+    "            process, 75 stopped, run me again; of several decks the largest\n";
+
+typedef struct action_word {
+    const char *word;
+    command_action action;
+} action_word;
+
+static const action_word action_words[] = {{"--check", COMMAND_CHECK},       {"--echo", COMMAND_ECHO},
+                                           {"--template", COMMAND_TEMPLATE}, {"--keys", COMMAND_KEYS},
+                                           {"--version", COMMAND_VERSION},   {"--help", COMMAND_HELP}};
+static const size_t n_actions = sizeof action_words / sizeof action_words[0];
+
+__attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    (void)fprintf(stderr, "dem_batch: error: ");
+    (void)vfprintf(stderr, format, arguments);
+    (void)fprintf(stderr, "\n%s", usage);
+    va_end(arguments);
+    return false;
+}
+
+/* As it stands on the command line; "" for a run, which needs no word. */
+static const char *word_of(command_action wanted)
+{
+    for (size_t k = 0; k < n_actions; k++)
+        if (action_words[k].action == wanted) return action_words[k].word;
+    return "";
+}
+
+/* ---- options with a value; NULL: there is none ---- */
+
+static bool parse_outdir(command *c, const char *folder)
+{
+    if (folder == NULL || folder[0] == '\0') return refuse("'--outdir' needs a folder");
+    c->outdir = folder;
+    return true;
+}
+
+static bool parse_index(command *c, const char *number)
+{
+    const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
+    if (n == 0 || n > 9 || number[n] != '\0' || (c->index = strtol(number, NULL, 10)) < 1)
+        return refuse("'--index' needs the number of a deck, from 1%s%s", number == NULL ? "" : ", got ",
+                      number == NULL ? "" : number);
+    return true;
+}
+
+static bool parse_seconds(double *out, const char *option, const char *text)
+{
+    char *end = NULL;
+    const double seconds = text == NULL ? 0.0 : strtod(text, &end);
+    if (text == NULL || end == text || *end != '\0' || !(seconds > 0.0))
+        return refuse("'%s' needs seconds, > 0%s%s", option, text == NULL ? "" : ", got ", text == NULL ? "" : text);
+    *out = seconds;
+    return true;
+}
+
+static bool parse_interval(command *c, const char *text)
+{
+    return parse_seconds(&c->checkpoint_interval, "--checkpoint-interval", text);
+}
+
+static bool parse_max_wall(command *c, const char *text)
+{
+    return parse_seconds(&c->max_wall, "--max-wall", text);
+}
+
+static bool parse_set(command *c, const char *text)
+{
+    if (text == NULL || !setting_parse(&c->settings[c->n_settings], text))
+        return refuse("'--set' needs group.key=value or group(k).key=value%s%s", text == NULL ? "" : ", got ",
+                      text == NULL ? "" : text);
+    c->n_settings++;
+    return true;
+}
+
+static bool set_limit(double *limit, const char *option, const char *number, double unit)
+{
+    return limit_set(limit, number, unit) || refuse("'%s' needs a number above 0%s%s", option,
+                                                    number == NULL ? "" : ", got ", number == NULL ? "" : number);
+}
+
+static bool parse_memory(command *c, const char *number)
+{
+    return set_limit(&c->most.memory, "--max-memory", number, 1e9);
+}
+
+static bool parse_steps(command *c, const char *number)
+{
+    return set_limit(&c->most.steps, "--max-steps", number, 1.0);
+}
+
+static bool parse_disk(command *c, const char *number)
+{
+    return set_limit(&c->most.disk, "--max-disk", number, 1e9);
+}
+
+static const struct {
+    const char *word;
+    bool (*parse)(command *c, const char *value);
+} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},
+               {"--set", parse_set},           {"--max-memory", parse_memory},
+               {"--max-steps", parse_steps},   {"--max-disk", parse_disk},
+               {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
+
+/* ---- words ---- */
+
+static bool parse_word(command *c, const char *word)
+{
+    for (size_t k = 0; k < n_actions; k++) {
+        if (strcmp(word, action_words[k].word) != 0) continue;
+        if (c->action != COMMAND_RUN) return refuse("'%s' does not go with '%s'", word, word_of(c->action));
+        c->action = action_words[k].action;
+        return true;
+    }
+    const bool overwrite = strcmp(word, "--overwrite") == 0, anyway = strcmp(word, "--resume-anyway") == 0;
+    c->overwrite = c->overwrite || overwrite;
+    c->resume_anyway = c->resume_anyway || anyway;
+    if (overwrite || anyway) return true;
+    if (word[0] == '-' || word[0] == '\0') return refuse("'%s' is no option", word);
+    c->decks[c->n_decks++] = word;
+    return true;
+}
+
+static bool parse_all(command *c, char **argv)
+{
+    for (char **word = argv; *word != NULL; word++) {
+        size_t k = 0;
+        while (k < sizeof options / sizeof *options && strcmp(*word, options[k].word) != 0) k++;
+        const bool valued = k < sizeof options / sizeof *options;
+        if (!(valued ? options[k].parse(c, *++word) : parse_word(c, *word))) return false;
+    }
+    const bool needs_deck = c->action == COMMAND_RUN || c->action == COMMAND_CHECK || c->action == COMMAND_ECHO;
+    if (needs_deck && c->n_decks == 0) return refuse("no deck");
+    if (!needs_deck && c->n_decks > 0) return refuse("'%s' takes no deck, got '%s'", word_of(c->action), c->decks[0]);
+    return true;
+}
+
+exit_code command_parse(command *c, int argc, char **argv)
+{
+    const size_t n = (size_t)argc + 1;
+    *c = (command){.action = COMMAND_RUN,
+                   .outdir = ".",
+                   .most = limit_default(),
+                   .checkpoint_interval = 600.0,
+                   .max_wall = (double)INFINITY,
+                   .wall_start = wall_clock()};
+    c->decks = calloc(n, sizeof *c->decks);
+    c->settings = calloc(n, sizeof *c->settings);
+    if (c->decks != NULL && c->settings != NULL) return parse_all(c, argv + 1) ? EXIT_DONE : EXIT_USAGE;
+    (void)fprintf(stderr, "dem_batch: error: out of memory\n");
+    return EXIT_MEMORY;
+}
+
+void command_free(command *c)
+{
+    free(c->decks);
+    free(c->settings);
+    *c = (command){0};
+}
+
+void command_help(FILE *out)
+{
+    (void)fputs(usage, out);
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The command line of dem_batch. */
+#ifndef DEM_COMMAND_H
+#define DEM_COMMAND_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "limit.h"
+#include "outcome.h"
+#include "setting.h"
+
+typedef enum command_action {
+    COMMAND_RUN,
+    COMMAND_CHECK,
+    COMMAND_ECHO,
+    COMMAND_TEMPLATE,
+    COMMAND_KEYS,
+    COMMAND_VERSION,
+    COMMAND_HELP
+} command_action;
+
+/** Texts are those of argv. */
+typedef struct command {
+    command_action action;
+    const char *outdir;
+    bool overwrite, resume_anyway;
+    limits most;                          /* disk infinite: what is free */
+    double checkpoint_interval, max_wall; /* s on the wall */
+    double wall_start;                    /* s, of the whole command */
+    long index;                           /* of the only deck, from 1; 0: all of them */
+    size_t n_decks, n_settings;
+    const char **decks; /* [n_decks] files, and lists with an '@' before their names */
+    setting *settings;  /* [n_settings] */
+} command;
+
+/** What is wrong with it is said on standard error. To be freed in any case. */
+exit_code command_parse(command *c, int argc, char **argv);
+void command_free(command *c);
+
+void command_help(FILE *out);
+
+#endif

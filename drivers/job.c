@@ -1,0 +1,494 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Read the deck, build, claim the output, run, report. */
+#include "job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <dem/trajectory.h>
+
+#include "checkpoint.h"
+#include "decimal.h"
+#include "deck.h"
+#include "estimate.h"
+#include "lock.h"
+#include "output.h"
+#include "preview.h"
+#include "relaxation.h"
+#include "report.h"
+#include "result.h"
+#include "signals.h"
+#include "wall.h"
+
+typedef struct job {
+    const command *command;
+    const char *file; /* of the deck */
+    deck deck;
+    limits most;
+    dem_model *model;
+    dem_simulation *simulation;
+    char path[OUTPUT_PATH]; /* of the output */
+    dem_peaks *peaks;       /* NULL: not wanted */
+    dem_trajectory *trajectory;
+    report log;
+    relaxation rest;
+    dem_options options;
+    checkpoint_source source; /* from which the run goes on */
+    checkpoint checkpoint;
+    lock lock;
+    time_t start;
+    double wall_start; /* s */
+    bool claimed;      /* the output is ours */
+    bool told;         /* the result */
+    outcome outcome;
+} job;
+
+/* Whether all is well; tells what is not. */
+static bool passes(job *j, dem_status status, const char *where)
+{
+    if (status != DEM_OK) outcome_fail_status(&j->outcome, status, where);
+    return status == DEM_OK;
+}
+
+/* ---- the run ---- */
+
+static dem_status write_provenance(const job *j)
+{
+    const deck *d = &j->deck;
+    char versions[256], problem[OUTPUT_HASH], hash[OUTPUT_HASH], start[32], t_end[DECIMAL_SIZE];
+    struct tm utc;
+    preview_versions(versions, sizeof versions);
+    output_print_hash(problem, d->hash);
+    output_print_hash(hash, d->run_hash);
+    decimal_print(t_end, d->t_end);
+    (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&j->start, &utc));
+    const char *const notes[][2] = {{"versions", j->source.lineage != NULL ? j->source.lineage : versions},
+                                    {"kernel", dem_kernel_name(dem_simulation_options(j->simulation).kernel)},
+                                    {"problem", problem},
+                                    {"run", hash},
+                                    {"t_end", t_end},
+                                    {"start", start},
+                                    {"deck", d->source},
+                                    {"resolved", d->echo},
+                                    {"title", d->title},
+                                    {"physics", d->physics}};
+    dem_status status = DEM_OK;
+    for (size_t k = 0; k < sizeof notes / sizeof notes[0] && status == DEM_OK; k++)
+        status = dem_trajectory_note(j->trajectory, notes[k][0], notes[k][1]);
+    return status;
+}
+
+static dem_status stop_at_overlap(void *context, const dem_simulation *simulation)
+{
+    (void)context;
+    return dem_simulation_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
+}
+
+static dem_trajectory_options frames_of(const job *j)
+{
+    const deck *d = &j->deck;
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.frame_interval = d->frame_interval;
+    options.double_precision = d->double_precision;
+    options.deflate = d->deflate;
+    options.events = d->events;
+    options.fields = d->fields;
+    options.peaks = j->peaks;
+    options.most_stressed = d->most_stressed;
+    options.n_probes = d->n_probes;
+    options.probes = d->probes;
+    return options;
+}
+
+static dem_status begin(job *j)
+{
+    dem_status status = DEM_OK;
+    if (j->deck.peak_every > 0) status = dem_peaks_create(&j->peaks, j->model, j->deck.peak_every);
+    const dem_trajectory_options options = frames_of(j);
+    return status == DEM_OK ? dem_trajectory_create(&j->trajectory, j->path, j->simulation, &options) : status;
+}
+
+/* The counterpart of begin() and of the simulation's creation. */
+static dem_status resume(job *j)
+{
+    const dem_record *record = j->source.record;
+    dem_simulation_destroy(j->simulation);
+    j->simulation = NULL;
+    dem_status status = dem_simulation_resume(&j->simulation, j->model, &j->options, record);
+    if (status == DEM_OK && j->deck.peak_every > 0)
+        status = dem_peaks_resume(&j->peaks, j->model, j->deck.peak_every, record);
+    const dem_trajectory_options options = frames_of(j);
+    if (status == DEM_OK) status = dem_trajectory_resume(&j->trajectory, j->path, j->simulation, &options, record);
+    if (status == DEM_OK) status = report_resume(&j->log, record, j->simulation);
+    return status == DEM_OK && j->deck.residual > 0.0 ? relaxation_resume(&j->rest, record) : status;
+}
+
+static dem_status observe(job *j)
+{
+    const struct {
+        bool wanted;
+        dem_observer observer;
+    } all[] = {{j->peaks != NULL, dem_peaks_observer(j->peaks)},
+               {true, dem_trajectory_observer(j->trajectory)},
+               {true, report_observer(&j->log)},
+               {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
+               {j->deck.stop_at_overlap != 0, {.step = stop_at_overlap}},
+               {true, checkpoint_observer(&j->checkpoint)}};
+    dem_status status = DEM_OK;
+    for (size_t k = 0; k < sizeof all / sizeof *all && status == DEM_OK; k++)
+        if (all[k].wanted) status = dem_simulation_observe(j->simulation, &all[k].observer);
+    return status;
+}
+
+/* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap or fails. */
+static dem_status advance(job *j)
+{
+    const dem_observer frames = dem_trajectory_observer(j->trajectory);
+    dem_status status = write_provenance(j);
+    if (status == DEM_OK) status = observe(j);
+    if (status != DEM_OK) return status;
+    status = dem_simulation_advance(j->simulation, j->deck.t_end);
+    const bool failed = status == DEM_ERROR_INTEGRATOR || status == DEM_ERROR_CONTACT;
+    if (failed) (void)passes(j, status, j->deck.path);
+    if (j->checkpoint.ended != NULL || (status != DEM_STOPPED && !failed)) return status;
+    return frames.frame(frames.context, j->simulation);
+}
+
+/* Whether a run has come to what the deck asks for. One that has not has no result: its output stays unfinished. */
+static void check_success(job *j)
+{
+    const deck *d = &j->deck;
+    const relaxation *rest = &j->rest;
+    const dem_overlap o = dem_simulation_overlap(j->simulation);
+    if (d->stop_at_overlap && o.node >= 0)
+        outcome_fail(&j->outcome, EXIT_NUMERICS, d->path,
+                     "node %lld is inside triangle %lld of a body at (%g, %g) m, t = %.6g s", (long long)o.node,
+                     (long long)o.triangle, o.x[0], o.x[1], o.t);
+    else if (d->residual > 0.0 && !rest->done)
+        outcome_fail(&j->outcome, EXIT_NUMERICS, d->path,
+                     "not at rest at t_end = %g s: the residual is %.3g, %.3g is asked for", d->t_end, rest->reached,
+                     d->residual);
+    else if (d->residual > 0.0)
+        (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
+}
+
+/* What has no result is kept as it is, for a look and for a later end. */
+static void finish(job *j)
+{
+    const bool good = j->outcome.code == EXIT_DONE;
+    dem_status status = good ? dem_trajectory_finish(j->trajectory) : checkpoint_save(&j->checkpoint, j->simulation);
+    if (good && status == DEM_OK) status = checkpoint_close(&j->checkpoint, j->simulation);
+    (void)passes(j, status, j->deck.path);
+}
+
+static void stop(job *j)
+{
+    dem_state state = {.struct_size = sizeof state};
+    const checkpoint *c = &j->checkpoint;
+    dem_simulation_state(j->simulation, &state);
+    report_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
+                c->t_written >= 0.0 ? c->path : "the beginning");
+    outcome_set(&j->outcome, EXIT_STOPPED, "%s: stopped by %s", j->deck.path, c->ended);
+}
+
+static void run(job *j)
+{
+    j->checkpoint.trajectory = j->trajectory;
+    j->checkpoint.log = &j->log;
+    j->log.peaks = j->peaks;
+    preview_print(stdout, &j->deck, j->simulation, j->path);
+    if (j->source.record != NULL) report_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
+    dem_record_destroy(j->source.record);
+    j->source.record = NULL;
+    const dem_status status = advance(j);
+    if (j->checkpoint.ended != NULL && status == DEM_STOPPED) {
+        stop(j);
+        return;
+    }
+    if (!passes(j, status, j->deck.path)) return;
+    if (j->outcome.code == EXIT_DONE) report_summary(&j->log, j->simulation);
+    if (j->outcome.code == EXIT_DONE) check_success(j);
+    finish(j);
+}
+
+/* ---- the result ---- */
+
+static result describe(const job *j)
+{
+    return (result){.deck = j->file,
+                    .command = j->command,
+                    .read = j->deck.name != NULL ? &j->deck : NULL,
+                    .output = j->path[0] != '\0' ? j->path : NULL,
+                    .simulation = j->simulation,
+                    .log = j->trajectory != NULL ? &j->log : NULL,
+                    .rest = &j->rest,
+                    .outcome = &j->outcome,
+                    .start = j->start,
+                    .seconds = wall_clock() - j->wall_start};
+}
+
+/* Tells what came out, in NAME.json too if the output is ours. */
+static void conclude(job *j)
+{
+    char path[OUTPUT_PATH];
+    const result r = describe(j);
+    const exit_code code = j->outcome.code;
+    char *line = result_line(&r);
+    if (line != NULL && j->claimed) {
+        output_beside(path, j->path, ".json");
+        result_write(path, line, &j->outcome);
+    }
+    if (j->outcome.code != code) {
+        free(line);
+        line = result_line(&r);
+    }
+    if (line == NULL)
+        outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+    else
+        (void)fputs(line, stdout);
+    free(line);
+}
+
+/* Whether the same run's result is there; it is then told again. */
+static bool is_done(job *j, const char *reason)
+{
+    char path[OUTPUT_PATH], hash[OUTPUT_HASH];
+    output_beside(path, j->path, ".json");
+    output_print_hash(hash, j->deck.run_hash);
+    char *line = result_read_done(path, hash);
+    output_beside(path, j->path, ".lock");
+    if (line != NULL && j->lock.file < 0) lock_clear(path);
+    if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, line);
+    j->told = line != NULL;
+    free(line);
+    return j->told;
+}
+
+/* ---- before the run ---- */
+
+static void tell_error(job *j, exit_code code, const namelist_error *e)
+{
+    char where[OUTPUT_PATH + 32];
+    const int line = e->place.line;
+    if (line > 0)
+        (void)snprintf(where, sizeof where, "%s:%d:%d", j->file, line, e->place.column);
+    else if (line == 0)
+        (void)snprintf(where, sizeof where, "%s", j->file);
+    else
+        (void)snprintf(where, sizeof where, "--set %s", j->command->settings[-1 - line].text);
+    outcome_fail(&j->outcome, code, where, "%s", e->text);
+}
+
+static void tell_errors(job *j, exit_code code, namelist_errors *errors)
+{
+    for (size_t k = 0; k < errors->n; k++) tell_error(j, code, &errors->list[k]);
+    namelist_errors_free(errors);
+}
+
+/* Whether a run keeps its limits; tells which it does not. */
+static bool keeps(job *j, const estimate *needed)
+{
+    namelist_errors errors = {0};
+    const estimate_breach breach = estimate_check(needed, &j->most, &j->deck, &errors);
+    tell_errors(j, breach == ESTIMATE_DISK ? EXIT_IO : EXIT_MEMORY, &errors);
+    return breach == ESTIMATE_KEPT;
+}
+
+/* The same, as far as the deck alone tells. */
+static bool fits(job *j)
+{
+    const command *c = j->command;
+    estimate needed;
+    if (!estimate_deck(&needed, &j->deck)) {
+        outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+        return false;
+    }
+    j->most = c->most;
+    if (c->action == COMMAND_ECHO)
+        j->most.disk = j->most.steps = (double)INFINITY;
+    else if (!isfinite(j->most.disk) && !limit_see_disk(&j->most, c->outdir, j->deck.name))
+        (void)fprintf(stderr, "%s: warning: the file system does not tell what is free\n", c->outdir);
+    return keeps(j, &needed);
+}
+
+static bool ends(job *j)
+{
+    const estimate needed = estimate_run(&j->deck, j->simulation);
+    return keeps(j, &needed);
+}
+
+/* The model has a copy of the deck's lattice, which is not needed any more. */
+static dem_status build(job *j)
+{
+    deck *d = &j->deck;
+    dem_status status = dem_model_create(&j->model, &d->lattice, d->obstacles, d->n_obstacles);
+    dem_lattice_free(&d->lattice);
+    if (status != DEM_OK) return status;
+    j->options = d->options;
+    if (d->residual > 0.0 && j->options.mass_damping == 0.0) j->options.mass_damping = relaxation_damping(j->model);
+    return dem_simulation_create(&j->simulation, j->model, &j->options);
+}
+
+static bool take_lock(job *j)
+{
+    char path[OUTPUT_PATH], why[512];
+    output_beside(path, j->path, ".lock");
+    switch (lock_take(&j->lock, path, why, sizeof why)) {
+    case LOCK_HELD:
+        return true;
+    case LOCK_TAKEN:
+        outcome_fail(&j->outcome, EXIT_TAKEN, path, "%s", why);
+        break;
+    case LOCK_FAILED:
+        outcome_fail(&j->outcome, EXIT_IO, path, "%s", why);
+        break;
+    }
+    return false;
+}
+
+/* Moves what is in the way, if that is wanted. */
+static bool make_way(job *j, exit_code code, const char *where, const char *reason)
+{
+    char why[OUTPUT_REASON];
+    if (!j->command->overwrite) {
+        outcome_fail(&j->outcome, code, where, "%s", reason);
+    } else if (!output_set_aside(j->path, why)) {
+        outcome_fail(&j->outcome, EXIT_IO, j->path, "%s", why);
+    } else {
+        (void)printf("%s: set aside as %s\n", j->path, why);
+        checkpoint_source_free(&j->source);
+        return true;
+    }
+    return false;
+}
+
+/* Whether the way is free for this run, to begin or to go on. */
+static bool claim(job *j)
+{
+    char reason[OUTPUT_REASON], saved[OUTPUT_REASON], file[OUTPUT_PATH];
+    const output_state found = output_claim(j->path, &j->deck, reason);
+    if (found == OUTPUT_DONE && is_done(j, reason)) return false;
+    if (found == OUTPUT_TAKEN) return make_way(j, EXIT_TAKEN, j->path, reason);
+    output_beside(file, j->path, ".checkpoint");
+    switch (checkpoint_find(&j->source, j->path, &j->deck, j->command->resume_anyway, saved)) {
+    case CHECKPOINT_FOUND:
+        return true;
+    case CHECKPOINT_NONE:
+        return found != OUTPUT_SHORTER || make_way(j, EXIT_TAKEN, j->path, reason);
+    case CHECKPOINT_OTHER:
+        return make_way(j, EXIT_TAKEN, file, saved);
+    case CHECKPOINT_DAMAGED:
+        return make_way(j, EXIT_IO, file, saved);
+    case CHECKPOINT_MEMORY:
+        break;
+    }
+    outcome_fail(&j->outcome, EXIT_MEMORY, file, "out of memory");
+    return false;
+}
+
+static void start_log(job *j)
+{
+    report_start(&j->log, stdout, isatty(STDOUT_FILENO) == 1, &j->deck);
+    j->rest = relaxation_start(j->deck.residual, &j->deck.options);
+    j->checkpoint = checkpoint_start(j->command, j->path, &j->deck, &j->source);
+}
+
+static bool begin_anew(job *j)
+{
+    dem_peaks_destroy(j->peaks);
+    dem_simulation_destroy(j->simulation);
+    j->peaks = NULL;
+    j->simulation = NULL;
+    if (!passes(j, dem_simulation_create(&j->simulation, j->model, &j->options), j->path)) return false;
+    start_log(j);
+    return passes(j, begin(j), j->path);
+}
+
+/* What was left behind may turn out to be of no use. */
+static bool begin_or_resume(job *j)
+{
+    char reason[OUTPUT_REASON];
+    start_log(j);
+    if (j->source.record == NULL) return passes(j, begin(j), j->path);
+    const dem_status status = resume(j);
+    if (status != DEM_ERROR_IO) return passes(j, status, j->path);
+    (void)snprintf(reason, sizeof reason, "%s; --overwrite sets the output aside and begins anew",
+                   dem_status_message());
+    return make_way(j, EXIT_IO, j->path, reason) && begin_anew(j);
+}
+
+/* Nothing has been written so far. What can be told before anything is built is. */
+static void claim_and_run(job *j)
+{
+    char reason[OUTPUT_REASON];
+    const output_state found = output_claim(j->path, &j->deck, reason);
+    if (found == OUTPUT_DONE && is_done(j, reason)) return;
+    if (found == OUTPUT_TAKEN && !j->command->overwrite) {
+        outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
+        return;
+    }
+    if (!passes(j, build(j), j->deck.path) || !ends(j) || !take_lock(j)) return;
+    j->claimed = claim(j);
+    if (j->claimed && begin_or_resume(j)) run(j);
+}
+
+static void check(job *j)
+{
+    if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(stdout, &j->deck, j->simulation, NULL);
+}
+
+static bool succeeded(job *j, deck_status status, namelist_errors *errors)
+{
+    if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
+    tell_errors(j, EXIT_INVALID, errors);
+    return status == DECK_OK;
+}
+
+static bool read_deck(job *j)
+{
+    namelist_errors errors = {0};
+    const command *c = j->command;
+    if (!succeeded(j, deck_parse(&j->deck, j->file, c->settings, c->n_settings, &errors), &errors)) return false;
+    return fits(j) && succeeded(j, deck_build(&j->deck, &errors), &errors);
+}
+
+static bool find_path(job *j)
+{
+    if (output_path(j->path, sizeof j->path, j->command->outdir, j->deck.name)) return true;
+    j->path[0] = '\0';
+    outcome_fail(&j->outcome, EXIT_INVALID, j->deck.path, "the path of the output is too long");
+    return false;
+}
+
+static void dismiss(job *j)
+{
+    dem_trajectory_destroy(j->trajectory);
+    dem_peaks_destroy(j->peaks);
+    dem_simulation_destroy(j->simulation);
+    dem_model_destroy(j->model);
+    checkpoint_source_free(&j->source);
+    deck_free(&j->deck);
+    lock_release(&j->lock);
+}
+
+exit_code job_do(const command *c, const char *path)
+{
+    job j = {.command = c, .file = path, .lock = {.file = -1}, .start = time(NULL), .wall_start = wall_clock()};
+    const bool good = read_deck(&j);
+    if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, stdout);
+    if (good && c->action == COMMAND_CHECK) check(&j);
+    if (good && c->action == COMMAND_RUN && find_path(&j)) claim_and_run(&j);
+    if (c->action == COMMAND_RUN && !j.told) conclude(&j);
+    dismiss(&j);
+    return j.outcome.code;
+}
+
+exit_code job_leave(const command *c, const char *path)
+{
+    job j = {.command = c, .file = path, .lock = {.file = -1}, .start = time(NULL), .wall_start = wall_clock()};
+    outcome_set(&j.outcome, EXIT_STOPPED, "%s: not begun", path);
+    if (c->action == COMMAND_RUN) conclude(&j);
+    return j.outcome.code;
+}

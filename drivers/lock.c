@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "lock.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { HOST = 256 };
+
+/* Says in the file who holds it: the system knows no more than the process, and not on which machine. */
+static void sign(int file)
+{
+    char host[HOST] = "?", text[HOST + 32];
+    (void)gethostname(host, sizeof host - 1);
+    const int n = snprintf(text, sizeof text, "process %ld on %s\n", (long)getpid(), host);
+    if (ftruncate(file, 0) == 0) (void)!pwrite(file, text, (size_t)n, 0);
+}
+
+static void read_holder(int file, char *why, size_t size)
+{
+    char text[HOST + 32];
+    const ssize_t n = pread(file, text, sizeof text - 1, 0);
+    text[n > 0 ? n : 0] = '\0';
+    text[strcspn(text, "\n")] = '\0';
+    (void)snprintf(why, size, "%s is writing this output", text[0] != '\0' ? text : "another process");
+}
+
+/* Whether the file is still the one of that name: who held it before may have removed it in the meantime. */
+static bool is_at(int file, const char *path)
+{
+    struct stat held, named;
+    return fstat(file, &held) == 0 && stat(path, &named) == 0 && held.st_ino == named.st_ino &&
+           held.st_dev == named.st_dev;
+}
+
+static bool is_unsupported(int error)
+{
+    return error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL;
+}
+
+lock_status lock_take(lock *l, const char *path, char *why, size_t size)
+{
+    const struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    (void)snprintf(l->path, sizeof l->path, "%s", path);
+    for (;;) {
+        const int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file < 0) {
+            (void)snprintf(why, size, "cannot be created (%s)", strerror(errno));
+            return LOCK_FAILED;
+        }
+        const int error = fcntl(file, F_SETLK, &whole) != 0 ? errno : 0;
+        if (error != 0 && !is_unsupported(error)) {
+            const bool taken = error == EACCES || error == EAGAIN;
+            if (taken) read_holder(file, why, size);
+            if (!taken) (void)snprintf(why, size, "cannot be locked (%s)", strerror(error));
+            (void)close(file);
+            return taken ? LOCK_TAKEN : LOCK_FAILED;
+        }
+        if (is_at(file, path)) {
+            l->file = file;
+            sign(file);
+            return LOCK_HELD;
+        }
+        (void)close(file);
+    }
+}
+
+void lock_clear(const char *path)
+{
+    char why[128];
+    lock l;
+    if (access(path, F_OK) == 0 && lock_take(&l, path, why, sizeof why) == LOCK_HELD) lock_release(&l);
+}
+
+void lock_release(lock *l)
+{
+    if (l->file < 0) return;
+    (void)unlink(l->path); /* before the lock goes: later the name may be another's */
+    (void)close(l->file);
+    l->file = -1;
+}

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "result.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <dem/record.h>
+
+#include "file.h"
+#include "json.h"
+#include "output.h"
+#include "preview.h"
+
+enum { MOST_LINE = 64 << 20 }; /* bytes: obstacles and boundaries are listed */
+
+static const char *status_of(const outcome *o)
+{
+    return o->code == EXIT_DONE ? "done" : (o->code == EXIT_STOPPED ? "stopped" : "failed");
+}
+
+/* ---- the fields ---- */
+
+static void write_hash(json *j, const char *key, uint64_t hash)
+{
+    char text[OUTPUT_HASH];
+    output_print_hash(text, hash);
+    json_text(j, key, text);
+}
+
+static void write_case(json *j, const result *r)
+{
+    char versions[256];
+    preview_versions(versions, sizeof versions);
+    json_text(j, "deck", r->deck);
+    json_open(j, "set", '[');
+    for (size_t k = 0; k < r->command->n_settings; k++) json_text(j, NULL, r->command->settings[k].text);
+    json_close(j, ']');
+    json_text(j, "name", r->read != NULL ? r->read->name : NULL);
+    json_text(j, "output", r->output);
+    json_text(j, "status", status_of(r->outcome));
+    json_integer(j, "exit_code", (int64_t)r->outcome->code);
+    json_text(j, "message", r->outcome->message);
+    json_text(j, "versions", versions);
+    if (r->read == NULL) return;
+    json_text(j, "title", r->read->title);
+    if (r->read->echo != NULL) write_hash(j, "problem", r->read->hash);
+    if (r->read->echo != NULL) write_hash(j, "run", r->read->run_hash);
+    json_real(j, "t_end", r->read->t_end);
+}
+
+static void write_counts(json *j, const dem_counts *c)
+{
+    const struct {
+        const char *key;
+        dem_index n;
+    } all[] = {{"steps", c->steps},       {"rejected", c->rejected},
+               {"retries", c->retries},   {"evaluations", c->evaluations},
+               {"events", c->events},     {"impacts", c->impacts},
+               {"early", c->early},       {"vertex_impacts", c->vertex_impacts},
+               {"late", c->late},         {"behind", c->behind},
+               {"closings", c->closings}, {"releases", c->releases},
+               {"slips", c->slips},       {"sticks", c->sticks},
+               {"passings", c->passings}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) json_integer(j, all[k].key, all[k].n);
+}
+
+static void write_contact(json *j, const report *log, const dem_state *state, const dem_simulation *simulation)
+{
+    const double never = (double)NAN;
+    json_integer(j, "contacts", state->n_contacts);
+    json_real(j, "first_contact", log->so_far.touched ? log->so_far.first_contact : never);
+    json_real(j, "last_contact", log->so_far.touched ? log->so_far.last_contact : never);
+    json_real(j, "rebound_speed", log->so_far.touched ? log->so_far.speed_after : never);
+    json_real(j, "rising_speed", report_rising_speed(simulation));
+}
+
+static void write_energy(json *j, const report *log, const dem_energy *e)
+{
+    json_open(j, "energy", '{');
+    json_real(j, "start", log->so_far.energy_start);
+    json_real(j, "largest", log->so_far.energy_max);
+    json_real(j, "kinetic", e->kinetic);
+    json_real(j, "elastic", e->elastic);
+    json_real(j, "area", e->area);
+    json_real(j, "guard", e->guard);
+    json_real(j, "gravity", e->gravity);
+    json_real(j, "impact", e->impact);
+    json_real(j, "friction", e->friction);
+    json_real(j, "damping", e->damping);
+    json_real(j, "projection", e->projection);
+    json_real(j, "boundary", e->boundary);
+    json_close(j, '}');
+    json_real(j, "closure", report_closure(log, *e));
+    json_real(j, "elastic_share", log->so_far.elastic_share_max);
+    json_real(j, "elastic_share_t", log->so_far.elastic_share_t);
+}
+
+static void write_extreme(json *j, const char *key, double strain, dem_index spring, double t)
+{
+    json_open(j, key, '{');
+    json_real(j, "strain", strain);
+    json_integer(j, "spring", spring);
+    json_real(j, "t", t);
+    json_close(j, '}');
+}
+
+static void write_strain(json *j, const report *log)
+{
+    if (log->so_far.strain_min.spring_min >= 0)
+        write_extreme(j, "strain_min", log->so_far.strain_min.min, log->so_far.strain_min.spring_min,
+                      log->so_far.strain_min_t);
+    if (log->so_far.strain_max.spring_max >= 0)
+        write_extreme(j, "strain_max", log->so_far.strain_max.max, log->so_far.strain_max.spring_max,
+                      log->so_far.strain_max_t);
+    json_real(j, "area_min", log->so_far.area_min);
+    json_real(j, "area_min_t", log->so_far.area_min_t);
+    json_integer(j, "guarded", log->so_far.guarded_max);
+    json_integer(j, "inverted", log->so_far.inverted_max);
+}
+
+static void write_node_peak(json *j, const report *log)
+{
+    dem_index node;
+    if (dem_peaks_most_stressed_nodes(log->peaks, 1, &node) == 0) return;
+    const dem_node_peak *peak = &dem_peaks_nodes(log->peaks)[node];
+    json_open(j, "most_stressed", '{');
+    json_integer(j, "node", node);
+    json_real(j, "von_mises", peak->von_mises);
+    json_real(j, "t", peak->t);
+    json_reals(j, "stress", peak->stress, 3);
+    json_close(j, '}');
+}
+
+static void write_spring_peak(json *j, const report *log)
+{
+    dem_index spring;
+    if (dem_peaks_most_strained_springs(log->peaks, 1, &spring) == 0) return;
+    const dem_spring_peak *peak = &dem_peaks_springs(log->peaks)[spring];
+    write_extreme(j, "most_strained", peak->strain, spring, peak->t);
+}
+
+static void write_loads(json *j, const dem_simulation *simulation)
+{
+    const dem_index n_obstacles = dem_model_sizes(dem_simulation_model(simulation)).n_obstacles;
+    const dem_index n_boundaries = dem_simulation_options(simulation).n_boundaries;
+    json_open(j, "obstacles", '[');
+    for (dem_index o = 0; o < n_obstacles; o++) {
+        const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
+        json_open(j, NULL, '{');
+        json_reals(j, "impulse", load.impulse, 2);
+        json_reals(j, "friction_impulse", load.friction_impulse, 2);
+        json_reals(j, "reaction", load.reaction, 2);
+        json_integer(j, "contacts", load.contacts);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+    json_open(j, "boundaries", '[');
+    for (dem_index k = 0; k < n_boundaries; k++) {
+        const dem_boundary_load load = dem_simulation_boundary(simulation, k);
+        json_open(j, NULL, '{');
+        json_reals(j, "force", load.force, 2);
+        json_reals(j, "displacement", load.displacement, 2);
+        json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+static void write_overlap(json *j, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    if (o.node < 0) return;
+    json_open(j, "overlap", '{');
+    json_integer(j, "node", o.node);
+    json_integer(j, "triangle", o.triangle);
+    json_real(j, "t", o.t);
+    json_integer(j, "most", o.most);
+    json_close(j, '}');
+}
+
+static void write_run(json *j, const result *r)
+{
+    const dem_counts counts = dem_simulation_counts(r->simulation);
+    dem_state state = {.struct_size = sizeof state};
+    dem_simulation_state(r->simulation, &state);
+    json_real(j, "t", state.t);
+    write_counts(j, &counts);
+    write_contact(j, r->log, &state, r->simulation);
+    write_energy(j, r->log, &state.energy);
+    write_strain(j, r->log);
+    if (r->log->peaks != NULL) write_node_peak(j, r->log);
+    if (r->log->peaks != NULL) write_spring_peak(j, r->log);
+    write_loads(j, r->simulation);
+    write_overlap(j, r->simulation);
+    json_real(j, "formula_6", r->log->so_far.pace.largest);
+    json_real(j, "formula_6_t", r->log->so_far.pace.t);
+    if (r->read->residual > 0.0) json_real(j, "residual", r->rest->reached);
+}
+
+static void write_wall(json *j, const result *r)
+{
+    char start[32];
+    struct tm utc;
+    (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&r->start, &utc));
+    json_text(j, "wall_start", start);
+    json_real(j, "wall_seconds", r->seconds);
+}
+
+/* ---- the line ---- */
+
+char *result_line(const result *r)
+{
+    char *line = NULL;
+    size_t size = 0;
+    json j = {.out = open_memstream(&line, &size)};
+    if (j.out == NULL) return NULL;
+    json_open(&j, NULL, '{');
+    write_case(&j, r);
+    if (r->log != NULL) write_run(&j, r);
+    write_wall(&j, r);
+    json_close(&j, '}');
+    (void)fputc('\n', j.out);
+    const bool good = ferror(j.out) == 0;
+    if (fclose(j.out) == 0 && good) return line;
+    free(line);
+    return NULL;
+}
+
+static bool write_part(const char *part, const char *line)
+{
+    FILE *file = fopen(part, "w");
+    if (file == NULL) return false;
+    const bool written = fputs(line, file) >= 0;
+    return fclose(file) == 0 && written;
+}
+
+void result_write(const char *path, const char *line, outcome *o)
+{
+    char part[OUTPUT_PATH + 8];
+    (void)snprintf(part, sizeof part, "%s.part", path);
+    if (!write_part(part, line)) {
+        outcome_fail(o, EXIT_IO, part, "cannot be written (%s)", strerror(errno));
+        (void)unlink(part);
+        return;
+    }
+    const dem_status status = dem_publish(part, path);
+    if (status != DEM_OK) outcome_fail_status(o, status, path);
+}
+
+/* In a JSON text quotes within strings are escaped, so that a field cannot be mistaken. */
+static bool has_field(const char *line, const char *key, const char *text)
+{
+    char field[128];
+    (void)snprintf(field, sizeof field, "\"%s\":\"%s\"", key, text);
+    return strstr(line, field) != NULL;
+}
+
+char *result_read_done(const char *path, const char *run_hash)
+{
+    char why[FILE_WHY], *line;
+    size_t size;
+    if (file_read(&line, &size, path, MOST_LINE, why) != FILE_READ) return NULL;
+    if (has_field(line, "status", "done") && has_field(line, "run", run_hash)) return line;
+    free(line);
+    return NULL;
+}
