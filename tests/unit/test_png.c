@@ -98,6 +98,7 @@ static void stated_sizes_are_limited(void **state)
     bytes[18] = bytes[22] = 0x40; /* 16387 x 16386 */
     expect_fault(bytes, sizeof bytes, "a PNG image of 16387 x 16386 pixels; the limit is 67108864");
 }
+
 /* A chunk that libpng skips would state another size than the image has, and let any size pass. */
 static void an_image_begins_with_its_header(void **state)
 {
