@@ -18,10 +18,13 @@ static size_t number_at(const char *bytes, size_t at)
     return ((size_t)b[0] << 24) + ((size_t)b[1] << 16) + ((size_t)b[2] << 8) + b[3];
 }
 
-/* The first chunk begins behind the magic with its length and name, then width and height. */
+enum { SIZES_END = 24 }; /* bytes */
+
+/* The header is the first chunk: behind the magic its length and name, then width and height. libpng takes others before
+ * it, which could state any size. */
 bool png_measure(image *out, const char *bytes, size_t size)
 {
-    if (size < 24) return false;
+    if (size < SIZES_END || memcmp(bytes + 12, "IHDR", 4) != 0) return false;
     *out = (image){.width = number_at(bytes, 16), .height = number_at(bytes, 20), .white = 255};
     return true;
 }
@@ -81,7 +84,9 @@ image_status png_parse(image *out, char *fault, const char *bytes, size_t size)
     source from = {bytes, size};
     *out = (image){0};
     image own;
-    if (!png_measure(&own, bytes, size)) return refuse(fault, "the PNG image ends too early");
+    if (!png_measure(&own, bytes, size))
+        return refuse(fault, size < SIZES_END ? "the PNG image ends too early"
+                                              : "the PNG image does not begin with its header");
     const bool sides = own.width >= 1 && own.width < IMAGE_MAX_SIDE && own.height >= 1 && own.height < IMAGE_MAX_SIDE;
     if (!sides || own.width * own.height > PNG_MAX_PIXELS) {
         (void)snprintf(fault, IMAGE_FAULT, "a PNG image of %zu x %zu pixels; the limit is %d", own.width, own.height,

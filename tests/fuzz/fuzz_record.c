@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoints: any bytes with a header and checksum that are right, and records of a small run with numbers changed,
- * entries cut or grown. One from which a run goes on can go on for some steps; all others are refused. */
-#include <dem/dem.h>
-#include <dem/record.h>
+ * entries cut or grown. One from which a run goes on can go on for some steps, and so can its files; all others are
+ * refused. */
+#include <dem/trajectory.h>
 
 #include <math.h>
+#include <unistd.h>
 
 #include "bytes.h"
 #include "scratch.h"
 
-enum { MOST_EDITS = 8, MOST_STEPS = 20, HEADER = 64, SIZE_AT = 16, CHECKSUM_AT = 32 };
+enum { MOST_EDITS = 8, MOST_STEPS = 20, HEADER = 64, SIZE_AT = 16, CHECKSUM_AT = 32, MOST_FILE = 1 << 22 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -19,7 +20,26 @@ typedef struct base {
     dem_options options;
     dem_simulation *simulation;
     dem_peaks *peaks;
+    const char *path, *part, *segment; /* of the trajectory */
+    unsigned char *segment_bytes;
+    size_t segment_size;
 } base;
+
+static void watch(dem_simulation *simulation, dem_observer observer)
+{
+    require(dem_simulation_observe(simulation, &observer) == DEM_OK);
+}
+
+static dem_trajectory_options recorded(void)
+{
+    static const dem_probe probe = {.name = "p", .kind = DEM_PROBE_NODE, .every = 3};
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.frame_interval = 1e-3;
+    options.events = 1;
+    options.n_probes = 1;
+    options.probes = &probe;
+    return options;
+}
 
 static dem_model *make_model(void)
 {
@@ -50,17 +70,35 @@ static void land(base *b)
     require(contacts > 0);
 }
 
+/* Lands, with a trajectory of which there is one segment. */
+static void record(base *b)
+{
+    const dem_trajectory_options options = recorded();
+    dem_trajectory *trajectory;
+    require(dem_trajectory_create(&trajectory, b->path, b->simulation, &options) == DEM_OK);
+    watch(b->simulation, dem_trajectory_observer(trajectory));
+    land(b);
+    require(dem_trajectory_segment(trajectory, dem_simulation_record(b->simulation)) == DEM_OK);
+    dem_trajectory_destroy(trajectory);
+    b->segment_bytes = malloc(MOST_FILE);
+    require(b->segment_bytes != NULL);
+    b->segment_size = scratch_read(b->segment, b->segment_bytes, MOST_FILE);
+}
+
 static void start(base *b, dem_contact_method contact)
 {
+    const int exact = contact == DEM_CONTACT_EXACT;
+    b->path = scratch_path(exact ? "exact.vtkhdf" : "local.vtkhdf");
+    b->part = scratch_path(exact ? "exact.part.vtkhdf" : "local.part.vtkhdf");
+    b->segment = scratch_path(exact ? "exact.00001.vtkhdf" : "local.00001.vtkhdf");
     b->model = make_model();
     b->options = dem_options_default();
     b->options.contact = contact;
     b->options.record_steps = 16;
     require(dem_simulation_create(&b->simulation, b->model, &b->options) == DEM_OK);
     require(dem_peaks_create(&b->peaks, b->model, 4) == DEM_OK);
-    const dem_observer observer = dem_peaks_observer(b->peaks);
-    require(dem_simulation_observe(b->simulation, &observer) == DEM_OK);
-    land(b);
+    watch(b->simulation, dem_peaks_observer(b->peaks));
+    record(b);
 }
 
 static const base *base_of(dem_contact_method contact)
@@ -73,8 +111,9 @@ static const base *base_of(dem_contact_method contact)
 
 /* ---- records ---- */
 
-static const char *const names[] = {"sizes",    "numbers", "counts",     "impulses",    "overlap",
-                                    "contacts", "state",   "peaks.left", "peaks.nodes", "peaks.springs"};
+static const char *const names[] = {"sizes",       "numbers",       "counts",     "impulses",
+                                    "overlap",     "contacts",      "state",      "peaks.left",
+                                    "peaks.nodes", "peaks.springs", "trajectory", "trajectory.probes"};
 enum { N_NAMES = sizeof names / sizeof *names, MOST_BYTES = 1 << 16 };
 
 static void change(bytes *from, unsigned char *data, size_t n)
@@ -161,14 +200,13 @@ static dem_status count(void *context, const dem_simulation *simulation)
     return ++*steps < MOST_STEPS ? DEM_OK : DEM_STOPPED;
 }
 
-static void go_on(dem_simulation *simulation, dem_peaks *peaks)
+static void go_on(dem_simulation *simulation)
 {
     int steps = 0;
     dem_state state = {.struct_size = sizeof state};
-    const dem_observer counter = {.step = count, .context = &steps}, observer = dem_peaks_observer(peaks);
+    const dem_observer counter = {.step = count, .context = &steps};
     dem_simulation_state(simulation, &state);
     require(dem_simulation_observe(simulation, &counter) == DEM_OK);
-    if (peaks != NULL) require(dem_simulation_observe(simulation, &observer) == DEM_OK);
     const dem_status status = dem_simulation_advance(simulation, state.t + 0.1);
     require(status == DEM_OK || status == DEM_STOPPED || status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR);
     dem_simulation_state(simulation, &state);
@@ -176,15 +214,35 @@ static void go_on(dem_simulation *simulation, dem_peaks *peaks)
         require(isfinite(state.x[k]) && isfinite(state.v[k]));
 }
 
-static void resume(const base *b, const dem_record *record)
+/* With the files as they were. */
+static dem_trajectory *resume_files(const base *b, const dem_simulation *simulation, const dem_record *record)
+{
+    const dem_trajectory_options options = recorded();
+    dem_trajectory *trajectory = NULL;
+    (void)unlink(b->path);
+    (void)unlink(b->part);
+    scratch_write(b->segment, b->segment_bytes, b->segment_size);
+    const dem_status status = dem_trajectory_resume(&trajectory, b->path, simulation, &options, record);
+    require(status == DEM_OK || status == DEM_ERROR_IO || status == DEM_ERROR_ARGUMENT);
+    require(status == DEM_OK || trajectory == NULL);
+    return trajectory;
+}
+
+static void resume(const base *b, const dem_record *record, int with_files)
 {
     dem_simulation *simulation = NULL;
     dem_peaks *peaks = NULL;
+    dem_trajectory *trajectory = NULL;
     const dem_status looked = dem_peaks_resume(&peaks, b->model, 4, record);
     const dem_status status = dem_simulation_resume(&simulation, b->model, &b->options, record);
     require(looked == DEM_OK || (looked == DEM_ERROR_IO && peaks == NULL));
     require(status == DEM_OK || (status == DEM_ERROR_IO && simulation == NULL));
-    if (status == DEM_OK) go_on(simulation, peaks);
+    if (status == DEM_OK && with_files) trajectory = resume_files(b, simulation, record);
+    if (status == DEM_OK && peaks != NULL) watch(simulation, dem_peaks_observer(peaks));
+    if (trajectory != NULL) watch(simulation, dem_trajectory_observer(trajectory));
+    if (status == DEM_OK) go_on(simulation);
+    if (trajectory != NULL) require(dem_trajectory_finish(trajectory) == DEM_OK);
+    dem_trajectory_destroy(trajectory);
     dem_simulation_destroy(simulation);
     dem_peaks_destroy(peaks);
 }
@@ -195,7 +253,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const unsigned choice = bytes_take(&from);
     const base *b = base_of(choice & 2 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL);
     dem_record *record = choice & 1 ? read_bytes(&from) : edited(&from, b);
-    if (record != NULL) resume(b, record);
+    if (record != NULL) resume(b, record, choice & 4);
     dem_record_destroy(record);
     return 0;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "scratch.h"
 
+#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,9 +12,13 @@ enum { MOST = 8 };
 static char folder[256];
 static char paths[MOST][288];
 
+/* Other files than those that were named may have been made beside them. */
 static void sweep(void)
 {
-    for (int k = 0; k < MOST && paths[k][0] != '\0'; k++) (void)unlink(paths[k]);
+    DIR *list = opendir(folder);
+    for (struct dirent *entry; list != NULL && (entry = readdir(list)) != NULL;)
+        (void)unlinkat(dirfd(list), entry->d_name, 0);
+    if (list != NULL) (void)closedir(list);
     (void)rmdir(folder);
 }
 
@@ -38,4 +43,13 @@ void scratch_write(const char *path, const void *data, size_t size)
 {
     FILE *file = fopen(path, "wb");
     if (file == NULL || fwrite(data, 1, size, file) != size || fclose(file) != 0) abort();
+}
+
+size_t scratch_read(const char *path, void *data, size_t most)
+{
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) abort();
+    const size_t size = fread(data, 1, most, file);
+    if (fclose(file) != 0 || size == most) abort();
+    return size;
 }

@@ -10,4 +10,7 @@ const char *scratch_path(const char *name);
 
 void scratch_write(const char *path, const void *data, size_t size);
 
+/** The bytes of a file, less than `most` of them. */
+size_t scratch_read(const char *path, void *data, size_t most);
+
 #endif

@@ -98,6 +98,18 @@ static void stated_sizes_are_limited(void **state)
     bytes[18] = bytes[22] = 0x40; /* 16387 x 16386 */
     expect_fault(bytes, sizeof bytes, "a PNG image of 16387 x 16386 pixels; the limit is 67108864");
 }
+
+/* A chunk that libpng skips would state another size than the image has, and let any size pass. */
+static void an_image_begins_with_its_header(void **state)
+{
+    (void)state;
+    static const unsigned char chunk[] = {0, 0, 0, 8, 'p', 'A', 'D', 'd', 0, 0, 0, 3, 0, 0, 0, 2, 0, 0, 0, 0};
+    unsigned char bytes[sizeof grey8 + sizeof chunk];
+    memcpy(bytes, grey8, 8);
+    memcpy(bytes + 8, chunk, sizeof chunk);
+    memcpy(bytes + 8 + sizeof chunk, grey8 + 8, sizeof grey8 - 8);
+    expect_fault(bytes, sizeof bytes, "the PNG image does not begin with its header");
+}
 #else
 static void without_cairo_none_is_read(void **state)
 {
@@ -115,9 +127,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(beginnings_are_known),
 #ifdef DEM_CAIRO
-        cmocka_unit_test(images_become_grey),
-        cmocka_unit_test(damaged_images_are_refused),
-        cmocka_unit_test(stated_sizes_are_limited),
+        cmocka_unit_test(images_become_grey),       cmocka_unit_test(damaged_images_are_refused),
+        cmocka_unit_test(stated_sizes_are_limited), cmocka_unit_test(an_image_begins_with_its_header),
 #else
         cmocka_unit_test(without_cairo_none_is_read),
 #endif
