@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+
 SEED = 20261122
 SECONDS = 120
 RAW = re.compile(r"HDF5-DIAG|#0\d\d:|HDF5: infinite|\[ERROR\]|\[WARNING\]|SUNDIALS|ARKODE|ARKode|ARK_[A-Z]|ERKStep|ARKStep|"
