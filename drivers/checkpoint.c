@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "difference.h"
 #include "preview.h"
 #include "signals.h"
 #include "wall.h"
@@ -17,35 +18,6 @@ static const double patience = 10.0; /* s: a scheduler that asks for the end wai
 static const char time_entry[] = "driver.time", course_entry[] = "driver.course", lineage_entry[] = "driver.lineage";
 
 /* ---- what is there ---- */
-
-static size_t line_length(const char *text)
-{
-    return strcspn(text, "\n");
-}
-
-static void show_line(char out[64], const char *line)
-{
-    const size_t blank = strspn(line, " ");
-    (void)snprintf(out, 64, "%.*s", (int)(line_length(line) - (blank < line_length(line) ? blank : 0)), line + blank);
-}
-
-/* Two resolved decks, line by line: names the first that differ, and the group that they are in. */
-static bool is_same(const char *then, const char *now, char reason[OUTPUT_REASON])
-{
-    const char *group = now;
-    while (line_length(then) == line_length(now) && strncmp(then, now, line_length(now)) == 0) {
-        if (*now == '\0') return true;
-        if (*now == '&') group = now;
-        then += line_length(then) + (then[line_length(then)] != '\0');
-        now += line_length(now) + (now[line_length(now)] != '\0');
-    }
-    char was[64], is[64];
-    show_line(was, then);
-    show_line(is, now);
-    (void)snprintf(reason, OUTPUT_REASON, "the run that it is of has '%s' in %.*s, this one has '%s'; " OUTPUT_WAY_OUT,
-                   was, (int)line_length(group), group, is);
-    return false;
-}
 
 /* A text among the entries; NULL if it is none. */
 static const char *find_text(const dem_record *record, const char *name)
@@ -74,14 +46,17 @@ static bool extend_lineage(checkpoint_source *s, const char *lineage, const char
 
 static checkpoint_state examine(checkpoint_source *s, const deck *d, bool anyway, char reason[OUTPUT_REASON])
 {
-    char versions[VERSIONS];
+    char versions[VERSIONS], difference[DIFFERENCE];
     const char *course = find_text(s->record, course_entry), *lineage = find_text(s->record, lineage_entry);
     if (course == NULL || lineage == NULL || dem_record_get(s->record, time_entry, &s->t, sizeof s->t) != DEM_OK) {
         (void)snprintf(reason, OUTPUT_REASON, "it is not of this program; " OUTPUT_WAY_OUT);
         return CHECKPOINT_OTHER;
     }
     preview_versions(versions, sizeof versions);
-    if (!is_same(course, d->course, reason)) return CHECKPOINT_OTHER;
+    if (difference_find(course, d->course, difference)) {
+        (void)snprintf(reason, OUTPUT_REASON, "the run that it is of has %s; " OUTPUT_WAY_OUT, difference);
+        return CHECKPOINT_OTHER;
+    }
     if (strcmp(last_line(lineage), versions) != 0 && !anyway) {
         (void)snprintf(reason, OUTPUT_REASON, "it is of '%s', this is '%s'; --resume-anyway goes on all the same",
                        last_line(lineage), versions);

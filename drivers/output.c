@@ -12,6 +12,7 @@
 #include <dem/trajectory.h>
 
 #include "decimal.h"
+#include "difference.h"
 
 static const char suffix[] = ".vtkhdf", part_suffix[] = ".part.vtkhdf";
 
@@ -43,6 +44,16 @@ static bool same_problem(const char *path, const deck *d)
     return same_hash(path, "problem", d->hash);
 }
 
+/* A part that does not tell its problem, or cannot be read, was cut off: what is in it is computed again. */
+static bool is_part_of_another(const char *part, const deck *d)
+{
+    char stored[OUTPUT_HASH], ours[OUTPUT_HASH];
+    output_print_hash(ours, d->hash);
+    if (dem_trajectory_read_note(part, "problem", stored, sizeof stored) != DEM_OK) return false;
+    const bool whole = strlen(stored) == strlen(ours) && strspn(stored, "0123456789abcdef") == strlen(ours);
+    return whole && strcmp(stored, ours) != 0;
+}
+
 void output_print_hash(char text[OUTPUT_HASH], uint64_t hash)
 {
     (void)snprintf(text, OUTPUT_HASH, "%016llx", (unsigned long long)hash);
@@ -54,27 +65,47 @@ static bool is_later(const char *path, double t_end)
     return dem_trajectory_read_note(path, "t_end", stored, sizeof stored) != DEM_OK || strtod(stored, NULL) > t_end;
 }
 
+/* In what the problem of a file is another. */
+static void name_difference(const char *path, const deck *d, char difference[DIFFERENCE])
+{
+    enum { LONGEST = 1 << 20 };
+    char *physics = malloc(LONGEST);
+    (void)snprintf(difference, DIFFERENCE, "another problem");
+    if (physics != NULL && dem_trajectory_read_note(path, "physics", physics, LONGEST) == DEM_OK)
+        (void)difference_find(physics, d->physics, difference);
+    free(physics);
+}
+
 static output_state look_at_whole(const char *path, const deck *d, char reason[OUTPUT_REASON])
 {
-    const bool same = same_problem(path, d);
-    if (same && same_hash(path, "run", d->run_hash)) {
+    char difference[DIFFERENCE];
+    if (!same_problem(path, d)) {
+        name_difference(path, d, difference);
+        (void)snprintf(reason, OUTPUT_REASON, "the file exists, and its run has %s; " OUTPUT_WAY_OUT, difference);
+        return OUTPUT_TAKEN;
+    }
+    if (same_hash(path, "run", d->run_hash)) {
         (void)snprintf(reason, OUTPUT_REASON, "this run's result is there");
         return OUTPUT_DONE;
     }
-    (void)snprintf(reason, OUTPUT_REASON, "the file exists and belongs to another %s; " OUTPUT_WAY_OUT,
-                   same ? "run of the same problem, with other t_end, title or frames" : "problem");
-    return same && !is_later(path, d->t_end) ? OUTPUT_SHORTER : OUTPUT_TAKEN;
+    const bool later = is_later(path, d->t_end);
+    if (later)
+        (void)snprintf(reason, OUTPUT_REASON, "the file exists, and its run goes beyond t_end = %g s; " OUTPUT_WAY_OUT,
+                       d->t_end);
+    else
+        (void)snprintf(reason, OUTPUT_REASON,
+                       "the file exists, and there is no checkpoint from which its run could go on; " OUTPUT_WAY_OUT);
+    return later ? OUTPUT_TAKEN : OUTPUT_SHORTER;
 }
 
 output_state output_claim(const char *path, const deck *d, char reason[OUTPUT_REASON])
 {
-    char part[OUTPUT_PATH], problem[32];
+    char part[OUTPUT_PATH], difference[DIFFERENCE];
     output_beside(part, path, part_suffix);
     if (access(path, F_OK) == 0) return look_at_whole(path, d, reason);
-    /* A part that cannot be read was cut off while it was begun: there is nothing in it. */
-    if (access(part, F_OK) == 0 && dem_trajectory_read_note(part, "problem", problem, sizeof problem) == DEM_OK &&
-        !same_problem(part, d)) {
-        (void)snprintf(reason, OUTPUT_REASON, "an unfinished run of another problem is in %s; " OUTPUT_WAY_OUT, part);
+    if (access(part, F_OK) == 0 && is_part_of_another(part, d)) {
+        name_difference(part, d, difference);
+        (void)snprintf(reason, OUTPUT_REASON, "the unfinished run in %s has %s; " OUTPUT_WAY_OUT, part, difference);
         return OUTPUT_TAKEN;
     }
     return OUTPUT_FREE;

@@ -31,15 +31,24 @@ static inline void arkode_tell(int line, const char *function, const char *file,
     (void)function;
     (void)file;
     (void)context;
-    if (code < 0) e->listener(message, e->user);
+    if (code < 0) e->listener(message != NULL ? message : SUNGetErrMsg(code), e->user);
 }
 
-static inline int arkode_listen(SUNContext context, void *memory, arkode_errors *errors)
+/** Before anything is made in the context: what goes wrong there speaks through it. Warnings have a logger, which would
+ * print them. */
+static inline int arkode_listen_first(SUNContext context, arkode_errors *errors)
 {
-    (void)memory;
     int failed = SUNContext_ClearErrHandlers(context);
+    failed |= SUNContext_SetLogger(context, NULL);
     failed |= SUNContext_PushErrHandler(context, arkode_tell, errors);
     return failed;
+}
+
+static inline int arkode_listen(void *memory, arkode_errors *errors)
+{
+    (void)memory;
+    (void)errors;
+    return 0;
 }
 
 static inline int arkode_use_pi(SUNContext context, void *memory, arkode_controller *out)
@@ -96,9 +105,15 @@ static inline void arkode_tell(int code, const char *module, const char *functio
     if (code < 0) e->listener(message, e->user);
 }
 
-static inline int arkode_listen(SUNContext context, void *memory, arkode_errors *errors)
+static inline int arkode_listen_first(SUNContext context, arkode_errors *errors)
 {
     (void)context;
+    (void)errors;
+    return 0;
+}
+
+static inline int arkode_listen(void *memory, arkode_errors *errors)
+{
     return ERKStepSetErrHandlerFn(memory, arkode_tell, errors);
 }
 

@@ -134,6 +134,7 @@ static dem_status allocate(integrator *I)
     const dem_index n = 4 * I->problem.n_nodes;
     N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
+    CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
     I->inside = aligned_zeros((size_t)n);
     I->space = vector_space_create(n, I->problem.bulk, I->problem.n_threads, most_vectors + I->table.stages);
     bool complete = I->inside != NULL && I->space != NULL;
@@ -236,7 +237,7 @@ static dem_status set_up(integrator *I, double t, const double *y)
     start_from(I, t, y);
     I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
     CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
-    int failed = arkode_listen(I->sundials, I->arkode, &I->errors);
+    int failed = arkode_listen(I->arkode, &I->errors);
     failed |= ARKodeSetUserData(I->arkode, I);
     failed |= set_table(I);
     failed |=

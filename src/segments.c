@@ -351,7 +351,6 @@ dem_status segments_join(segments *s, const reel *r)
     (void)unlink(s->names[SEGMENTS_HEAD]);
     if (status != DEM_OK) return status;
     (void)unlink(s->names[SEGMENTS_PART]);
-    s->n = 0;
-    (void)segments_prune(s); /* one that stays does no harm */
+    for (; s->n > 0; s->n--) (void)unlink(name_segment(s, s->n)); /* one that stays does no harm */
     return DEM_OK;
 }

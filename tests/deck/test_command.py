@@ -22,7 +22,7 @@ SECONDS = 120  # more than any of these runs takes, under a sanitizer too
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 WAY_OUT = "move it away, change 'name' in &output, or use --overwrite"
-OTHER_PROBLEM = f"the file exists and belongs to another problem; {WAY_OUT}"
+OTHER_PROBLEM = f"the file exists, and its run has another problem; {WAY_OUT}"
 # Falls on a peak at 25 m/s, and folds.
 FOLD = """
 &run t_end = 4e-3 /
@@ -43,7 +43,6 @@ HANG = """
 
 OUTPUT = {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json", "rectangle.checkpoint"}
 UNPRINTED = "dem_batch: error: standard output cannot be written\n"
-OTHER_RUN = f"the file exists and belongs to another run of the same problem, with other t_end, title or frames; {WAY_OUT}"
 
 
 def run(*arguments, cwd=None, text=True):
@@ -337,7 +336,9 @@ class Echo(Case):
                            for out in (log, self.call(0, "--check", "deep/er/deck.nml"))))
         with open(self.folder / "deep" / "er" / "part.h5", "ab") as file:
             file.write(b"\0")
-        self.call(7, "--outdir", "out", "deep/er/deck.nml", stderr=f"out/rectangle.vtkhdf: error: {OTHER_PROBLEM}\n")
+        done = run("--outdir", "out", "deep/er/deck.nml", cwd=self.folder)
+        self.assertEqual(done.returncode, 7)
+        self.assertRegex(done.stderr, "its run has file = 'fnv1a:[0-9a-f]{16}' in &body, this one has file = 'fnv1a:")
 
     def same_data(self, *names):
         done = subprocess.run([sys.executable, HERE / "compare.py", *names], cwd=self.folder, capture_output=True,
@@ -580,11 +581,13 @@ class Run(Case):
         self.call(0, "deck.nml")
         names = self.files()
         before = self.state(*names)
-        for values in ({"density": "1051"}, {"spacing": "11e-3"}, {"velocity": "0, -9"}, {"gravity": "0, -9.8"}):
+        for values, difference in (({"density": "1051"}, "density = 1050 in &material, this one has density = 1051"), ({"spacing": "11e-3"}, "spacing = 0.01 in &body, this one has spacing = 0.011"),
+                                   ({"velocity": "0, -9"}, "velocity = 0, -10 in &body, this one has velocity = 0, -9"), ({"gravity": "0, -9.8"}, "gravity = 0, -9.81 in &run, this one has gravity = 0, -9.8")):
             with self.subTest(values):
                 self.put(coarse(**values))
-                out = self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_PROBLEM}\n")
-                self.assertEqual(json.loads(out)["message"], f"rectangle.vtkhdf: error: {OTHER_PROBLEM}")
+                text = f"rectangle.vtkhdf: error: the file exists, and its run has {difference}; {WAY_OUT}"
+                out = self.call(7, "deck.nml", stderr=f"{text}\n")
+                self.assertEqual(json.loads(out)["message"], text)
                 self.assertEqual(self.files(), names)
                 self.assertEqual(self.state(*names), before)
 
@@ -593,14 +596,16 @@ class Run(Case):
         names = self.files()
         before = self.state(*names)
         self.put(coarse(t_end="7e-3"))
-        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
+        self.call(7, "deck.nml", stderr="rectangle.vtkhdf: error: the file exists, and its run goes beyond t_end = 0.007 s; "
+                                        f"{WAY_OUT}\n")
         self.put(coarse(frame_interval="2e-3"))
-        self.call(7, "deck.nml", stderr="rectangle.checkpoint: error: the run that it is of has 'frame_interval = 0.001' in "
-                                        f"&output, this one has 'frame_interval = 0.002'; {WAY_OUT}\n")
+        self.call(7, "deck.nml", stderr="rectangle.checkpoint: error: the run that it is of has frame_interval = 0.001 in "
+                                        f"&output, this one has frame_interval = 0.002; {WAY_OUT}\n")
         self.assertEqual(self.state(*names), before)
         (self.folder / "rectangle.checkpoint").unlink()
         self.put(coarse(t_end="9e-3"))
-        self.call(7, "deck.nml", stderr=f"rectangle.vtkhdf: error: {OTHER_RUN}\n")
+        self.call(7, "deck.nml", stderr="rectangle.vtkhdf: error: the file exists, and there is no checkpoint from which its "
+                                        f"run could go on; {WAY_OUT}\n")
 
     def test_a_file_that_is_none_of_ours(self):
         (self.folder / "rectangle.vtkhdf").write_bytes(b"my notes\n")
@@ -650,8 +655,8 @@ class Run(Case):
         names = self.files()
         before = self.state(*names)
         self.put(coarse())
-        self.call(7, "deck.nml", stderr="rectangle.vtkhdf: error: an unfinished run of another problem is in "
-                                        f"rectangle.part.vtkhdf; {WAY_OUT}\n")
+        self.call(7, "deck.nml", stderr="rectangle.vtkhdf: error: the unfinished run in rectangle.part.vtkhdf has spacing = 0.005 "
+                                        f"in &body, this one has spacing = 0.01; {WAY_OUT}\n")
         self.assertEqual(self.files(), names)
         self.assertEqual(self.state(*names), before)
 

@@ -158,8 +158,8 @@ class Cuts(Case):
                 self.assertIn("\nresumed    from ", self.call(0, outdir=t_end))
                 self.expect_same(t_end)
         self.assertIn("\nresumed    from ", self.call(0, "--set", "run.title='other'", outdir="whole"))
-        self.call(7, "--set", "run.t_end=2e-3", outdir="whole", stderr="whole/a.vtkhdf: error: the file exists and belongs to "
-                  f"another run of the same problem, with other t_end, title or frames; {WAY_OUT}\n")
+        self.call(7, "--set", "run.t_end=2e-3", outdir="whole", stderr="whole/a.vtkhdf: error: the file exists, and its "
+                  f"run goes beyond t_end = 0.002 s; {WAY_OUT}\n")
 
 
 class Signals(Case):
@@ -250,16 +250,15 @@ class Refusals(Case):
                                           ("probe.every=4", "every = 3", "probe", "every = 4")):
             with self.subTest(setting):
                 where = "a.checkpoint"
-                why = f"the run that it is of has '{then}' in &{group}, this one has '{now}'; {WAY_OUT}"
-                if group == "material":
-                    where, why = "a.vtkhdf", f"an unfinished run of another problem is in a.part.vtkhdf; {WAY_OUT}"
-                if group == "solver":
-                    where, why = "a.vtkhdf", f"an unfinished run of another problem is in a.part.vtkhdf; {WAY_OUT}"
+                why = f"the run that it is of has {then} in &{group}, this one has {now}; {WAY_OUT}"
+                if group in ("material", "solver"):
+                    where = "a.vtkhdf"
+                    why = f"the unfinished run in a.part.vtkhdf has {then} in &{group}, this one has {now}; {WAY_OUT}"
                 self.call(7, "--set", setting, stderr=f"{where}: error: {why}\n")
         self.assertEqual(self.state(), before)
         (self.folder / "a.part.vtkhdf").unlink()
         self.call(7, "--set", "material.density=1001", stderr="a.checkpoint: error: the run that it is of has "
-                  f"'density = 1000' in &material, this one has 'density = 1001'; {WAY_OUT}\n")
+                  f"density = 1000 in &material, this one has density = 1001; {WAY_OUT}\n")
         self.call(7, "--set", "run.t_end=1e-9", stderr="a.checkpoint: error: the run is at "
                   f"{self.result()['t']:g} s already, beyond t_end = 1e-09 s; {WAY_OUT}\n")
 

@@ -3,12 +3,13 @@
 """Memory runs out anywhere in the process, HDF5 and SUNDIALS included: `test_allocations.py FAULTY DEM_BATCH [long]`.
 
 Our own code ends with exit code 6; where a library says no more than that it could not do what it should, with 5 (HDF5)
-or 4 (SUNDIALS); and it goes on where a library could do without. Libraries may crash, or end the process: that is counted
-by library, and must cost no data. Whatever happens, what is published can be read, no checkpoint is lost, and the same
+or 4 (SUNDIALS); and it goes on where a library could do without. Libraries may crash, end the process, or, where they
+cannot even begin, write on stderr: that is counted, and must cost no data. Whatever happens, what is published can be read, no checkpoint is lost, and the same
 command gives the data of an undisturbed run.
 `long`: of the allocations with the same eight innermost callers the first and the last fail; of every tenth of these
 paths all that follows does, too."""
 import collections
+import dataclasses
 import sys
 import tempfile
 
@@ -26,6 +27,7 @@ class Trials:
     def __init__(self, problem, start):
         self.problem, self.start = problem, start
         self.crashes = collections.Counter()  # by library and function
+        self.talked = 0  # times that a library wrote on stderr
 
     def run(self, **faults):
         with self.problem.folder(self.start) as folder, tempfile.NamedTemporaryFile("r") as crash:
@@ -33,6 +35,9 @@ class Trials:
             result = self.problem.run(folder, fail="memory", crash=crash.name, **faults)
             culprit = crash.read().strip()
             wrong = ["the checkpoint is lost"] if saved and not outputs.checkpoints(folder) else []
+            if machine.split_words(result)[1] and result.code in CODES:
+                self.talked += 1
+                result = dataclasses.replace(result, stderr="\n".join(machine.split_words(result)[0]))
             if culprit == "" and result.code in CODES:
                 wrong += self.problem.faults_after(folder, result, CODES, before)
                 return faults, (f"exit {result.code}", wrong)
@@ -60,6 +65,7 @@ def run_out(report, problem, long, start, named):
     once, always = chosen(problem, start, long)
     report.series(f"{named}, an allocation fails", (trials.run(nth=n) for n in once))
     report.series(f"{named}, allocations fail from then on", (trials.run(nth=n, how="always") for n in always))
+    print(f"    {trials.talked} times a library wrote on stderr")
     for culprit, times in trials.crashes.most_common():
         print(f"    {times} times ended by {culprit}")
 

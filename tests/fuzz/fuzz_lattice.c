@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* HDF5 files of any datasets where a lattice's are looked for: types, ranks, extents, layouts, filters and links as the
- * bytes say. A lattice that is read has consistent arrays, and a model can be made of it, which moves, or is refused. */
+ * bytes say. A lattice that is read has consistent arrays; a model can be made of it, which moves, or is refused. */
 #include <dem/trajectory.h>
 
 #include <hdf5.h>

@@ -15,7 +15,7 @@ LAYERS = [
     {"record"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
      "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
-     "outcome", "lock", "decimal", "signals"},
+     "outcome", "lock", "decimal", "difference", "signals"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
      "parts", "clearance", "grid", "table", "notes", "pgm", "png", "msh", "crack", "setting", "json"},
     {"layout"},

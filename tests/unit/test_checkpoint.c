@@ -95,11 +95,11 @@ static void the_first_difference_is_named(void **state)
 {
     (void)state;
     leave("&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1001\n/\n", versions(), 1.0);
-    expect(CHECKPOINT_OTHER, true, "it is of has 'density = 1001' in &material, this one has 'density = 1000'; move");
+    expect(CHECKPOINT_OTHER, true, "it is of has density = 1001 in &material, this one has density = 1000; move");
     leave("&run\n    gravity = 0, -9.81\n/\n", versions(), 1.0);
-    expect(CHECKPOINT_OTHER, false, "has '' in &run, this one has '&material'");
+    expect(CHECKPOINT_OTHER, false, "has nothing in &run, this one has &material");
     leave("&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1000\n/\n&body\n/\n", versions(), 1.0);
-    expect(CHECKPOINT_OTHER, false, "has '&body'");
+    expect(CHECKPOINT_OTHER, false, "has &body in &material, this one has nothing");
 }
 
 static void another_version_is_refused_unless_it_will_do(void **state)
