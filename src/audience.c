@@ -6,11 +6,13 @@
 
 #include "status.h"
 
+static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
+
 /* The first frame later than `told`. */
 static dem_index frame_after(double interval, double told)
 {
     if (!(interval > 0.0) || told < 0.0) return 0;
-    dem_index k = (dem_index)fmin(told / interval, 1e15);
+    dem_index k = (dem_index)(told / interval);
     while (k > 0 && (double)(k - 1) * interval > told) k--;
     while ((double)k * interval <= told) k++;
     return k;
@@ -18,9 +20,12 @@ static dem_index frame_after(double interval, double told)
 
 dem_status audience_add(audience *a, const dem_observer *observer, double told)
 {
-    CHECK(isfinite(observer->interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", observer->interval);
+    const double interval = observer->interval;
+    CHECK(isfinite(interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", interval);
+    CHECK(!(interval > 0.0) || told < most_frames * interval, DEM_ERROR_ARGUMENT,
+          "frames %g s apart cannot be numbered at %g s", interval, told);
     CHECK(a->n < AUDIENCE_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)AUDIENCE_MOST);
-    a->members[a->n++] = (audience_member){*observer, frame_after(observer->interval, told)};
+    a->members[a->n++] = (audience_member){*observer, frame_after(interval, told)};
     return DEM_OK;
 }
 

@@ -20,7 +20,7 @@ typedef struct audience {
 } audience;
 
 /** \param told  s, frames up to then have been shown; < 0: none
- *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite */
+ *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite, or too short for `told` */
 dem_status audience_add(audience *a, const dem_observer *observer, double told);
 
 bool audience_hears_events(const audience *a);

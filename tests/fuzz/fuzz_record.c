@@ -239,7 +239,11 @@ static void resume(const base *b, const dem_record *record, int with_files)
     require(status == DEM_OK || (status == DEM_ERROR_IO && simulation == NULL));
     if (status == DEM_OK && with_files) trajectory = resume_files(b, simulation, record);
     if (status == DEM_OK && peaks != NULL) watch(simulation, dem_peaks_observer(peaks));
-    if (trajectory != NULL) watch(simulation, dem_trajectory_observer(trajectory));
+    if (trajectory != NULL) {
+        const dem_observer observer = dem_trajectory_observer(trajectory);
+        const dem_status added = dem_simulation_observe(simulation, &observer);
+        require(added == DEM_OK || added == DEM_ERROR_ARGUMENT); /* so late that frames cannot be numbered */
+    }
     if (status == DEM_OK) go_on(simulation);
     if (trajectory != NULL) require(dem_trajectory_finish(trajectory) == DEM_OK);
     dem_trajectory_destroy(trajectory);

@@ -81,6 +81,19 @@ static void an_interval_is_finite(void **state)
     assert_int_equal(a.n, 0);
 }
 
+/* The search for the first frame later than a time that a damaged record gave once went on without end. */
+static void frames_too_many_to_be_numbered_are_refused(void **state)
+{
+    audience a = {0};
+    const dem_observer dense = {.interval = 1e-3};
+    (void)state;
+    assert_int_equal(audience_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "frames 0.001 s apart cannot be numbered at 1e+300 s");
+    assert_int_equal(a.n, 0);
+    assert_ok(audience_add(&a, &dense, 4e12));
+    assert_int_equal(a.members[0].next_frame, 4000000000000001);
+}
+
 /* ---- telling ---- */
 
 static void all_are_told_in_the_order_in_which_they_came(void **state)
@@ -183,6 +196,7 @@ int main(void)
         cmocka_unit_test(an_interval_is_finite),
         cmocka_unit_test(all_are_told_in_the_order_in_which_they_came),
         cmocka_unit_test(who_has_no_ears_is_left_out),
+        cmocka_unit_test(frames_too_many_to_be_numbered_are_refused),
         cmocka_unit_test(the_first_complaint_counts),
         cmocka_unit_test(frames_come_in_the_order_of_time),
         cmocka_unit_test(a_frame_at_the_end_is_not_lost_to_rounding),
