@@ -20,8 +20,8 @@ static size_t number_at(const char *bytes, size_t at)
 
 enum { SIZES_END = 24 }; /* bytes */
 
-/* The header is the first chunk: behind the magic its length and name, then width and height. libpng takes others before
- * it, which could state any size. */
+/* The header is the first chunk: behind the magic its length and name, then width and height. libpng takes others
+ * before it, which could state any size. */
 bool png_measure(image *out, const char *bytes, size_t size)
 {
     if (size < SIZES_END || memcmp(bytes + 12, "IHDR", 4) != 0) return false;
