@@ -216,8 +216,10 @@ static void solve_all(contact_sites *c, const double *x, const double *v)
     for (dem_index g = 0; g < c->reactions.n_groups; g++) reactions_solve(&c->reactions, g, x, v);
 }
 
+/* A force without what should come from outside is none: the last known stays. */
 static void store_all(contact_sites *c)
 {
+    if (coupling_failed(c->scene.rule.load.coupling)) return;
     for (dem_index m = 0; m < c->reactions.row[c->reactions.n_groups]; m++) sites_store(c, c->reactions.members[m]);
 }
 

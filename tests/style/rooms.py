@@ -13,7 +13,7 @@ LAYERS = [
     {"vec2", "status", "random", "commit", "wall", "memory", "aligned", "grow", "threads"},
     {"trail", "audience", "publish"},
     {"record"},
-    {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
+    {"boundary", "coupling", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
      "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
      "outcome", "lock", "decimal", "difference", "signals"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
