@@ -19,11 +19,13 @@ ONE = {"out", "omega", "size", "n_nodes", "n_springs", "n_pieces", "n_parts", "n
 MANY = {
     "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "n_edges": "*",
     "nodes": "*", "springs": "*", "area": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
-    "stress": "3, *", "direction": "2"}
+    "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_force.force": "2, *",
+    "direction": "2"}
 MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",
-    "dem_lattice_edge_shares.direction"}
+    "dem_lattice_edge_shares.direction", "dem_simulation_set_motion.x", "dem_simulation_set_motion.v"}
 FILLED = {"out", "state"}  # structs of which nothing is read
+ZERO_AT_ENTRY = {"dem_force.force"}
 
 MAX_LINE = 120
 HEAD = """\
@@ -74,8 +76,10 @@ class Writer:
             return "type(c_ptr), value", item.name
         if not item.stars and not item.shape:
             return f"{self.kind(item)}, value", item.name
-        changed = "inout" if item.type in self.structs and item.name not in FILLED else "out"
-        optional = ", optional" if f"{function.name}.{item.name}" in MAY_BE_NULL else ""
+        full = f"{function.name}.{item.name}"
+        read_too = item.type in self.structs and item.name not in FILLED or full in ZERO_AT_ENTRY
+        changed = "inout" if read_too else "out"
+        optional = ", optional" if full in MAY_BE_NULL else ""
         return (f"{self.kind(item)}, intent({'in' if item.const else changed}){optional}",
                 item.name + self.extents(function, item))
 
