@@ -506,7 +506,7 @@ module dem_c
       import
       type(c_ptr), intent(out) :: out
       type(dem_lattice), intent(in) :: lattice
-      type(dem_obstacle), intent(in) :: obstacles(*)
+      type(dem_obstacle), intent(in), optional :: obstacles(*)
       integer(dem_index), value :: n_obstacles
     end function
 
