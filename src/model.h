@@ -45,7 +45,7 @@ static inline vec2 model_force(const dem_model *model, dem_index i, const double
     return vec2_add(bonds, triangles_force(&model->triangles, i, x));
 }
 
-/** Acceleration of node i, m/s^2, free of contact: (4). A fixed node has none. */
+/** Acceleration of node i, m/s^2, free of contact: (4), weight (2) included. A fixed node has none. */
 static inline vec2 model_acceleration(const dem_model *model, const model_load *load, dem_index i, const double *x,
                                       const double *v)
 {
