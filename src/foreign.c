@@ -226,8 +226,10 @@ static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid
                                                                                            : H5T_CONV_UNHANDLED;
 }
 
-static herr_t read_rows(hid_t dataset, hdf5_kind kind, foreign_rows rows, void *data)
+static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind, foreign_rows rows,
+                            void *data)
 {
+    dem_status status = DEM_OK;
     const hsize_t start[FOREIGN_RANK] = {rows.first};
     hsize_t count[FOREIGN_RANK] = {0, 1, 1};
     const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
@@ -238,19 +240,20 @@ static herr_t read_rows(hid_t dataset, hdf5_kind kind, foreign_rows rows, void *
     herr_t result = H5Pset_type_conv_cb(transfer, on_conversion, NULL);
     if (result >= 0) result = H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL);
     if (result >= 0) result = H5Dread(dataset, hdf5_memory_type(kind), memory, space, transfer, data);
+    if (result < 0) status = hdf5_fail(file, name, "cannot be read");
     (void)H5Sclose(memory);
     (void)H5Pclose(transfer);
     (void)H5Sclose(space);
-    return result;
+    return status;
 }
 
 dem_status foreign_read(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_rows rows, void *data)
 {
-    dem_status status = DEM_OK;
     if (rows.count == 0) return DEM_OK;
     const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
-    if (dataset < 0 || read_rows(dataset, kind, rows, data) < 0) status = hdf5_fail(file, name, "cannot be read");
-    if (dataset >= 0) (void)H5Dclose(dataset);
+    if (dataset < 0) return hdf5_fail(file, name, "cannot be read");
+    const dem_status status = read_rows(file, name, dataset, kind, rows, data);
+    (void)H5Dclose(dataset);
     return status;
 }
 
