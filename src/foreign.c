@@ -226,21 +226,22 @@ static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid
                                                                                            : H5T_CONV_UNHANDLED;
 }
 
-static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind, foreign_rows rows,
-                            void *data)
+/* The cause of a failure is HDF5's only until the next call of it. */
+static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
+                            const foreign_rows *rows, void *data)
 {
-    dem_status status = DEM_OK;
-    const hsize_t start[FOREIGN_RANK] = {rows.first};
+    const hsize_t start[FOREIGN_RANK] = {rows->first};
     hsize_t count[FOREIGN_RANK] = {0, 1, 1};
+    dem_status status = DEM_OK;
     const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
     const int rank = H5Sget_simple_extent_dims(space, count, NULL);
-    count[0] = rows.count;
-    if (rows.width > 0 && rank > 1) count[1] = rows.width;
+    count[0] = rows->count;
+    if (rows->width > 0 && rank > 1) count[1] = rows->width;
     const hid_t memory = H5Screate_simple(rank, count, NULL);
-    herr_t result = H5Pset_type_conv_cb(transfer, on_conversion, NULL);
-    if (result >= 0) result = H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL);
-    if (result >= 0) result = H5Dread(dataset, hdf5_memory_type(kind), memory, space, transfer, data);
-    if (result < 0) status = hdf5_fail(file, name, "cannot be read");
+    if (H5Pset_type_conv_cb(transfer, on_conversion, NULL) < 0 ||
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) < 0 ||
+        H5Dread(dataset, hdf5_memory_type(kind), memory, space, transfer, data) < 0)
+        status = hdf5_fail(file, name, "cannot be read");
     (void)H5Sclose(memory);
     (void)H5Pclose(transfer);
     (void)H5Sclose(space);
@@ -251,8 +252,8 @@ dem_status foreign_read(const hdf5_file *file, const char *name, hdf5_kind kind,
 {
     if (rows.count == 0) return DEM_OK;
     const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
-    if (dataset < 0) return hdf5_fail(file, name, "cannot be read");
-    const dem_status status = read_rows(file, name, dataset, kind, rows, data);
+    if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
+    const dem_status status = read_rows(file, name, dataset, kind, &rows, data);
     (void)H5Dclose(dataset);
     return status;
 }

@@ -58,6 +58,18 @@ static void shape_and_numbers_are_found(void **state)
     REFUSED(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){2, 1, 0}, found), "cannot be read");
 }
 
+static void a_number_that_does_not_fit_is_refused(void **state)
+{
+    const stored *s = *state;
+    const int64_t wholes[2] = {255, 256};
+    unsigned char found[2] = {0};
+    assert_ok(hdf5_write(&s->file, (hdf5_rows){"/c", HDF5_I64, 1, {0}, 0, 0}, 2, wholes));
+    assert_ok(foreign_read(&s->file, "/c", HDF5_U8, (foreign_rows){0, 1, 0}, found));
+    assert_int_equal(found[0], 255);
+    REFUSED(foreign_read(&s->file, "/c", HDF5_U8, (foreign_rows){0, 2, 0}, found),
+            "/c: cannot be read (can't handle conversion exception)");
+}
+
 static void what_is_not_there_is_absent(void **state)
 {
     const stored *s = *state;
@@ -217,6 +229,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         STORED(shape_and_numbers_are_found),
+        STORED(a_number_that_does_not_fit_is_refused),
         STORED(what_is_not_there_is_absent),
         STORED(links_on_the_way_are_refused),
         STORED(types_are_told_and_checked),
