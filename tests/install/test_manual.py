@@ -5,6 +5,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 COMPLETION, PAGES, PROGRAMS = None, [], []
@@ -66,8 +67,9 @@ class Options(unittest.TestCase):
             self.assertEqual({word.decode() for word in words}, options)
             told = run(program, "--no-such-option")
             self.assertEqual((told.returncode, "'--no-such-option' is no option" in told.stderr), (2, True))
-            for option in options:
-                self.assertNotIn("is no option", run(program, option).stderr)
+            with tempfile.TemporaryDirectory() as folder:
+                for option in options:
+                    self.assertNotIn("is no option", run(program, option, cwd=folder).stderr)
 
     def test_completion_offers_the_words_that_may_follow_an_option(self):
         for program, _, _ in self.of_each():
