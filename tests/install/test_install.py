@@ -53,16 +53,14 @@ class Installed(unittest.TestCase):
                    "PKG_CONFIG_SYSROOT_DIR": str(cls.root), "LD_LIBRARY_PATH": str(cls.lib)}
         cls.programs = sorted(path.name for path in cls.bin.iterdir())
 
-    def flags(self, *what):
-        return run("pkg-config", *what, "dem", env=self.env).split()
+    def flags(self, *what, package="dem"):
+        return run("pkg-config", *what, package, env=self.env).split()
 
     def compiled(self, *source, out):
         run(*COMPILER, "-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Werror", *source,
             *self.flags("--cflags", "--libs"), "-lm", "-o", self.work / out)
         return self.work / out
 
-
-class Tree(Installed):
     def test_the_library_is_known_by_its_generation(self):
         version = self.flags("--modversion")[0]
         shared = self.lib / "libdem.so"
@@ -75,6 +73,12 @@ class Tree(Installed):
         self.assertNotRegex(needed, "gsl|cairo")
         self.assertNotIn(str(BUILD), dynamic)
         self.assertNotRegex(run("ldd", "-r", shared), "undefined|not found")
+
+    def test_the_version_is_told_alike(self):
+        version = self.flags("--modversion")[0]
+        self.assertIn(f"version: {version}\n", (SOURCE / "CITATION.cff").read_text(encoding="utf-8"))
+        for page in (self.prefix / "share/man").rglob("dem_*"):
+            self.assertIn(f'"dem {version}"', page.read_text().splitlines()[1])
 
     def test_every_program_has_its_page_and_its_completion(self):
         self.assertIn("dem_batch", self.programs)
@@ -109,15 +113,17 @@ class Tree(Installed):
             run(*COMPILER, "-std=c11", *strict, alone)
             run("c++", "-std=c++11", "-x", "c++", *strict, alone)
 
-
-class Programs(Installed):
     def test_programs_in_all_languages_see_the_same_motion(self):
         """Each also holds it against the exact one, and the stress, and fails otherwise."""
         examples, said = SOURCE / "docs/examples", {}
         said["C"] = run(self.compiled(examples / "drive.c", out="drive"), env=self.env)
         said["Python"] = run(sys.executable, examples / "drive.py", env=self.env)
+        if (self.package.parent / "dem-fortran.pc").exists():
+            run("gfortran", "-O2", "-Wall", "-Werror", "-J", self.work, examples / "drive.f90",
+                *self.flags("--cflags", "--libs", package="dem-fortran"), "-o", self.work / "drive_fortran")
+            said["Fortran"] = run(self.work / "drive_fortran", env=self.env)
         self.assertRegex(said["C"], r"^\d\.\d{9}e-0\d m\n$")
-        self.assertEqual(len(set(said.values())), 1, said)
+        self.assertEqual(len({line.lower() for line in said.values()}), 1, said)
 
     def test_structures_of_the_python_example_are_those_of_c(self):
         env = {**self.env, "PYTHONPATH": str(SOURCE / "docs/examples"), "PYTHONDONTWRITEBYTECODE": "1"}

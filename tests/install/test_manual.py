@@ -5,6 +5,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 COMPLETION, PAGES, PROGRAMS = None, [], []
@@ -60,14 +61,16 @@ class Options(unittest.TestCase):
             self.assertEqual((set(offered), faults), (options, ""))
 
     def test_programs_take_the_options_of_the_help_and_no_others(self):
-        """Every word in the program that looks like an option is in its help, and every option is taken for one."""
+        """Every option is taken for one, and every word in the program that looks like one is in the help. A compiler may
+        keep a word as numbers to compare with; another will not."""
         for program, _, options in self.of_each():
             words = re.findall(rb"\0(--?[a-z][a-z-]*)\0", program.read_bytes().replace(b"\0", b"\0\0"))
-            self.assertEqual({word.decode() for word in words}, options)
+            self.assertLessEqual({word.decode() for word in words}, options)
             told = run(program, "--no-such-option")
             self.assertEqual((told.returncode, "'--no-such-option' is no option" in told.stderr), (2, True))
-            for option in options:
-                self.assertNotIn("is no option", run(program, option).stderr)
+            with tempfile.TemporaryDirectory() as folder:
+                for option in options:
+                    self.assertNotIn("is no option", run(program, option, cwd=folder).stderr)
 
     def test_completion_offers_the_words_that_may_follow_an_option(self):
         for program, _, _ in self.of_each():
