@@ -157,7 +157,7 @@ double site_grip(const contact_scene *scene, const contact_site *site, int q, co
     return limit + touch_slack(scene, f, x) - fabs(force->tangent);
 }
 
-/* The gap as a guard: finite where there is nothing. */
+/* The gap as a guard, whose root is the contact time (7): finite where there is nothing. */
 static double gap_guard(const contact_scene *scene, contact_gap gap)
 {
     return fmin(gap.distance, 1.0) + scene->rule.skin;

@@ -38,6 +38,9 @@ LAYERS = [
     {"job"},
     {"dem_batch"},
 ]
+# Folders of the drivers: what each may include from besides itself.
+FOLDERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
+           "batch": {"common", "namelist", "body", "deck"}}
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
@@ -46,10 +49,10 @@ ROOMS = [  # pattern, files that may have it
     (r"#include <immintrin", {"src/lanes_avx2.h", "src/lanes_avx512.h"}),
     (r"_Pragma|#pragma|_OPENMP", {"src/threads.h"}),
     (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
-    (r'#include [<"]gsl/', {"drivers/area.c", "drivers/pores.c", "drivers/profile.c", "drivers/report.c",
-                          "drivers/preview.c"}),
+    (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/pores.c", "drivers/deck/profile.c",
+                          "drivers/batch/report.c", "drivers/batch/preview.c"}),
     (r"#include [<\"]zlib", {"src/record.c"}),
-    (r"#include [<\"]cairo", {"drivers/png.c"}),
+    (r"#include [<\"]cairo", {"drivers/body/png.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
     (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),
@@ -73,6 +76,14 @@ def without_comments(text):
 
 def layer_of(noun):
     return next((k for k, layer in enumerate(LAYERS) if noun in layer), None)
+
+
+def check_folders(path, lines):
+    for number, line in enumerate(lines, 1):
+        found = re.match(r'#include "([\w/]+\.h)"', line)
+        home = found and next((d for d in FOLDERS if (ROOT / "drivers" / d / found.group(1)).exists()), None)
+        if home and home != path.parent.name and home not in FOLDERS[path.parent.name]:
+            complain(path, number, f"drivers/{path.parent.name} stands on drivers/{home}")
 
 
 def check_includes(path, lines):
@@ -139,6 +150,8 @@ for source in sources:
     check_functions(source, rows)
     if source.relative_to(ROOT).parts[0] in ("src", "drivers"):
         check_includes(source, rows)
+        if source.relative_to(ROOT).parts[0] == "drivers":
+            check_folders(source, rows)
         check_rooms(source, rows)
 check_symbols()
 
