@@ -153,7 +153,8 @@ static void watch_stage(watch *w, stage *s)
     assert_ok(dem_simulation_observe(s->simulation, &observer));
 }
 
-/* As test_random.c judges scenes without: five skins, 2e-3; Verlet's energies waver by (omega h)^2/4, omega h <= 1/4. */
+/* As test_random.c judges scenes without: five skins, 2e-3; Verlet's energies waver by (omega h)^2/4, and omega h is
+ * 1/4 at most. */
 static void judge(const watch *w, const stage *s, unsigned long seed)
 {
     const dem_options o = dem_simulation_options(s->simulation);
