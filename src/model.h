@@ -53,8 +53,8 @@ static inline vec2 model_force(const dem_model *model, dem_index i, const double
     return vec2_add(bonds, triangles_force(&model->triangles, i, x));
 }
 
-/** Acceleration of node i, m/s^2, free of contact: (4), weight (2) included, without what comes from outside. A fixed
- *  node has none. */
+/** Acceleration of node i, m/s^2, free of contact: (4), weight (2) included, without forces from outside. A fixed node
+ *  has none. */
 static inline vec2 model_own_acceleration(const dem_model *model, const model_load *load, dem_index i, const double *x,
                                           const double *v)
 {
