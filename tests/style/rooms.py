@@ -33,7 +33,7 @@ LAYERS = [
     {"queue", "estimate"},
     {"run"},
     {"view", "recall"},
-    {"simulation", "output", "preview", "report"},
+    {"simulation", "replace", "output", "preview", "report"},
     {"result", "checkpoint"},
     {"job"},
     {"dem_batch"},
