@@ -37,7 +37,8 @@ struct dem_simulation {
     bool in_hand;          /* whether there is one */
     bool at_event;         /* whether it ends with one */
     bool started;          /* whether the contacts of the initial state have been taken up */
-    bool advanced;         /* whether it goes on: no more observers */
+    bool advanced;         /* whether it has gone on: no more observers */
+    bool advancing;        /* whether it does so just now */
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
     dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */

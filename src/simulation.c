@@ -330,8 +330,9 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
-    s->advanced = true;
+    s->advanced = s->advancing = true;
     const dem_status status = advance(s, t_end);
+    s->advancing = false;
     return coupling_failed(s->coupling) ? fall_back(s) : status;
 }
 

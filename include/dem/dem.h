@@ -404,7 +404,17 @@ DEM_API void dem_simulation_destroy(dem_simulation *simulation);
  *          in which it was asked for: another advance goes on from there */
 DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
 
-/** The last record, valid and unchanged until the next advance; NULL before the first. */
+/** Puts nodes elsewhere, or gives them other velocities, where the last advance has ended: not from an observer. Contacts
+ *  are looked for at the next advance, as at the start, and until then there are none; then observers are shown the
+ *  step, and a record is taken: an older one is of the motion that was. What it changes of the energy counts as put in
+ *  from outside (`boundary`). Copies both.
+ *  \param x  [n_nodes][2] m, no deeper in obstacles than the skin; NULL: as it is
+ *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
+ *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */
+DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);
+
+/** The last record, valid and unchanged until the next advance; NULL before the first, and after
+ *  dem_simulation_set_motion(). */
 DEM_API const dem_record *dem_simulation_record(const dem_simulation *simulation);
 
 DEM_API void dem_simulation_state(const dem_simulation *simulation, dem_state *state);

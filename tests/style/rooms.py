@@ -32,14 +32,14 @@ LAYERS = [
     {"queue", "estimate"},
     {"run"},
     {"view", "recall"},
-    {"simulation", "output", "preview", "report"},
+    {"simulation", "replace", "output", "preview", "report"},
     {"result", "checkpoint"},
     {"job"},
     {"dem_batch"},
 ]
 # Folders of the drivers: what each may include from besides itself.
 FOLDERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
-           "batch": {"common", "namelist", "body", "deck"}}
+           "batch": {"common", "namelist", "body", "deck"}, "export": {"common"}, "plot": {"common"}}
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
