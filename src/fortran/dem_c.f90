@@ -632,6 +632,12 @@ module dem_c
       real(c_double), value :: t_end
     end function
 
+    integer(dem_status) function dem_simulation_set_motion(simulation, x, v) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(in), optional :: x(2, *), v(2, *)
+    end function
+
     type(c_ptr) function dem_simulation_record(simulation) bind(c)
       import
       type(c_ptr), value :: simulation
