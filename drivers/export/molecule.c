@@ -132,6 +132,11 @@ __attribute__((format(printf, 3, 4))) static void omit(molecule *m, bool is_ther
     va_end(arguments);
 }
 
+static const char *plural(dem_index n)
+{
+    return n == 1 ? "" : "s";
+}
+
 static void find_omissions(molecule *m)
 {
     const dem_lattice *l = m->lattice;
@@ -139,13 +144,14 @@ static void find_omissions(molecule *m)
     (void)dem_film_obstacles(m->task->film, &obstacles);
     const dem_film_column *boundaries = dem_film_column_find(m->task->film, "history", "boundary_force");
     const dem_index area = count(l->area_stiffness, l->n_triangles), guard = count(l->guard, l->n_triangles);
+    const dem_index held = boundaries != NULL ? boundaries->items : 0;
     const dem_index damped = count(l->viscosity, l->n_springs);
-    omit(m, area > 0, "the area term of %lld triangles", (long long)area);
-    omit(m, guard > 0, "the folding guard of %lld triangles", (long long)guard);
-    omit(m, damped > 0, "the damping of %lld springs", (long long)damped);
+    omit(m, area > 0, "the area term of %lld triangle%s", (long long)area, plural(area));
+    omit(m, guard > 0, "the folding guard of %lld triangle%s", (long long)guard, plural(guard));
+    omit(m, damped > 0, "the damping of %lld spring%s", (long long)damped, plural(damped));
     omit(m, m->loads.mass_damping > 0.0, "the damping of masses, %.17g 1/s", m->loads.mass_damping);
-    omit(m, obstacles > 0, "%lld obstacle%s", (long long)obstacles, obstacles > 1 ? "s" : "");
-    omit(m, boundaries != NULL, "%lld boundary conditions", boundaries != NULL ? (long long)boundaries->items : 0LL);
+    omit(m, obstacles > 0, "%lld obstacle%s", (long long)obstacles, plural(obstacles));
+    omit(m, held > 0, "%lld boundary condition%s", (long long)held, plural(held));
     omit(m, !m->loads.known, "gravity, which a run without a deck does not tell");
 }
 

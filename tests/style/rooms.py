@@ -14,16 +14,18 @@ LAYERS = [
     {"record"},
     {"boundary", "coupling", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
      "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
-     "outcome", "lock", "decimal", "difference", "signals"},
+     "outcome", "lock", "decimal", "difference", "signals", "moments", "label"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
-     "parts", "clearance", "grid", "table", "foreign", "notes", "pgm", "png", "msh", "crack", "setting", "json"},
-    {"layout"},
-    {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
+     "parts", "clearance", "grid", "table", "foreign", "notes", "pgm", "png", "msh", "crack", "setting", "json",
+     "task"},
+    {"layout", "sheet", "kinds", "loads", "still"},
+    {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512", "molecule", "piece"},
     {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
-     "schema_table", "schema_print", "uses", "material", "mask", "command"},
+     "schema_table", "schema_print", "uses", "material", "mask", "command", "data", "script", "dump", "vtu", "csv"},
     {"touch", "options", "diagnostics", "film", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
-     "sweep_avx512", "peaks_file", "shape", "loading", "probes", "precision", "cases"},
-    {"reaction", "books", "engine", "spectrum", "constants", "area", "reel"},
+     "sweep_avx512", "peaks_file", "shape", "loading", "probes", "precision", "cases",
+     "lammps"},
+    {"reaction", "books", "engine", "spectrum", "constants", "area", "reel", "export"},
     {"site", "form", "segments"},
     {"sites", "search", "body"},
     {"strike", "watch", "ball"},
@@ -35,11 +37,12 @@ LAYERS = [
     {"simulation", "replace", "output", "preview", "report"},
     {"result", "checkpoint"},
     {"job"},
-    {"dem_batch"},
+    {"dem_batch", "dem_export"},
 ]
 # Folders of the drivers: what each may include from besides itself.
 FOLDERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
-           "batch": {"common", "namelist", "body", "deck"}, "export": {"common"}, "plot": {"common"}}
+           "batch": {"common", "namelist", "body", "deck"}, "export": {"common", "namelist"},
+           "plot": {"common"}}
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
