@@ -10,19 +10,19 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "random", "commit", "wall", "memory", "aligned", "grow", "threads"},
+    {"vec2", "status", "random", "commit", "wall", "memory", "aligned", "grow", "threads", "units"},
     {"trail", "audience", "publish"},
     {"record"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
      "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
      "outcome", "lock", "decimal", "difference", "signals"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
-     "parts", "clearance", "grid", "table", "notes", "pgm", "png", "msh", "crack", "setting", "json"},
+     "parts", "clearance", "grid", "table", "foreign", "notes", "pgm", "png", "msh", "crack", "setting", "json"},
     {"layout"},
     {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
     {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
      "schema_table", "schema_print", "uses", "material", "mask", "command"},
-    {"touch", "options", "diagnostics", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
+    {"touch", "options", "diagnostics", "film", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
      "sweep_avx512", "peaks_file", "shape", "loading", "probes", "precision", "cases"},
     {"reaction", "books", "engine", "spectrum", "constants", "area", "reel"},
     {"site", "form", "segments"},
