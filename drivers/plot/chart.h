@@ -31,8 +31,8 @@ colour chart_ink(int k);
  *  False without memory. */
 bool chart_draw(const chart *of, box place, bool has_times, canvas *c);
 
-/** A line thinned out to what a picture shows of it: of all points in one of `columns` equal parts of the time the first,
- *  the least, the largest and the last, in their order; what is not finite is left out.
+/** A line thinned out to what a picture shows of it: of all points in one of `columns` equal parts of the time the
+ *  first, the least, the largest and the last, in their order; what is not finite is left out.
  *  \param[out] xy  [4 columns][2] time and number
  *  \return how many */
 size_t chart_thin(const chart *of, int line, size_t columns, double *xy);

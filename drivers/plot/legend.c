@@ -46,16 +46,25 @@ static void draw_arrows(const palette *colours, span range, box place, canvas *c
     if (range.above) c->fills(c, colours->of[PALETTE_SIZE - 1], 3, 1, right);
 }
 
-/* The ends and the middles between them and 0 where both sides are as long. */
-static ticks numbers_of(double lo, double hi)
+/* The ends and the middles between them and 0 where both sides are as long; else round numbers. */
+static ticks numbers_of(double lo, double hi, int most)
 {
-    if (lo != -hi) return ticks_linear(lo, hi, 7);
-    return (ticks){5, {-hi, -0.5 * hi, 0.0, 0.5 * hi, hi}, ticks_decimals(0.5 * hi)};
+    const ticks five = {5, {-hi, -0.5 * hi, 0.0, 0.5 * hi, hi}, ticks_decimals(0.5 * hi)};
+    const ticks three = {3, {-hi, 0.0, hi}, ticks_decimals(hi)};
+    return lo != -hi ? ticks_linear(lo, hi, most) : most < 5 ? three : five;
+}
+
+/* As many as have room, of the width of the longest that is to be expected. */
+static int most_numbers(span range, double factor, double room)
+{
+    char text[TICKS_TEXT];
+    ticks_print(text, -fmax(fabs(range.lo), fabs(range.hi)) / factor, ticks_decimals(0.5 * range.hi / factor));
+    return (int)fmin(fmax(room / (canvas_length(text, LEGEND_LETTERS) + 12.0), 2.0), 7.0);
 }
 
 static void draw_numbers(span range, double factor, box place, canvas *c)
 {
-    const ticks at = numbers_of(range.lo / factor, range.hi / factor);
+    const ticks at = numbers_of(range.lo / factor, range.hi / factor, most_numbers(range, factor, box_width(place)));
     for (int k = 0; k < at.n; k++) {
         char text[TICKS_TEXT];
         const double u = (at.at[k] * factor - range.lo) / (range.hi - range.lo), x = place.x0 + u * box_width(place);

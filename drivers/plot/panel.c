@@ -28,7 +28,7 @@ static void place(const panel *p, const double x[2], double out[2])
 }
 
 /* Corners of a spring or a triangle in the picture; whether it can be seen. */
-static bool place_all(const panel *p, const scene *s, const dem_index *nodes, int n, double *out)
+static bool place_all(const panel *p, const snapshot *s, const dem_index *nodes, int n, double *out)
 {
     for (int k = 0; k < n; k++) place(p, s->x + 2 * nodes[k], out + 2 * k);
     return box_meets(box_around(n, out), p->place);
@@ -41,40 +41,40 @@ static unsigned char shade_of(const panel_look *look, double value)
     return (unsigned char)palette_index(value, look->range.lo, look->range.hi);
 }
 
-static bool is_there(const scene *s, dem_index spring)
+static bool is_there(const snapshot *s, dem_index spring)
 {
     return s->broken == NULL || s->broken[spring] == 0.0;
 }
 
-static bool gather_springs(const panel *p, const scene *s, const panel_look *look, sheaf *h)
+static bool gather_springs(const panel *p, const snapshot *s, const panel_look *look, sheaf *h)
 {
     const dem_lattice *l = s->lattice;
     if (!sheaf_create(h, (size_t)l->n_springs, 2)) return false;
     for (dem_index k = 0; k < l->n_springs; k++) {
         if (!is_there(s, k) || !place_all(p, s, l->ends + 2 * k, 2, h->xy + 4 * h->n)) continue;
-        h->shade[h->n++] = shade_of(look, scene_spring_value(s, k));
+        h->shade[h->n++] = shade_of(look, snapshot_spring_value(s, k));
     }
     return true;
 }
 
-static bool gather_triangles(const panel *p, const scene *s, const panel_look *look, sheaf *h)
+static bool gather_triangles(const panel *p, const snapshot *s, const panel_look *look, sheaf *h)
 {
     const dem_lattice *l = s->lattice;
     if (!sheaf_create(h, (size_t)l->n_triangles, 3)) return false;
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (!place_all(p, s, l->triangles + 3 * k, 3, h->xy + 6 * h->n)) continue;
-        h->shade[h->n++] = shade_of(look, scene_triangle_value(s, k));
+        h->shade[h->n++] = shade_of(look, snapshot_triangle_value(s, k));
     }
     return true;
 }
 
 /* Node values fill triangles; what has none, or is without values, is drawn as springs. */
-static bool fills_triangles(const scene *s)
+static bool fills_triangles(const snapshot *s)
 {
     return s->shown->source != NULL && !s->shown->source->of_springs && s->lattice->n_triangles > 0;
 }
 
-static bool draw_vectors(const panel *p, const scene *s, const panel_look *look, canvas *c)
+static bool draw_vectors(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
     const bool filled = fills_triangles(s);
     sheaf h;
@@ -91,7 +91,7 @@ static bool draw_vectors(const panel *p, const scene *s, const panel_look *look,
 
 /* ---- pixels ---- */
 
-static void bin(const panel *p, const scene *s, const panel_look *look, raster *r)
+static void bin(const panel *p, const snapshot *s, const panel_look *look, raster *r)
 {
     const dem_lattice *l = s->lattice;
     const panel fine = {p->view, {0.0, 0.0, r->width, r->height}};
@@ -107,10 +107,10 @@ static void bin(const panel *p, const scene *s, const panel_look *look, raster *
     }
     for (dem_index k = 0; k < l->n_springs; k++)
         if (is_there(s, k) && place_all(&fine, s, l->ends + 2 * k, 2, xy))
-            raster_line(r, xy, thick, scene_spring_value(s, k));
+            raster_line(r, xy, thick, snapshot_spring_value(s, k));
 }
 
-static bool draw_pixels(const panel *p, const scene *s, const panel_look *look, canvas *c)
+static bool draw_pixels(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
     raster r;
     canvas_image image = {0};
@@ -131,7 +131,7 @@ static bool draw_pixels(const panel *p, const scene *s, const panel_look *look, 
 
 /* ---- all of it ---- */
 
-static bool draw_ground(const panel *p, const scene *s, canvas *c)
+static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
 {
     dem_index n;
     const dem_obstacle *obstacles = dem_film_obstacles(s->film, &n);
@@ -147,7 +147,7 @@ static bool draw_ground(const panel *p, const scene *s, canvas *c)
 }
 
 /* Nodes without springs, as dots. */
-static void draw_points(const panel *p, const scene *s, const panel_look *look, canvas *c)
+static void draw_points(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
     const bool has_value = s->shown->source != NULL && !s->shown->source->of_springs;
     const double size = 7.0;
@@ -161,7 +161,7 @@ static void draw_points(const panel *p, const scene *s, const panel_look *look, 
     }
 }
 
-bool panel_draw(const panel *p, const scene *s, const panel_look *look, canvas *c)
+bool panel_draw(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
     char attributes[400];
     const box b = s->bounds, v = p->view, at = p->place;

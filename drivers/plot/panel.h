@@ -5,7 +5,7 @@
 
 #include "canvas.h"
 #include "outcome.h"
-#include "scene.h"
+#include "snapshot.h"
 
 /** How all panels of a picture are drawn. */
 typedef struct panel_look {
@@ -25,7 +25,7 @@ typedef struct panel {
 double panel_scale(const panel *p); /* pixels per metre */
 
 /** Obstacles, what is seen of the bodies, and a thin frame around. False without memory. */
-bool panel_draw(const panel *p, const scene *s, const panel_look *look, canvas *c);
+bool panel_draw(const panel *p, const snapshot *s, const panel_look *look, canvas *c);
 
 /** A width of lines fit for springs of that length, pixels. */
 double panel_thickness(double length);

@@ -20,7 +20,7 @@ typedef struct show {
     const request *asked;
     quantity shown;
     moments chosen;
-    scene now;
+    snapshot now;
     palette colours;
     panel_look look;
     stamp times;
@@ -108,10 +108,10 @@ static bool survey(show *s, outcome *o)
     span_reach reach = span_reach_none();
     s->bodies = box_empty();
     for (size_t k = 0; k < s->chosen.n; k++) {
-        if (!scene_load(&s->now, s->chosen.frame[k], o)) return false;
+        if (!snapshot_load(&s->now, s->chosen.frame[k], o)) return false;
         s->bodies = box_join(s->bodies, s->now.bounds);
         reach = span_reach_join(reach, s->now.reach);
-        s->hash = scene_hash(&s->now, s->hash);
+        s->hash = snapshot_hash(&s->now, s->hash);
     }
     s->look.range = range_of(s, reach);
     return true;
@@ -121,7 +121,7 @@ static bool open_show(show *s, const dem_film *film, const request *asked, outco
 {
     *s = (show){.film = film, .asked = asked, .hash = DIGEST_BEGIN};
     if (!quantity_find(&s->shown, film, asked->color, o) || !choose(s, o) || !set_times(s, o)) return false;
-    if (!scene_create(&s->now, film, &s->shown, o) || !survey(s, o)) return false;
+    if (!snapshot_create(&s->now, film, &s->shown, o) || !survey(s, o)) return false;
     s->colours = s->shown.source != NULL ? palette_make(s->shown.scale) : palette_plain(canvas_grey);
     s->look.colours = &s->colours;
     s->look.is_binned = s->now.lattice->n_springs > PANEL_BINNED_FROM;
@@ -131,7 +131,7 @@ static bool open_show(show *s, const dem_film *film, const request *asked, outco
 static void close_show(show *s)
 {
     moments_free(&s->chosen);
-    scene_free(&s->now);
+    snapshot_free(&s->now);
 }
 
 /* n panels to a picture; the hash takes in what all of them share. */
@@ -142,7 +142,7 @@ static strip plan(show *s, size_t n)
     const box view = s->asked->has_zoom ? s->asked->zoom : strip_view(s->bodies, obstacles, n_obstacles);
     const strip planned = strip_plan(n, view, s->asked->width, s->asked->columns);
     const panel first = strip_panel(&planned, 0);
-    s->look.thick = panel_thickness(panel_scale(&first) * scene_spacing(&s->now));
+    s->look.thick = panel_thickness(panel_scale(&first) * snapshot_spacing(&s->now));
     s->hash = digest_add(s->hash, s->shown.name, strlen(s->shown.name));
     s->hash = digest_add(s->hash, &s->look.range, 2 * sizeof(double));
     s->hash = digest_add(s->hash, &planned.view, sizeof planned.view);
@@ -166,10 +166,11 @@ static bool draw_panel(show *s, const strip *planned, size_t k, dem_index frame,
 {
     const panel p = strip_panel(planned, k);
     char text[STAMP_TEXT];
-    if (s->now.frame != frame && !scene_load(&s->now, frame, o)) return false;
+    if (s->now.frame != frame && !snapshot_load(&s->now, frame, o)) return false;
     stamp_print(&s->times, s->now.t, text);
-    c->write(c, &(canvas_label){0.5 * (p.place.x0 + p.place.x1), p.place.y0 - 8.0, LEGEND_LETTERS, CANVAS_MIDDLE, false,
-                                canvas_black, text});
+    const double middle = 0.5 * (p.place.x0 + p.place.x1), room = box_width(p.place);
+    const double letters = fmin(LEGEND_LETTERS, LEGEND_LETTERS * room / canvas_length(text, LEGEND_LETTERS));
+    c->write(c, &(canvas_label){middle, p.place.y0 - 8.0, letters, CANVAS_MIDDLE, false, canvas_black, text});
     return panel_draw(&p, &s->now, &s->look, c) || fail_memory(o);
 }
 

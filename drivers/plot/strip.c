@@ -60,8 +60,9 @@ strip strip_plan(size_t n, box view, double width, size_t columns)
 
 panel strip_panel(const strip *s, size_t k)
 {
-    const double x = margin + (double)(k % s->columns) * (s->across + gap);
-    const double y = margin + above + (double)(k / s->columns) * (above + s->down + gap);
+    const size_t row = k / s->columns, column = k % s->columns;
+    const double x = margin + (double)column * (s->across + gap);
+    const double y = margin + above + (double)row * (above + s->down + gap);
     return (panel){s->view, {x, y, x + s->across, y + s->down}};
 }
 

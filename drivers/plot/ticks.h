@@ -9,7 +9,7 @@ typedef struct ticks_prefix {
     const char *name;
 } ticks_prefix;
 
-/** The prefix with which `largest` has one to three digits before the point; none for 0 and what is out of all range. */
+/** The prefix with which `largest` has one to three digits before the point; none for 0 and what is out of range. */
 ticks_prefix ticks_prefix_of(double largest);
 
 /** The first round number not below x > 0: 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten. */

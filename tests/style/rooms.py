@@ -10,19 +10,19 @@ ROOT, LIBRARY = pathlib.Path(sys.argv[1]), sys.argv[2]
 
 # What stands on what, from below; a file includes only files of lower rows, or of its own noun.
 LAYERS = [
-    {"vec2", "status", "random", "commit", "wall", "memory", "aligned", "grow", "threads", "units"},
-    {"trail", "audience", "publish"},
+    {"vec2", "status", "random", "commit", "wall", "memory", "aligned", "grow", "threads", "units", "box", "digest", "palette", "ticks"},
+    {"trail", "audience", "publish", "canvas", "span", "ground", "stamp", "moments"},
     {"record"},
     {"boundary", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method", "bulk", "pool",
      "hdf5_file", "scan", "namelist", "placement", "pace", "relaxation", "pores", "profile", "limit", "file", "words", "image", "outline",
-     "outcome", "lock", "decimal", "difference", "signals"},
+     "outcome", "lock", "decimal", "difference", "signals", "paint", "raster", "sheaf"},
     {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order", "schema",
-     "parts", "clearance", "grid", "table", "foreign", "notes", "pgm", "png", "msh", "crack", "setting", "json"},
-    {"layout"},
-    {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
-    {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
+     "parts", "clearance", "grid", "table", "foreign", "notes", "pgm", "png", "msh", "crack", "setting", "json", "svg", "quantity"},
+    {"layout", "picture", "snapshot", "legend"},
+    {"sweep", "panel", "chart", "request", "lanes_portable", "lanes_avx2", "lanes_avx512"},
+    {"model", "strip", "timeline", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file",
      "schema_table", "schema_print", "uses", "material", "mask", "command"},
-    {"touch", "options", "diagnostics", "film", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
+    {"touch", "show", "options", "diagnostics", "film", "integrator", "verlet", "tangent", "kernel", "sweep_portable", "sweep_avx2",
      "sweep_avx512", "peaks_file", "shape", "loading", "probes", "precision", "cases"},
     {"reaction", "books", "engine", "spectrum", "constants", "area", "reel"},
     {"site", "form", "segments"},
@@ -36,11 +36,11 @@ LAYERS = [
     {"simulation", "output", "preview", "report"},
     {"result", "checkpoint"},
     {"job"},
-    {"dem_batch"},
+    {"dem_batch", "dem_plot"},
 ]
 # Folders of the drivers: what each may include from besides itself.
 FOLDERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
-           "batch": {"common", "namelist", "body", "deck"}}
+           "batch": {"common", "namelist", "body", "deck"}, "plot": {"common"}}
 # Within a layer: who may include whom all the same.
 BESIDE = {("lattice", "sides"), ("namelist", "scan"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
@@ -52,7 +52,7 @@ ROOMS = [  # pattern, files that may have it
     (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/pores.c", "drivers/deck/profile.c",
                           "drivers/batch/report.c", "drivers/batch/preview.c"}),
     (r"#include [<\"]zlib", {"src/record.c"}),
-    (r"#include [<\"]cairo", {"drivers/body/png.c"}),
+    (r"#include [<\"]cairo", {"drivers/body/png.c", "drivers/plot/paint.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
     (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A frame of a film as it is drawn: where the nodes are, and the number that gives each its colour. */
-#ifndef DEM_SCENE_H
-#define DEM_SCENE_H
+#ifndef DEM_SNAPSHOT_H
+#define DEM_SNAPSHOT_H
 
 #include <stdint.h>
 
@@ -12,7 +12,7 @@
 #include "quantity.h"
 #include "span.h"
 
-typedef struct scene {
+typedef struct snapshot {
     const dem_film *film;
     const quantity *shown;
     const dem_lattice *lattice;
@@ -26,23 +26,23 @@ typedef struct scene {
     double t;         /* s */
     box bounds;       /* of the nodes, m */
     span_reach reach; /* of the values */
-} scene;
+} snapshot;
 
 /** Without a frame yet; borrows film and quantity. False after a fault, which is told. To be freed in any case. */
-bool scene_create(scene *s, const dem_film *film, const quantity *shown, outcome *o);
-void scene_free(scene *s);
+bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o);
+void snapshot_free(snapshot *s);
 
 /** False after a fault, which is told. */
-bool scene_load(scene *s, dem_index frame, outcome *o);
+bool snapshot_load(snapshot *s, dem_index frame, outcome *o);
 
 /** The mean length of a spring of the lattice at rest, m; 0 without springs. */
-double scene_spacing(const scene *s);
+double snapshot_spacing(const snapshot *s);
 
 /** The hash of its frame, time, places and values, after `hash`. */
-uint64_t scene_hash(const scene *s, uint64_t hash);
+uint64_t snapshot_hash(const snapshot *s, uint64_t hash);
 
 /** The number that colours a spring, or a triangle: its own, or the mean of its nodes'. 0 without a quantity. */
-double scene_spring_value(const scene *s, dem_index spring);
-double scene_triangle_value(const scene *s, dem_index triangle);
+double snapshot_spring_value(const snapshot *s, dem_index spring);
+double snapshot_triangle_value(const snapshot *s, dem_index triangle);
 
 #endif

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "scene.h"
+#include "snapshot.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "digest.h"
 
-static void find_bare(scene *s)
+static void find_bare(snapshot *s)
 {
     const dem_lattice *l = s->lattice;
     memset(s->is_bare, 1, (size_t)l->n_nodes);
     for (dem_index k = 0; k < 2 * l->n_springs; k++) s->is_bare[l->ends[k]] = 0;
 }
 
-bool scene_create(scene *s, const dem_film *film, const quantity *shown, outcome *o)
+bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o)
 {
     const dem_lattice *l = dem_film_lattice(film);
     const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, n = quantity_count(shown, l);
-    *s = (scene){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = span_reach_none()};
+    *s = (snapshot){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = span_reach_none()};
     s->x = malloc(2 * nodes * sizeof *s->x);
     s->value = malloc((n + 1) * sizeof *s->value);
     s->work = malloc((n + 1) * sizeof *s->work);
@@ -30,17 +30,17 @@ bool scene_create(scene *s, const dem_film *film, const quantity *shown, outcome
     return false;
 }
 
-void scene_free(scene *s)
+void snapshot_free(snapshot *s)
 {
     free(s->x);
     free(s->value);
     free(s->work);
     free(s->broken);
     free(s->is_bare);
-    *s = (scene){0};
+    *s = (snapshot){0};
 }
 
-bool scene_load(scene *s, dem_index frame, outcome *o)
+bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
 {
     dem_index n;
     dem_status status = dem_film_positions(s->film, frame, s->x);
@@ -55,7 +55,7 @@ bool scene_load(scene *s, dem_index frame, outcome *o)
     return true;
 }
 
-double scene_spacing(const scene *s)
+double snapshot_spacing(const snapshot *s)
 {
     const dem_lattice *l = s->lattice;
     double sum = 0.0;
@@ -63,7 +63,7 @@ double scene_spacing(const scene *s)
     return l->n_springs > 0 ? sum / (double)l->n_springs : 0.0;
 }
 
-uint64_t scene_hash(const scene *s, uint64_t hash)
+uint64_t snapshot_hash(const snapshot *s, uint64_t hash)
 {
     hash = digest_add(hash, &s->frame, sizeof s->frame);
     hash = digest_add(hash, &s->t, sizeof s->t);
@@ -71,21 +71,21 @@ uint64_t scene_hash(const scene *s, uint64_t hash)
     return digest_add(hash, s->value, s->n_values * sizeof *s->value);
 }
 
-static double mean_of_nodes(const scene *s, const dem_index *nodes, int n)
+static double mean_of_nodes(const snapshot *s, const dem_index *nodes, int n)
 {
     double sum = 0.0;
     for (int k = 0; k < n; k++) sum += s->value[nodes[k]];
     return sum / n;
 }
 
-double scene_spring_value(const scene *s, dem_index spring)
+double snapshot_spring_value(const snapshot *s, dem_index spring)
 {
     if (s->shown->source == NULL) return 0.0;
     if (s->shown->source->of_springs) return s->value[spring];
     return mean_of_nodes(s, s->lattice->ends + 2 * spring, 2);
 }
 
-double scene_triangle_value(const scene *s, dem_index triangle)
+double snapshot_triangle_value(const snapshot *s, dem_index triangle)
 {
     return mean_of_nodes(s, s->lattice->triangles + 3 * triangle, 3);
 }
