@@ -8,15 +8,17 @@
 
 double legend_unit(char unit[LEGEND_UNIT], double largest, const char *base)
 {
-    unit[0] = '\0';
-    if (strcmp(base, "1") != 0 && base[0] != '\0') {
-        const ticks_prefix prefix = ticks_prefix_of(largest);
-        (void)snprintf(unit, LEGEND_UNIT, "%s%s", prefix.name, base);
+    char digits[TICKS_TEXT];
+    const bool is_ratio = strcmp(base, "1") == 0 || base[0] == '\0';
+    const bool is_readable = is_ratio ? largest >= 2e-3 && largest < 1e5 : largest >= 1e-12 && largest < 1e15;
+    if (is_readable || !(largest > 0.0) || isinf(largest)) {
+        const ticks_prefix prefix = is_ratio ? (ticks_prefix){1.0, ""} : ticks_prefix_of(largest);
+        (void)snprintf(unit, LEGEND_UNIT, "%s%s", prefix.name, is_ratio ? "" : base);
         return prefix.factor;
     }
-    if (largest >= 2e-3 && largest < 1e5) return 1.0;
-    const double power = largest > 0.0 && !isinf(largest) ? pow(10.0, floor(log10(largest) + 1e-9)) : 1.0;
-    if (power != 1.0) ticks_print_power(unit, power);
+    const double power = pow(10.0, floor(log10(largest) + 1e-9));
+    ticks_print_power(digits, power);
+    (void)snprintf(unit, LEGEND_UNIT, "%s%s%s", digits, is_ratio ? "" : " ", is_ratio ? "" : base);
     return power;
 }
 
@@ -34,7 +36,8 @@ void legend_draw_scale(double pixels_per_metre, double x, double y, double room,
     c->strokes(c, (canvas_pen){canvas_black, 2.0}, 2, 1, bar);
     c->strokes(c, (canvas_pen){canvas_black, 2.0}, 2, 2, ends);
     (void)snprintf(text, sizeof text, "%.0f %sm", length / prefix.factor, prefix.name);
-    draw_text(c, 0.5 * (x + right), y - 9.0, CANVAS_MIDDLE, text);
+    const double middle = x + 0.5 * fmax(right - x, canvas_length(text, LEGEND_LETTERS));
+    draw_text(c, middle, y - 9.0, CANVAS_MIDDLE, text);
 }
 
 static void draw_arrows(const palette *colours, span range, box place, canvas *c)

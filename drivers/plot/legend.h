@@ -9,8 +9,8 @@
 
 enum { LEGEND_LETTERS = 15, LEGEND_UNIT = 40 }; /* pixels; bytes */
 
-/** How numbers up to `largest` are written: divided by the factor that is returned, with the unit put into `unit`,
- *  "kPa"; of a ratio, unit "1", that is "" or a power of ten. */
+/** How numbers up to `largest` are written: divided by the factor that is returned, with the unit put into `unit`:
+ *  "kPa" of "Pa", "" of "1", and where that does not do a power of ten. */
 double legend_unit(char unit[LEGEND_UNIT], double largest, const char *base);
 
 /** A bar of a round length, at most `room` pixels, from the left end at x; its text stands above y. */

@@ -30,12 +30,14 @@ static box box_of(const raster *r)
     return (box){0.0, 0.0, r->width, r->height};
 }
 
+enum { LONGEST = 1 << 16 }; /* pixels; beyond that a line is seen from so near that nobody looks at all of it */
+
 /* As many points as the line has pixels along its longer side, in the middle of each a brush. */
 void raster_line(raster *r, const double xy[4], int thick, double value)
 {
     if (!box_meets(box_grown(box_around(2, xy), thick), box_of(r))) return;
     const double dx = xy[2] - xy[0], dy = xy[3] - xy[1];
-    const int n = (int)ceil(fmin(fmax(fabs(dx), fabs(dy)), 4.0 * (r->width + r->height))) + 1;
+    const int n = (int)ceil(fmin(fmax(fabs(dx), fabs(dy)), LONGEST)) + 1;
     for (int k = 0; k <= n; k++) {
         const double u = (double)k / n, shift = 0.5 * (thick - 1);
         const int column = (int)floor(xy[0] + u * dx - shift), row = (int)floor(xy[1] + u * dy - shift);
@@ -50,26 +52,36 @@ static double cross(const double *a, const double *b, double x, double y)
     return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
 }
 
-/* The pixels whose middles are inside, by their barycentric coordinates; and the sides, for triangles without any. */
-void raster_triangle(raster *r, const double xy[6], const double value[3])
+/* The pixels whose middles are inside, by their barycentric coordinates; how many there are. */
+static long fill(raster *r, const double xy[6], const double value[3], box seen)
 {
-    const box b = box_around(3, xy), all = box_of(r);
-    if (!box_meets(b, all)) return;
-    for (int k = 0; k < 3; k++) {
-        const double *from = xy + 2 * k, *to = xy + 2 * ((k + 1) % 3);
-        raster_line(r, (const double[]){from[0], from[1], to[0], to[1]}, 1, 0.5 * (value[k] + value[(k + 1) % 3]));
-    }
     const double whole = cross(xy, xy + 2, xy[4], xy[5]);
-    if (whole == 0.0) return;
-    const int left = (int)fmax(b.x0, 0.0), right = (int)fmin(b.x1, all.x1), bottom = (int)fmin(b.y1, all.y1);
-    for (int row = (int)fmax(b.y0, 0.0); row <= bottom; row++)
-        for (int column = left; column <= right; column++) {
+    long n = 0;
+    if (whole == 0.0) return 0;
+    for (int row = (int)seen.y0; row <= (int)seen.y1; row++)
+        for (int column = (int)seen.x0; column <= (int)seen.x1; column++) {
             const double x = column + 0.5, y = row + 0.5;
             const double w0 = cross(xy + 2, xy + 4, x, y) / whole, w1 = cross(xy + 4, xy, x, y) / whole;
             const double w2 = 1.0 - w0 - w1;
             if (w0 < 0.0 || w1 < 0.0 || w2 < 0.0) continue;
             touch(r, column, row, (float)(w0 * value[0] + w1 * value[1] + w2 * value[2]));
+            n++;
         }
+    return n;
+}
+
+/* One without any is drawn by its sides. */
+void raster_triangle(raster *r, const double xy[6], const double value[3])
+{
+    const box b = box_around(3, xy), all = box_of(r);
+    if (!box_meets(b, all)) return;
+    const box seen = {fmax(b.x0, 0.0), fmax(b.y0, 0.0), fmin(b.x1, all.x1), fmin(b.y1, all.y1)};
+    if (fill(r, xy, value, seen) > 0) return;
+    const double mean = (value[0] + value[1] + value[2]) / 3.0;
+    for (int k = 0; k < 3; k++) {
+        const double *from = xy + 2 * k, *to = xy + 2 * ((k + 1) % 3);
+        raster_line(r, (const double[]){from[0], from[1], to[0], to[1]}, 1, mean);
+    }
 }
 
 long raster_count(const raster *r)

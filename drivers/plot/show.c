@@ -24,7 +24,8 @@ typedef struct show {
     palette colours;
     panel_look look;
     stamp times;
-    box bodies; /* in all frames */
+    double letters; /* height of the times, pixels */
+    box bodies;     /* in all frames */
     uint64_t hash;
 } show;
 
@@ -134,6 +135,20 @@ static void close_show(show *s)
     snapshot_free(&s->now);
 }
 
+/* So high that the longest has room above its panel. */
+static double letters_for(const show *s, double room)
+{
+    dem_index n;
+    const double *t = dem_film_times(s->film, &n);
+    double longest = 0.0;
+    for (size_t k = 0; k < s->chosen.n; k++) {
+        char text[STAMP_TEXT];
+        stamp_print(&s->times, t[s->chosen.frame[k]], text);
+        longest = fmax(longest, canvas_length(text, LEGEND_LETTERS));
+    }
+    return LEGEND_LETTERS * fmin(1.0, room / longest);
+}
+
 /* n panels to a picture; the hash takes in what all of them share. */
 static strip plan(show *s, size_t n)
 {
@@ -143,6 +158,7 @@ static strip plan(show *s, size_t n)
     const strip planned = strip_plan(n, view, s->asked->width, s->asked->columns);
     const panel first = strip_panel(&planned, 0);
     s->look.thick = panel_thickness(panel_scale(&first) * snapshot_spacing(&s->now));
+    s->letters = letters_for(s, planned.across);
     s->hash = digest_add(s->hash, s->shown.name, strlen(s->shown.name));
     s->hash = digest_add(s->hash, &s->look.range, 2 * sizeof(double));
     s->hash = digest_add(s->hash, &planned.view, sizeof planned.view);
@@ -168,9 +184,8 @@ static bool draw_panel(show *s, const strip *planned, size_t k, dem_index frame,
     char text[STAMP_TEXT];
     if (s->now.frame != frame && !snapshot_load(&s->now, frame, o)) return false;
     stamp_print(&s->times, s->now.t, text);
-    const double middle = 0.5 * (p.place.x0 + p.place.x1), room = box_width(p.place);
-    const double letters = fmin(LEGEND_LETTERS, LEGEND_LETTERS * room / canvas_length(text, LEGEND_LETTERS));
-    c->write(c, &(canvas_label){middle, p.place.y0 - 8.0, letters, CANVAS_MIDDLE, false, canvas_black, text});
+    const double middle = 0.5 * (p.place.x0 + p.place.x1);
+    c->write(c, &(canvas_label){middle, p.place.y0 - 8.0, s->letters, CANVAS_MIDDLE, false, canvas_black, text});
     return panel_draw(&p, &s->now, &s->look, c) || fail_memory(o);
 }
 

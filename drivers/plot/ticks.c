@@ -43,15 +43,25 @@ int ticks_decimals(double step)
     return 9;
 }
 
+static ticks multiples(double step, double lo, double hi)
+{
+    const double rounding = slack * (hi - lo);
+    ticks found = {.decimals = ticks_decimals(step)};
+    for (double k = ceil((lo - rounding) / step); k * step <= hi + rounding && found.n < TICKS_MOST; k++)
+        found.at[found.n++] = k * step;
+    return found;
+}
+
 ticks ticks_linear(double lo, double hi, int most)
 {
-    const double room = (hi - lo) * (1.0 + 2.0 * slack) / (most - 1);
+    const double room = (hi - lo) / (most - 1);
     double step = ticks_below(room);
-    if (step < room * (1.0 - slack)) step = ticks_below(step * 2.5);
-    ticks found = {.decimals = ticks_decimals(step)};
-    const double first = ceil((lo - slack * (hi - lo)) / step);
-    for (double k = first; k * step <= hi + slack * (hi - lo) && found.n < TICKS_MOST; k++)
-        found.at[found.n++] = k * step;
+    if (step < room * (1.0 - slack)) step = ticks_below(2.5 * step);
+    ticks found = multiples(step, lo, hi);
+    while (found.n < 2) {
+        step = ticks_below(0.5 * step);
+        found = multiples(step, lo, hi);
+    }
     return found;
 }
 

@@ -21,12 +21,13 @@ double ticks_below(double x);
 enum { TICKS_MOST = 12, TICKS_TEXT = 32 };
 
 typedef struct ticks {
-    int n; /* 2 or more where there is room */
+    int n;
     double at[TICKS_MOST];
     int decimals; /* with which they are written */
 } ticks;
 
-/** Multiples of 1, 2 or 5 times a power of ten in [lo, hi], lo < hi: no more than `most`, which is 2 to TICKS_MOST. */
+/** Multiples of 1, 2 or 5 times a power of ten in [lo, hi], lo < hi: no more than `most`, which is 2 to TICKS_MOST; but
+ *  two at least, for which it may take five. */
 ticks ticks_linear(double lo, double hi, int most);
 
 /** Powers of ten in [lo, hi], 0 < lo < hi: every one, or every second, third ... so that there are no more than
