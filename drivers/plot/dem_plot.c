@@ -16,11 +16,11 @@ static void draw(const request *asked, outcome *o)
     if (status != DEM_OK)
         outcome_fail_status(o, status, "dem_plot");
     else if (asked->action == REQUEST_HISTORY)
-        (void)timeline_draw(film, asked, o);
+        (void)timeline_draw(film, asked, stdout, o);
     else if (asked->action == REQUEST_ANIMATION)
-        (void)show_animation(film, asked, o);
+        (void)show_animation(film, asked, stdout, o);
     else
-        (void)show_strip(film, asked, o);
+        (void)show_strip(film, asked, stdout, o);
     dem_film_close(film);
 }
 

@@ -204,26 +204,26 @@ static bool draw_file(show *s, const strip *planned, size_t first, const char *p
     return picture_close(&file, note, o);
 }
 
-static void tell(const show *s, const char *path, const strip *planned)
+static void tell(const show *s, const char *path, const strip *planned, FILE *log)
 {
     if (s->asked->prints_hash) {
-        (void)printf("%016" PRIx64 "\n", s->hash);
+        (void)fprintf(log, "%016" PRIx64 "\n", s->hash);
         return;
     }
-    (void)printf("%s: %.0f x %.0f pixels, %zu frame%s of %lld springs", path, planned->width, planned->height,
-                 s->chosen.n, s->chosen.n == 1 ? "" : "s", (long long)s->now.lattice->n_springs);
-    if (s->shown.source != NULL) (void)printf(", %s %g to %g", s->shown.name, s->look.range.lo, s->look.range.hi);
-    (void)printf("%s\n", s->look.is_binned ? ", binned to pixels" : "");
+    (void)fprintf(log, "%s: %.0f x %.0f pixels, %zu frame%s of %lld springs", path, planned->width, planned->height,
+                  s->chosen.n, s->chosen.n == 1 ? "" : "s", (long long)s->now.lattice->n_springs);
+    if (s->shown.source != NULL) (void)fprintf(log, ", %s %g to %g", s->shown.name, s->look.range.lo, s->look.range.hi);
+    (void)fprintf(log, "%s\n", s->look.is_binned ? ", binned to pixels" : "");
 }
 
-bool show_strip(const dem_film *film, const request *asked, outcome *o)
+bool show_strip(const dem_film *film, const request *asked, FILE *log, outcome *o)
 {
     show s;
     bool done = open_show(&s, film, asked, o);
     if (done) {
         const strip planned = plan(&s, s.chosen.n);
         done = draw_file(&s, &planned, 0, asked->output, o);
-        if (done) tell(&s, asked->output, &planned);
+        if (done) tell(&s, asked->output, &planned, log);
     }
     close_show(&s);
     return done;
@@ -251,17 +251,17 @@ static bool draw_all(show *s, const strip *planned, outcome *o)
     return done;
 }
 
-bool show_animation(const dem_film *film, const request *asked, outcome *o)
+bool show_animation(const dem_film *film, const request *asked, FILE *log, outcome *o)
 {
     show s;
     bool done = open_show(&s, film, asked, o);
     if (done) {
         const strip planned = plan(&s, 1);
         done = draw_all(&s, &planned, o);
-        if (done) tell(&s, asked->folder, &planned);
+        if (done) tell(&s, asked->folder, &planned, log);
         if (done && !asked->prints_hash)
-            (void)printf("ffmpeg -framerate 25 -i %s/frame_%%05d.png -c:v libx264 -pix_fmt yuv420p %s.mp4\n",
-                         asked->folder, asked->folder);
+            (void)fprintf(log, "ffmpeg -framerate 25 -i %s/frame_%%05d.png -c:v libx264 -pix_fmt yuv420p %s.mp4\n",
+                          asked->folder, asked->folder);
     }
     close_show(&s);
     return done;

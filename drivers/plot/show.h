@@ -8,8 +8,8 @@
 #include "outcome.h"
 #include "request.h"
 
-/** As asked for; prints a line of what was drawn. False after a fault, which is told. */
-bool show_strip(const dem_film *film, const request *asked, outcome *o);
-bool show_animation(const dem_film *film, const request *asked, outcome *o);
+/** As asked for; what was drawn is told in `log`. False after a fault, which is told. */
+bool show_strip(const dem_film *film, const request *asked, FILE *log, outcome *o);
+bool show_animation(const dem_film *film, const request *asked, FILE *log, outcome *o);
 
 #endif

@@ -179,8 +179,17 @@ static bool collect(timeline *of, const request *asked)
 
 /* ---- the picture ---- */
 
+static void tell(const timeline *of, const request *asked, double width, double height, FILE *log)
+{
+    if (asked->prints_hash)
+        (void)fprintf(log, "%016" PRIx64 "\n", of->hash);
+    else
+        (void)fprintf(log, "%s: %.0f x %.0f pixels, %d charts of %zu steps\n", asked->output, width, height,
+                      of->n_charts, of->n - 1);
+}
+
 /* The first is twice as high as the others. */
-static bool draw(timeline *of, const request *asked)
+static bool draw(timeline *of, const request *asked, FILE *log)
 {
     const double margin = 14.0, gap = 16.0, unit = fmin(fmax(0.12 * asked->width, 90.0), 150.0), times = 44.0;
     const double width = 2.0 * ceil(0.5 * asked->width), count = of->n_charts;
@@ -200,20 +209,16 @@ static bool draw(timeline *of, const request *asked)
         y = below + gap;
     }
     if (!picture_close(&file, note, of->o)) return false;
-    if (asked->prints_hash)
-        (void)printf("%016" PRIx64 "\n", of->hash);
-    else
-        (void)printf("%s: %.0f x %.0f pixels, %d charts of %zu steps\n", asked->output, width, height, of->n_charts,
-                     of->n - 1);
+    tell(of, asked, width, height, log);
     return true;
 }
 
-bool timeline_draw(const dem_film *film, const request *asked, outcome *o)
+bool timeline_draw(const dem_film *film, const request *asked, FILE *log, outcome *o)
 {
     timeline *of = calloc(1, sizeof *of);
     if (of == NULL) return outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory"), false;
     *of = (timeline){.film = film, .o = o, .hash = DIGEST_BEGIN};
-    const bool done = collect(of, asked) && draw(of, asked);
+    const bool done = collect(of, asked) && draw(of, asked, log);
     for (int k = 0; k < of->n_arrays; k++) free(of->array[k]);
     free(of);
     return done;

@@ -8,8 +8,8 @@
 #include "outcome.h"
 #include "request.h"
 
-/** Energies, reactions of obstacles, forces of boundaries, contacts and steps, of those that the film has; prints a
- *  line of what was drawn. False after a fault, which is told. */
-bool timeline_draw(const dem_film *film, const request *asked, outcome *o);
+/** Energies, reactions of obstacles, forces of boundaries, contacts and steps, of those that the film has; what
+ *  was drawn is told in `log`. False after a fault, which is told. */
+bool timeline_draw(const dem_film *film, const request *asked, FILE *log, outcome *o);
 
 #endif
