@@ -374,6 +374,12 @@ module dem_c
     real(c_double) :: value(2) = 0, ramp = 0
   end type
 
+  type, bind(c) :: dem_force_query
+    real(c_double) :: t = 0
+    integer(dem_index) :: n = 0
+    type(c_ptr) :: nodes = c_null_ptr, x = c_null_ptr, v = c_null_ptr
+  end type
+
   type, bind(c) :: dem_options
     integer(c_size_t) :: struct_size = 0
     integer(dem_method) :: method = 0
@@ -387,6 +393,8 @@ module dem_c
     integer(c_int32_t) :: threads = 0
     integer(dem_index) :: record_steps = 0, n_boundaries = 0
     type(c_ptr) :: boundaries = c_null_ptr
+    type(c_funptr) :: force = c_null_funptr
+    type(c_ptr) :: force_context = c_null_ptr
   end type
 
   type, bind(c) :: dem_energy
@@ -470,6 +478,13 @@ module dem_c
   end type
 
   abstract interface
+
+    integer(dem_status) function dem_force(context, query, force) bind(c)
+      import
+      type(c_ptr), value :: context
+      type(dem_force_query), intent(in) :: query
+      real(c_double), intent(inout) :: force(2, *)
+    end function
 
     integer(dem_status) function dem_observer_frame(context, simulation) bind(c)
       import
@@ -615,6 +630,12 @@ module dem_c
       import
       type(c_ptr), value :: simulation
       real(c_double), value :: t_end
+    end function
+
+    integer(dem_status) function dem_simulation_set_motion(simulation, x, v) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(in), optional :: x(2, *), v(2, *)
     end function
 
     type(c_ptr) function dem_simulation_record(simulation) bind(c)
