@@ -12,7 +12,8 @@
  *  A function that can fail returns a dem_status; what it writes through `out` is set only on DEM_OK, and after a
  *  failure nothing has changed. dem_status_message() then tells what happened, with names and numbers.
  *  The library never prints, exits or aborts, and has no global state but that message, which each thread has for
- *  itself: distinct objects may live in distinct threads. */
+ *  itself, and the turns in which threads use HDF5: distinct objects may live in distinct threads, and simulations in
+ *  several threads may share a model. */
 #ifndef DEM_DEM_H
 #define DEM_DEM_H
 

@@ -6,52 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field.h"
 #include "judge.h"
 
 static long n_cases = 3, first_seed = 1;
-
-/* m (a + B (x - c) - d v + w J v + f cos(o t + node)), J a quarter turn; it may fail, once. */
-typedef struct field {
-    double mass, a[2], b[2][2], c[2], d, w, f[2], o;
-    long calls, fails_at; /* the call at which it does; 0: at none */
-    dem_status status;    /* then; DEM_OK: with a number that is none */
-} field;
-
-static dem_status act(void *context, const dem_force_query *q, double *force)
-{
-    field *f = context;
-    const int fails = ++f->calls == f->fails_at;
-    for (dem_index k = 0; k < q->n; k++) {
-        const double *x = q->x + 2 * k, *v = q->v + 2 * k, turned[2] = {-v[1], v[0]};
-        for (int e = 0; e < 2; e++)
-            force[2 * k + e] =
-                f->mass * (f->a[e] + f->b[e][0] * (x[0] - f->c[0]) + f->b[e][1] * (x[1] - f->c[1]) - f->d * v[e] +
-                           f->w * turned[e] + f->f[e] * cos(f->o * q->t + (double)q->nodes[k]));
-    }
-    if (fails && f->status == DEM_OK) force[2 * q->n - 1] = NAN;
-    return fails ? f->status : DEM_OK;
-}
-
-static double uniform(gsl_rng *rng, double most)
-{
-    return most * (2.0 * gsl_rng_uniform(rng) - 1.0);
-}
-
-static void random_field(field *f, const scene *sc, unsigned long seed)
-{
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    assert_non_null(rng);
-    gsl_rng_set(rng, seed);
-    *f = (field){.d = gsl_rng_uniform(rng) * 200.0, .w = uniform(rng, 1000.0), .o = uniform(rng, 1e4)};
-    for (dem_index i = 0; i < sc->body.n_nodes; i++) f->mass += sc->body.mass[i] / (double)sc->body.n_nodes;
-    for (int e = 0; e < 2; e++) {
-        f->a[e] = uniform(rng, 1000.0);
-        f->f[e] = uniform(rng, 1000.0);
-        f->c[e] = sc->body.x[e];
-        for (int g = 0; g < 2; g++) f->b[e][g] = uniform(rng, 5e4);
-    }
-    gsl_rng_free(rng);
-}
 
 typedef struct manner {
     dem_method method;
@@ -70,13 +28,13 @@ typedef struct stage {
 static void open_stage(stage *s, unsigned long seed, manner how, const dem_record *record)
 {
     scene_random(&s->scene, seed);
-    random_field(&s->field, &s->scene, seed);
+    field_random(&s->field, &s->scene, seed);
     dem_options *o = &s->scene.options;
     o->method = how.method;
     o->contact = how.contact;
     o->threads = how.threads;
     o->record_steps = 20;
-    o->force = act;
+    o->force = field_act;
     o->force_context = &s->field;
     assert_ok(dem_model_create(&s->model, &s->scene.body, s->scene.obstacles, s->scene.n));
     if (record != NULL)
@@ -200,7 +158,7 @@ static int kick(stage *s, gsl_rng *rng)
     dem_simulation_state(s->simulation, &now);
     for (dem_index k = 0; k < n; k++) {
         x[k] = now.x[k] - 1e-3 * (now.x[k] - now.x[k % 2]);
-        v[k] = 0.8 * now.v[k] + uniform(rng, 1.0);
+        v[k] = 0.8 * now.v[k] + field_uniform(rng, 1.0);
     }
     const dem_status status = dem_simulation_set_motion(s->simulation, x, v);
     if (status != DEM_OK) {
