@@ -4,13 +4,20 @@
 
 _dem_options()
 {
-    "$1" --help 2>/dev/null | grep -oE '(^|[ [|])--?[a-z][a-z-]*' | tr -d ' [|' | sort -u
+    "$1" --help 2>/dev/null | awk '/^[a-z]/ { wanted = /^(usage|options):/ } wanted' |
+        grep -oE '(^|[ [|])--?[a-z][a-z-]*' | tr -d ' [|' | sort -u
 }
 
 # What follows an option: FOLDER, N, or the words one|another.
 _dem_argument()
 {
-    "$1" --help 2>/dev/null | sed -nE "s/^ +(-[a-z],? )?$2 ([^ ]+).*/\2/p" | head -n 1
+    "$1" --help 2>/dev/null | sed -nE "s/^.* $2 ([A-Z][^] ]*|\w+[|][^] ]*)( .*)?$/\1/p" | head -n 1
+}
+
+# Words of an option that the help has in a section of their own: those of --color under 'colors:'.
+_dem_words()
+{
+    "$1" --help 2>/dev/null | sed -nE "s/^${2#--}s: //p" | tr -d ,
 }
 
 # group.key= of every key; the values of the one that is given, if it has a choice of them.
@@ -57,15 +64,16 @@ _dem()
     GROUP.KEY=VALUE)
         compopt -o nospace 2>/dev/null
         _dem_offer -W "$(_dem_keys "$1")" ;;
-    *'|'*) _dem_offer -W "${argument//|/ }" ;;
     *FOLDER*)
         compopt -o filenames 2>/dev/null
         _dem_offer -d ;;
-    *FILE*)
+    *FILE* | NAME)
         compopt -o filenames 2>/dev/null
         _dem_offer -f ;;
+    [a-z]*'|'*) _dem_offer -W "${argument//|/ }" ;;
+    ?*) _dem_offer -W "$(_dem_words "$1" "$previous")" ;; # of a number, say, there are none
     '') if [[ $current = -* ]]; then _dem_offer -W "$(_dem_options "$1")"; else _dem_file "$1"; fi ;;
-    esac # else a number, say, which nobody can guess
+    esac
 }
 
 complete -F _dem dem_batch dem_plot dem_export

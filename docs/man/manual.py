@@ -25,33 +25,33 @@ def marked(text):
 
 def item(term, text):
     """A term and what it means: its words are bold, those in capitals, which stand for others, slanted."""
-    term = re.sub(r"[^\s\[\]|=.()]+", lambda m: (r"\fI{}\fP" if m[0].isupper() else r"\fB{}\fP").format(plain(m[0])), term)
-    return [".TP", term, marked(text)] if text else [".TP", term, r"\&"]
+    term = re.sub(r"[^\s\[\]|=.(),]+", lambda m: rf"\f{'I' if m[0].isupper() else 'B'}{plain(m[0])}\fP", term)
+    return [".TP", term, marked(text)] if text else [".PP", term]
 
 
 def sections(text):
-    """Pairs of a heading and its lines: a heading begins a line and ends with ':', its lines are indented."""
+    """Headings, which begin a line and end with ':', what stands behind them, and their lines, which are indented."""
     found = []
     for line in text.splitlines():
         heading = re.match(r"([a-z][a-z ]*):\s*(.*)", line)
         if heading:
-            found.append((heading[1], [heading[2]] if heading[2] else []))
+            found.append((heading[1], heading[2], []))
         elif line.startswith(" ") and found:
-            found[-1][1].append(line)
+            found[-1][2].append(line)
         elif line:
             sys.exit(f"error: a line of the help is of no section: {line}")
     return found
 
 
 def pairs(lines):
-    """Terms and texts: the term ends at two spaces; what is indented deeper than the term goes on with its text."""
+    """Terms and texts: a term ends at two spaces; what is indented deeper than the last term goes on with its text."""
     found, indent = [], None
     for line in lines:
         depth = len(line) - len(line.lstrip())
-        indent = depth if indent is None else indent
-        if depth > indent:
+        if found and depth > indent:
             found[-1][1] += " " + line.strip()
         else:
+            indent = depth
             term, _, text = line.strip().partition("  ")
             found.append([term, text.strip()])
     return found
@@ -59,19 +59,16 @@ def pairs(lines):
 
 def help_of(program):
     text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-    name, page = pathlib.Path(program).name, []
-    for heading, lines in sections(text):
+    page = []
+    for heading, first, rows in sections(text):
+        page.append(f".SH {'SYNOPSIS' if heading == 'usage' else heading.upper()}")
         if heading == "usage":
-            page.append(".SH SYNOPSIS")
-            forms = [re.sub(r"^\s+", "", line) for line in lines]
-            page += [row for term, meaning in pairs(forms) for row in item(term, meaning)]
-        elif heading == "options":
-            page.append(".SH OPTIONS")
-            page += [row for term, meaning in pairs(lines) for row in item(term, meaning)]
+            listed = pairs([first] + [row.strip() for row in rows])
         else:
-            page += [f".SH {heading.upper()}", marked(" ".join(line.strip() for line in lines))]
-    if name not in text:
-        sys.exit(f"error: the help of {name} does not name it")
+            listed = [] if first else pairs(rows)
+        page += [row for term, meaning in listed for row in item(term, meaning)]
+        if not listed:
+            page.append(marked(" ".join([first] + [row.strip() for row in rows])))
     return page
 
 
@@ -83,10 +80,10 @@ def keys_of(deck):
             page += [f'.SH "{plain(line[3:])}"']
         elif cells and cells[0].startswith("`"):
             key, kind, unit, default, values, meaning = cells
-            facts = [kind if unit == "-" else f"{kind}, {unit}", "one of " + values.replace("|", ", ") if "|" in values else values,
-                     default if default in ("must be given", "not given") else f"default {default}"]
-            page += [".TP", rf"\fB{plain(key.strip('`'))}\fP ({marked('; '.join(f for f in facts if f))})",
-                     marked(meaning)]
+            facts = [kind if unit == "-" else f"{kind}, {unit}",
+                     "one of " + values.replace("|", ", ") if "|" in values else values,
+                     f"default {default}" if default.startswith("`") else default]
+            page += [".TP", rf"{marked(key)} ({marked('; '.join(fact for fact in facts if fact))})", marked(meaning)]
         elif line and page and not cells:
             page += [marked(line)]
     return page
@@ -95,7 +92,7 @@ def keys_of(deck):
 version, source, of = sys.argv[1:4]
 page = pathlib.Path(source)
 title, section = page.name.split(".")[:2]
-print(rf'.\" SPDX-License-Identifier: BSD-3-Clause')
+print(r'.\" SPDX-License-Identifier: BSD-3-Clause')
 print(f'.TH {title.upper()} {section} "" "dem {version}" "dem"')
 for row in page.read_text(encoding="utf-8").splitlines():
     print("\n".join(help_of(of) if row == "@help@" else keys_of(of) if row == "@keys@" else [row]))
