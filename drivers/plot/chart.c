@@ -140,7 +140,7 @@ static void draw_line(canvas *c, colour ink, double x0, double y0, double x1, do
 
 static void draw_numbers(const axes *a, double factor, canvas *c)
 {
-    const int most = (int)fmin(fmax(box_height(a->place) / 30.0, 2.0), 8.0);
+    const int most = (int)fmin(fmax(box_height(a->place) / 24.0, 2.0), 8.0);
     const ticks at = a->by_decades ? ticks_decades(a->lo / factor, a->hi / factor, most)
                                    : ticks_linear(a->lo / factor, a->hi / factor, most);
     for (int k = 0; k < at.n; k++) {

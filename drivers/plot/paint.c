@@ -111,7 +111,10 @@ static cairo_status_t put_file(void *file, const unsigned char *bytes, unsigned 
 static bool close_paint(canvas *c, const char *note)
 {
     paint *own = (paint *)c;
-    if (own->paged) cairo_pdf_surface_set_metadata(own->surface, CAIRO_PDF_METADATA_SUBJECT, note);
+    if (own->paged) {
+        cairo_pdf_surface_set_metadata(own->surface, CAIRO_PDF_METADATA_SUBJECT, note);
+        cairo_pdf_surface_set_metadata(own->surface, CAIRO_PDF_METADATA_CREATE_DATE, ""); /* same data, same bytes */
+    }
     bool painted = cairo_status(own->cairo) == CAIRO_STATUS_SUCCESS;
     cairo_destroy(own->cairo);
     if (!own->paged)

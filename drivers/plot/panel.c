@@ -17,7 +17,7 @@ double panel_scale(const panel *p)
 
 double panel_thickness(double length)
 {
-    return fmin(fmax(0.24 * length, 0.9), 3.0);
+    return fmin(fmax(0.26 * length, 1.2), 3.0);
 }
 
 static void place(const panel *p, const double x[2], double out[2])

@@ -216,6 +216,8 @@ class Decks(unittest.TestCase):
                 run_plot(self.at("porous"), "-o", self.folder / f"d.{ending}")
                 seen.add((self.folder / f"d.{ending}").read_bytes())
             self.assertEqual(len(seen), 1)
+        run_plot(self.at("porous"), "-o", self.folder / "d.pdf")
+        self.assertNotIn(b"CreationDate", (self.folder / "d.pdf").read_bytes())
 
     def test_nodes_fill_triangles(self):
         strip = self.strip("porous", "--color", "von_mises", "--frames", "0,3")
