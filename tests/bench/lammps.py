@@ -5,8 +5,8 @@
     lammps.py --bench build/tests/bench --work DIR [--plate 2e3 2e4 2e5 1e6] [--impact coarse fine] [--cores 1] [--turns 3]
 
 LAMMPS is that of .ci/packages, beside the Python that runs this: build/python/bin/python3 after `.ci/install build test`.
-`-sf omp -pk omp 1`, bond harmonic, velocity Verlet, no neighbour list. Times are of the loop alone: CPU time on one core, wall time on more (there ranks for LAMMPS, threads
-here), the least of the turns.
+`-sf omp -pk omp 1`, bond harmonic, velocity Verlet, no neighbour list. Times are of the loop alone: CPU time on one
+core, wall time on more (there ranks for LAMMPS, threads here), the least of the turns.
 
 W1, a vibrating plate: both take the same steps from the same state, which has to end the same; what a spring costs.
 W2, an impact: what either takes to come as near to the motion as stated, each at its best step.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A script of docs/examples draws a run: what it hands to its library is what the file has, and the picture shows it.
-`test_scripts.py SCRIPT DEM_BATCH INPUTS`."""
+OVITO also reads what dem_export makes of the run. `test_scripts.py SCRIPT DEM_BATCH DEM_EXPORT INPUTS`."""
 import importlib.util
 import pathlib
 import runpy
@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-SCRIPT, DEM_BATCH, INPUTS = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+SCRIPT, DEM_BATCH, DEM_EXPORT, INPUTS = (pathlib.Path(word).resolve() for word in sys.argv[1:5])
 LIBRARY = SCRIPT.stem.removeprefix("plot_").removesuffix("_reader")
 
 for name in ("h5py", "matplotlib", LIBRARY):
@@ -70,9 +70,9 @@ def shown_by_pyvista(names):
     return whole.points[ends][:, :, :2], whole["strain"], seen_from(camera.focal_point, camera.parallel_scale), 1.25
 
 
-def bonds_of(frame):
+def bonds_of(frame, strain="strain"):
     particles = frame.particles
-    return particles.positions[...][particles.bonds.topology[...]][:, :, :2], particles.bonds["strain"][...]
+    return particles.positions[...][particles.bonds.topology[...]][:, :, :2], particles.bonds[strain][...]
 
 
 def shown_by_ovito(names):
@@ -108,6 +108,26 @@ def check_reader(path):
         for name, array in arrays.items():
             shown = frame.particles[name][...]
             assert np.array_equal(shown, array[k * n:(k + 1) * n] if len(array) > n else array), (k, name)
+
+
+def check_export(path):
+    """As docs/exchange.md says."""
+    from ovito.io import import_file
+    from ovito.modifiers import LoadTrajectoryModifier
+    subprocess.run([DEM_EXPORT, path, "--to", "lammps"], cwd=path.parent, check=True, stderr=subprocess.DEVNULL)
+    stem = str(path.with_suffix(""))
+    nodes, springs = LoadTrajectoryModifier(), LoadTrajectoryModifier()
+    nodes.source.load(f"{stem}.dump")
+    springs.source.load(f"{stem}.local.dump", columns=[None, "Bond Type", "Particle Identifiers.1", "Particle Identifiers.2",
+                                                       "Force", "Strain"])
+    pipeline = import_file(f"{stem}.data", atom_style="bond")
+    pipeline.modifiers.extend([nodes, springs])
+    frames = read_frames(path)
+    assert pipeline.num_frames == len(frames)
+    for k, (segments, strain) in enumerate(frames):
+        found = bonds_of(pipeline.compute(k), "Strain")
+        # OVITO's reading of decimals: rounding, and that of single precision
+        assert np.allclose(found[0], segments, rtol=1e-14, atol=0) and np.allclose(found[1], strain, rtol=1e-7, atol=0), k
 
 
 def check_picture(path, segments, strain, pixels, half):
@@ -147,3 +167,4 @@ with tempfile.TemporaryDirectory() as folder:
     check_picture(picture, *found)
     if LIBRARY == "ovito":
         check_reader(run)
+        check_export(run)
