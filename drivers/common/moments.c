@@ -59,8 +59,8 @@ static bool take_range(const char **text, dem_index n_frames, range *out)
 
 static bool append(moments *m, const range *r, dem_index n_frames)
 {
-    const size_t more = r->last < r->first ? 0 : (size_t)((r->last - r->first) / r->step) + 1;
-    if (r->first < 0 || r->last >= n_frames || more == 0) return false;
+    if (r->first < 0 || r->last >= n_frames || r->last < r->first) return false;
+    const size_t more = (size_t)((r->last - r->first) / r->step) + 1;
     for (size_t k = 0; k < more; k++) m->frame[m->n++] = r->first + (dem_index)k * r->step;
     return true;
 }
