@@ -17,6 +17,8 @@
 #ifndef DEM_DEM_H
 #define DEM_DEM_H
 
+#include <string.h>
+
 #include <dem/lattice.h>
 #include <dem/method.h>
 #include <dem/record.h>
@@ -230,7 +232,8 @@ typedef struct dem_options {
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
 {
-    dem_options options = {0};
+    dem_options options;
+    memset(&options, 0, sizeof options); /* C++ warns of = {0} */
     options.struct_size = sizeof options;
     options.gravity[1] = -9.81;
     options.rtol = 1e-6;

@@ -60,7 +60,8 @@ typedef struct dem_trajectory_options {
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)
 {
-    dem_trajectory_options options = {0};
+    dem_trajectory_options options;
+    memset(&options, 0, sizeof options); /* C++ warns of = {0} */
     options.struct_size = sizeof options;
     options.deflate = 1;
     options.most_stressed = 5;
