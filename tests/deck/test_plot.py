@@ -114,7 +114,9 @@ class Decks(unittest.TestCase):
         cls.keep = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.keep.name)
         for name in ("rectangle", "disc", "porous"):
-            cls.batch(INPUTS / f"{name}.nml", "--set", "body.spacing=6e-3", "--set", "run.t_end=8e-3")
+            cls.batch(INPUTS / f"{name}.nml", "--set", "body.spacing=6e-3", "--set", "run.t_end=8e-3", "--set",
+                      "output.frame_interval=4e-4")
+        cls.batch(INPUTS / "every_key.nml")
         with h5py.File(cls.folder / "point.h5", "w") as file:
             file["lattice/x"], file["lattice/mass"] = [[0.0, 0.0]], [2.0]
         for name, text in (("fine", FINE), ("point", POINT)):
@@ -161,10 +163,11 @@ class Decks(unittest.TestCase):
                 self.assertTrue(np.all(drawn[:2] > place[:2] + 1) and np.all(drawn[2:] < place[2:] - 1), (name, frame))
                 self.assertTrue(0 <= place[0] and place[2] <= strip.size[0] and place[3] <= strip.size[1])
 
-    def test_greatest_compression_is_among_the_frames(self):
-        film = Film(self.at("disc"))
-        peak = film.history["t"][np.argmax(film.history["elastic"])]
-        self.assertIn(np.argmin(np.abs(film.t - peak)), self.strip("disc").frames)
+    def test_greatest_compression_is_the_third_of_the_frames(self):
+        for name in ("rectangle", "disc", "porous"):
+            film = Film(self.at(name))
+            peak = film.history["t"][np.argmax(film.history["elastic"])]
+            self.assertEqual(sorted(self.strip(name).frames)[2], np.argmin(np.abs(film.t - peak)))
 
     def test_limits_are_symmetric_and_hold_what_is_usual(self):
         film, strip = Film(self.at("disc")), self.strip("disc")
@@ -292,6 +295,16 @@ class Decks(unittest.TestCase):
         rows = len(Film(self.at("disc")).history["t"])
         charts = [g for g in strip.root.iter(f"{SVG}g") if g.get("class") == "chart"]
         self.assertEqual([int(g.get("data-rows")) for g in charts], [rows] * 4)
+
+    def test_the_sum_of_energies_is_a_level_line(self):
+        """With boundaries that do work, impacts, damping: to the 2e-3 that docs/verification.md asks for, 1 px here."""
+        run_plot(self.at("every_key"), "--history", "-o", self.folder / "h.svg")
+        chart = next(g for g in Strip(self.folder / "h.svg").root.iter(f"{SVG}g") if g.get("class") == "chart")
+        lines = {path.get("stroke"): points_of(path.get("d"))[0] for path in chart.iter(f"{SVG}path") if path.get("stroke-width") == "1.60"}
+        heights = {ink: np.ptp(line[:, 1]) for ink, line in lines.items()}
+        self.assertGreaterEqual(len(heights), 5)
+        self.assertLess(heights.pop("#1a1a1a"), 1.0)
+        self.assertGreater(sorted(heights.values())[-2], 100.0)
 
     def test_faults_are_one_line_and_leave_nothing(self):
         disc, out = self.at("disc"), self.folder / "none.svg"
