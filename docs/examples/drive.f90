@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! The program of drive.c in Fortran: a rubber block in a trap. Its own force pulls every node back to the vertical through
-! its place at rest and carries its weight; its own observer stops the run when the block turns back.
+! The program of drive.c in Fortran: a rubber block in a trap. Its own force pulls every node back to the vertical
+! through its place at rest and carries its weight; its own observer stops the run when the block turns back.
 !
 !     gfortran drive.f90 $(pkg-config --cflags --libs dem-fortran) -o drive && ./drive
 module trap
