@@ -795,6 +795,112 @@ module dem_c
 
   end interface
 
+  ! ---- dem/film.h ----------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_film_type = c_int
+  enum, bind(c)
+    enumerator :: DEM_FILM_F64 = 0, DEM_FILM_F32 = 1, DEM_FILM_I64 = 2, DEM_FILM_I32 = 3, DEM_FILM_I8 = 4
+    enumerator :: DEM_FILM_U8 = 5
+  end enum
+
+  type, bind(c) :: dem_film_array
+    type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
+    integer(dem_film_type) :: type = 0
+    integer(c_int) :: of_springs = 0, components = 0, constant = 0
+  end type
+
+  type, bind(c) :: dem_film_column
+    type(c_ptr) :: table = c_null_ptr, name = c_null_ptr, unit = c_null_ptr
+    integer(dem_film_type) :: type = 0
+    integer(dem_index) :: n_rows = 0, items = 0, components = 0, width = 0
+  end type
+
+  interface
+
+    integer(dem_status) function dem_film_open(out, path) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    subroutine dem_film_close(film) bind(c)
+      import
+      type(c_ptr), value :: film
+    end subroutine
+
+    type(c_ptr) function dem_film_lattice(film) bind(c)
+      import
+      type(c_ptr), value :: film
+    end function
+
+    type(c_ptr) function dem_film_obstacles(film, n_obstacles) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n_obstacles
+    end function
+
+    type(c_ptr) function dem_film_times(film, n_frames) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n_frames
+    end function
+
+    type(c_ptr) function dem_film_arrays(film, n) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n
+    end function
+
+    type(c_ptr) function dem_film_array_find(film, name) bind(c)
+      import
+      type(c_ptr), value :: film
+      character(kind=c_char), intent(in) :: name(*)
+    end function
+
+    integer(dem_status) function dem_film_positions(film, frame, x) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), value :: frame
+      real(c_double), intent(out) :: x(2, *)
+    end function
+
+    integer(dem_status) function dem_film_read(film, array, frame, values) bind(c)
+      import
+      type(c_ptr), value :: film
+      type(dem_film_array), intent(in) :: array
+      integer(dem_index), value :: frame
+      real(c_double), intent(out) :: values(*)
+    end function
+
+    type(c_ptr) function dem_film_columns(film, n) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n
+    end function
+
+    type(c_ptr) function dem_film_column_find(film, table, name) bind(c)
+      import
+      type(c_ptr), value :: film
+      character(kind=c_char), intent(in) :: table(*), name(*)
+    end function
+
+    integer(dem_status) function dem_film_read_column(film, column, values) bind(c)
+      import
+      type(c_ptr), value :: film
+      type(dem_film_column), intent(in) :: column
+      real(c_double), intent(out) :: values(*)
+    end function
+
+    integer(dem_status) function dem_film_read_rows(film, column, first, count, values) bind(c)
+      import
+      type(c_ptr), value :: film
+      type(dem_film_column), intent(in) :: column
+      integer(dem_index), value :: first, count
+      real(c_double), intent(out) :: values(*)
+    end function
+
+  end interface
+
   ! ---- dem/trajectory.h ----------------------------------------------------------------------------------------------
 
   enum, bind(c)
