@@ -310,7 +310,11 @@ class Decks(unittest.TestCase):
         disc, out = self.at("disc"), self.folder / "none.svg"
         broken = self.folder / "broken.vtkhdf"
         broken.write_bytes(disc.read_bytes()[:4000])
-        cases = (([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
+        endless = self.folder / "endless.vtkhdf"
+        endless.write_bytes(disc.read_bytes())
+        with h5py.File(endless, "r+") as file:
+            file["VTKHDF/Points"][7, 0] = np.inf
+        cases = (([endless, "-o", out], 3), ([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
                  ([disc, "-o", out, "--frames", "99"], 3), ([disc, "-o", out, "--frames", "x"], 3),
                  ([disc, "-o", out, "--color", "principal_1"], 3), ([self.folder / "no.vtkhdf", "-o", out], 5),
                  ([broken, "-o", out], 5), ([disc, "-o", self.folder / "no/where.svg"], 5),
