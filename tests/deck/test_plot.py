@@ -244,8 +244,8 @@ class Decks(unittest.TestCase):
         """The pixels of a fine lattice are those of its area: all of the rectangle without its hole, and nothing else."""
         path, film = self.folder / "e.png", Film(self.at("fine"))
         self.assertGreater(len(film.ends), 50000)
-        self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 300).stdout)
-        strip = self.strip("fine", "--frames", "0", "--width", 300)
+        self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 400).stdout)
+        strip = self.strip("fine", "--frames", "0", "--width", 400)
         group = strip.frames[0]
         place = numbers(group.get("data-place"))
         y, x = np.mgrid[int(place[1]) + 2:int(place[3]) - 2, int(place[0]) + 2:int(place[2]) - 2]
