@@ -24,7 +24,8 @@ static const char usage[] =
     "  --width PIXELS         of the picture, 400 to 20000 (default: 1200)\n"
     "  --columns N            of the strip (default: what fits)\n"
     "  --hash                 print the hash of the data plotted\n"
-    "A picture takes the place of an older one of its name. A film of the numbered ones:\n"
+    "files: a picture takes the place of an older one of its name\n"
+    "film of the numbered ones:\n"
     "  ffmpeg -framerate 25 -i FOLDER/frame_%05d.png -c:v libx264 -pix_fmt yuv420p FILM.mp4\n"
     "exit codes: 0 done, 2 usage, 3 not in the file, 5 input or output, 6 out of memory\n"
     "colors: ";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* canvas.c: what all canvases share. */
-#include "sheet.h"
+#include "witness.h"
 
 static void lengths_count_letters_not_bytes(void **state)
 {
@@ -13,7 +13,7 @@ static void lengths_count_letters_not_bytes(void **state)
 static void rectangles_have_their_corners(void **state)
 {
     (void)state;
-    sheet s = sheet_new();
+    witness s = witness_new();
     const box b = {1, 2, 30, 40};
     canvas_outline(&s.face, (canvas_pen){canvas_black, 2.0}, b);
     canvas_fill(&s.face, canvas_grey, b);

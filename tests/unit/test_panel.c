@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* panel.c: a frame in its place. */
 #include "filmed.h"
-#include "sheet.h"
+#include "witness.h"
 
 #include "panel.h"
 
@@ -11,7 +11,7 @@ typedef struct view {
     palette p;
     panel_look look;
     panel at;
-    sheet paper;
+    witness paper;
 } view;
 
 /* The last frame with 2 px to the mm, drawn. */
@@ -24,7 +24,7 @@ static void draw(view *v, const filmed *f, const char *name, bool is_binned)
     v->p = palette_make(v->q.scale);
     v->look = (panel_look){&v->p, span_around(v->s.reach, v->q.scale == PALETTE_DIVERGING), 1.0, is_binned};
     v->at = (panel){{-0.02, -0.02, 0.04, 0.04}, {10, 20, 130, 140}};
-    v->paper = sheet_new();
+    v->paper = witness_new();
     assert_true(panel_draw(&v->at, &v->s, &v->look, &v->paper.face));
     assert_int_equal(v->paper.depth, 0);
 }
@@ -82,7 +82,7 @@ static void what_is_out_of_view_is_left_out(void **state)
     view v;
     draw(&v, f, "strain", false);
     v.at.view = (box){1.0, 1.0, 1.06, 1.06};
-    v.paper = sheet_new();
+    v.paper = witness_new();
     assert_true(panel_draw(&v.at, &v.s, &v.look, &v.paper.face));
     assert_int_equal(v.paper.strokes, 2);
     snapshot_free(&v.s);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* sheaf.c: every shape is drawn once, in its colour, the larger values last. */
-#include "sheet.h"
+#include "witness.h"
 
 #include "sheaf.h"
 
@@ -17,7 +17,7 @@ static sheaf lines_of(size_t n, const unsigned char *shades)
 
 static void draw(const sheaf *s, const palette *p, double width, size_t n, const unsigned char *order)
 {
-    sheet paper = sheet_new();
+    witness paper = witness_new();
     assert_true(sheaf_draw(s, p, width, &paper.face));
     assert_int_equal(width > 0.0 ? paper.strokes : paper.fills, s->n);
     assert_int_equal(paper.n_inks, n);
