@@ -244,8 +244,8 @@ class Decks(unittest.TestCase):
         """The pixels of a fine lattice are those of its area: all of the rectangle without its hole, and nothing else."""
         path, film = self.folder / "e.png", Film(self.at("fine"))
         self.assertGreater(len(film.ends), 50000)
-        self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 300).stdout)
-        strip = self.strip("fine", "--frames", "0", "--width", 300)
+        self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 400).stdout)
+        strip = self.strip("fine", "--frames", "0", "--width", 400)
         group = strip.frames[0]
         place = numbers(group.get("data-place"))
         y, x = np.mgrid[int(place[1]) + 2:int(place[3]) - 2, int(place[0]) + 2:int(place[2]) - 2]
@@ -310,7 +310,11 @@ class Decks(unittest.TestCase):
         disc, out = self.at("disc"), self.folder / "none.svg"
         broken = self.folder / "broken.vtkhdf"
         broken.write_bytes(disc.read_bytes()[:4000])
-        cases = (([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
+        endless = self.folder / "endless.vtkhdf"
+        endless.write_bytes(disc.read_bytes())
+        with h5py.File(endless, "r+") as file:
+            file["VTKHDF/Points"][7, 0] = np.inf
+        cases = (([endless, "-o", out], 3), ([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
                  ([disc, "-o", out, "--frames", "99"], 3), ([disc, "-o", out, "--frames", "x"], 3),
                  ([disc, "-o", out, "--color", "principal_1"], 3), ([self.folder / "no.vtkhdf", "-o", out], 5),
                  ([broken, "-o", out], 5), ([disc, "-o", self.folder / "no/where.svg"], 5),
