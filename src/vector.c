@@ -262,11 +262,6 @@ static N_Vector_ID kind_of(N_Vector v)
     return SUNDIALS_NVEC_CUSTOM;
 }
 
-static sunindextype length_of(N_Vector v)
-{
-    return content_of(v)->space->length;
-}
-
 static N_Vector clone(N_Vector v)
 {
     return vector_create(content_of(v)->space, v->sunctx);
@@ -285,7 +280,6 @@ static void destroy(N_Vector v)
 static void set_operations(N_Vector_Ops ops)
 {
     ops->nvgetvectorid = kind_of;
-    ops->nvgetlength = length_of;
     ops->nvclone = clone;
     ops->nvdestroy = destroy;
     ops->nvconst = fill;

@@ -60,23 +60,51 @@ static uint16_t luminance(uint32_t pixel)
     return (uint16_t)((77 * red + 150 * green + 29 * blue + 128) >> 8);
 }
 
-static image_status copy(image *out, char *fault, cairo_surface_t *surface)
+/* Newer cairo has channels of sixteen bits as floating numbers; painted, they become their upper eight. NULL without
+ * memory. */
+static cairo_surface_t *paint(cairo_surface_t *surface)
+{
+    cairo_surface_t *out = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, cairo_image_surface_get_width(surface),
+                                                      cairo_image_surface_get_height(surface));
+    cairo_t *brush = cairo_create(out);
+    cairo_set_source_surface(brush, surface, 0, 0);
+    cairo_paint(brush);
+    const bool painted = cairo_status(brush) == CAIRO_STATUS_SUCCESS;
+    cairo_destroy(brush);
+    if (painted) return out;
+    cairo_surface_destroy(out);
+    return NULL;
+}
+
+static cairo_surface_t *of_eight_bits(cairo_surface_t *surface)
 {
     const cairo_format_t format = cairo_image_surface_get_format(surface);
-    if (format != CAIRO_FORMAT_ARGB32 && format != CAIRO_FORMAT_RGB24)
-        return refuse(fault, "a PNG image of such a format is not understood");
+    const bool it_is = format == CAIRO_FORMAT_ARGB32 || format == CAIRO_FORMAT_RGB24;
+    return it_is ? cairo_surface_reference(surface) : paint(surface);
+}
+
+static bool copy(image *out, cairo_surface_t *surface)
+{
     const unsigned char *data = cairo_image_surface_get_data(surface);
     const int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
     const int stride = cairo_image_surface_get_stride(surface);
     *out = (image){.width = (size_t)width, .height = (size_t)height, .white = 255};
-    if (!image_create(out)) return IMAGE_MEMORY;
+    if (!image_create(out)) return false;
     for (int row = 0; row < height; row++)
         for (int column = 0; column < width; column++) {
             uint32_t pixel;
             memcpy(&pixel, data + (ptrdiff_t)row * stride + (ptrdiff_t)column * 4, sizeof pixel);
             out->grey[(size_t)row * out->width + (size_t)column] = luminance(pixel);
         }
-    return IMAGE_READ;
+    return true;
+}
+
+static image_status convert(image *out, cairo_surface_t *surface)
+{
+    cairo_surface_t *pixels = of_eight_bits(surface);
+    const bool complete = pixels != NULL && copy(out, pixels);
+    cairo_surface_destroy(pixels);
+    return complete ? IMAGE_READ : IMAGE_MEMORY;
 }
 
 image_status png_parse(image *out, char *fault, const char *bytes, size_t size)
@@ -96,7 +124,7 @@ image_status png_parse(image *out, char *fault, const char *bytes, size_t size)
     cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(give, &from);
     const image_status result =
         cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS
-            ? copy(out, fault, surface)
+            ? convert(out, surface)
             : refuse(fault, "the PNG image is damaged"); /* cairo calls that out of memory, too */
     cairo_surface_destroy(surface);
     return result;

@@ -405,10 +405,10 @@ DEM_API void dem_simulation_destroy(dem_simulation *simulation);
  *          in which it was asked for: another advance goes on from there */
 DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
 
-/** Puts nodes elsewhere, or gives them other velocities, where the last advance has ended: not from an observer. Contacts
- *  are looked for at the next advance, as at the start, and until then there are none; then observers are shown the
- *  step, and a record is taken: an older one is of the motion that was. What it changes of the energy counts as put in
- *  from outside (`boundary`). Copies both.
+/** Puts nodes elsewhere, or gives them other velocities, where the last advance has ended: not from an observer.
+ *  Contacts are looked for at the next advance, as at the start, and until then there are none; then observers are
+ *  shown the step, and a record is taken: an older one is of the motion that was. What it changes of the energy counts
+ *  as put in from outside (`boundary`). Copies both.
  *  \param x  [n_nodes][2] m, no deeper in obstacles than the skin; NULL: as it is
  *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
  *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */

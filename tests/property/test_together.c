@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs in several threads at once are the runs one after the other: random bodies in fields of force, by both methods of
- * contact, each with a trajectory, events and segments of its own, with readings of it and of what is not there; the
+/* Runs in several threads at once are the runs one after the other: random bodies in fields of force, by both methods
+ * of contact, each with a trajectory, events and segments of its own, with readings of it and of what is not there; the
  * same bits and the same files. `test_together [ROUNDS [FIRST_SEED]]`. */
 #include <pthread.h>
 #include <stdio.h>

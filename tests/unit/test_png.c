@@ -14,9 +14,10 @@ static const unsigned char grey8[] = {
 
 #ifdef DEM_CAIRO
 static const unsigned char grey16[] = {
-    137, 80, 78, 71,  13, 10,  26,  10,  0,   0,   0, 13, 73, 72, 68, 82, 0,  0,   0,   2,  0,   0,   0,   1,
-    16,  0,  0,  0,   0,  129, 217, 252, 21,  0,   0, 0,  13, 73, 68, 65, 84, 120, 218, 99, 104, 168, 255, 255,
-    31,  0,  6,  127, 2,  254, 20,  249, 153, 103, 0, 0,  0,  0,  73, 69, 78, 68,  174, 66, 96,  130,
+    137, 80,  78,  71, 13,  10,  26,  10,  0,  0,   0,   13,  73,  72,  68,  82,  0,  0,   0,  6,
+    0,   0,   0,   1,  16,  0,   0,   0,   0,  136, 50,  92,  111, 0,   0,   0,   21, 73,  68, 65,
+    84,  120, 156, 99, 96,  248, 207, 200, 80, 255, 191, 129, 225, 223, 255, 255, 12, 0,   33, 240,
+    5,   251, 64,  1,  144, 2,   0,   0,   0,  0,   73,  69,  78,  68,  174, 66,  96, 130,
 };
 
 static const unsigned char colours[] = {
@@ -57,12 +58,12 @@ static void expect_grey(const unsigned char *bytes, size_t size, size_t width, c
     image_free(&out);
 }
 
-/* Rec. 601: 0.299, 0.587 and 0.114 of 255. Sixteen bits become eight. */
+/* Rec. 601: 0.299, 0.587 and 0.114 of 255. Of sixteen bits the upper eight count: 0x00ff, 0x0100, 0x7fff, ... */
 static void images_become_grey(void **state)
 {
     (void)state;
     expect_grey(grey8, sizeof grey8, 3, (const unsigned[]){0, 128, 255, 1, 2, 3});
-    expect_grey(grey16, sizeof grey16, 2, (const unsigned[]){128, 255});
+    expect_grey(grey16, sizeof grey16, 6, (const unsigned[]){0, 1, 127, 128, 254, 255});
     expect_grey(colours, sizeof colours, 4, (const unsigned[]){77, 149, 29, 255});
     expect_grey(clear, sizeof clear, 2, (const unsigned[]){0, 255});
 }
