@@ -46,11 +46,14 @@ contains
     type(trapped), pointer :: b
     type(dem_state) :: state
     real(c_double), pointer :: x(:, :), v(:, :)
+    integer :: k
     call c_f_pointer(context, b)
     call dem_simulation_state(simulation, state)
     call c_f_pointer(state%x, x, shape(b%rest))
     call c_f_pointer(state%v, v, shape(b%rest))
-    b%way = matmul(x - b%rest, b%mass) / sum(b%mass)
+    do k = 1, 2
+      b%way(k) = dot_product(b%mass, x(k, :) - b%rest(k, :)) / sum(b%mass)
+    end do
     if (state%t <= 0) b%stress = stress_error(simulation, size(b%mass))
     look = merge(DEM_STOPPED, DEM_OK, dot_product(b%mass, v(1, :)) < 0)
   end function
