@@ -66,6 +66,10 @@ typedef struct ball_state {
 /** Puts the first n nodes into the state of all. */
 void ball_put(const ball *b, const ball_state *s, dem_index n);
 
+/** Asks for the forces from outside, if there are any, on the nodes of some rings at t: the answer is by their numbers
+ *  here. */
+void ball_push(const ball *b, int rings, double t, const double *x, const double *v);
+
 /** Accelerations a [n][2] of the nodes of some rings, closed contacts included, in a state that ball_put() has put as
  *  far as one ring more. */
 void ball_accelerate(ball *b, int rings, const ball_state *s, double *a);

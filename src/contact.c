@@ -216,8 +216,10 @@ static void solve_all(contact_sites *c, const double *x, const double *v)
     for (dem_index g = 0; g < c->reactions.n_groups; g++) reactions_solve(&c->reactions, g, x, v);
 }
 
+/* A force without what should come from outside is none: the last known stays. */
 static void store_all(contact_sites *c)
 {
+    if (coupling_failed(c->scene.rule.load.coupling)) return;
     for (dem_index m = 0; m < c->reactions.row[c->reactions.n_groups]; m++) sites_store(c, c->reactions.members[m]);
 }
 
@@ -369,14 +371,14 @@ dem_status contact_admissible(const contact *c, const double *x)
 {
     const contact_scene *scene = &c->sites.scene;
     for (dem_index k = 0; k < c->sites.n; k++) {
-        const contact_site *site = &c->sites.list[k];
-        const contact_spot spot = site_spot(site, x);
-        const contact_gap gap = site_gap(scene, site, &spot);
+        const contact_site site = sites_anew(&c->sites.list[k]);
+        const contact_spot spot = site_spot(&site, x);
+        const contact_gap gap = site_gap(scene, &site, &spot);
         if (gap.distance >= -scene->rule.skin) continue;
-        const segment *s = scene_segment(scene, touch_segment(scene, site, gap.feature));
-        CHECK(site_is_edge(site), DEM_ERROR_MODEL,
+        const segment *s = scene_segment(scene, touch_segment(scene, &site, gap.feature));
+        CHECK(site_is_edge(&site), DEM_ERROR_MODEL,
               "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the skin of %g m",
-              (long long)site->node, spot.a.x, spot.a.y, -gap.distance, (long long)s->obstacle, scene->rule.skin);
+              (long long)site.node, spot.a.x, spot.a.y, -gap.distance, (long long)s->obstacle, scene->rule.skin);
         return status_fail(DEM_ERROR_MODEL,
                            "the vertex at (%g, %g) m of obstacle %lld starts %g m inside the body, deeper than the "
                            "skin of %g m",
@@ -406,6 +408,14 @@ dem_status contact_start(contact *c, double t, double *y, const contact_listener
         }
     const dem_status status = contact_resolve(c, t, y, listener);
     return now.told != DEM_OK ? now.told : status;
+}
+
+dem_status contact_forget(contact *c)
+{
+    c->solved = NAN;
+    c->quiet = c->all = false;
+    for (dem_index k = 0; k < c->sites.n; k++) c->sites.list[k] = sites_anew(&c->sites.list[k]);
+    return sites_regroup(&c->sites);
 }
 
 dem_status contact_renew(contact *c, const double *y)

@@ -22,11 +22,16 @@ typedef struct contact {
 dem_status contact_create(contact *out, const dem_model *model, const contact_rule *rule);
 void contact_destroy(contact *c);
 
-/** Whether no site is deeper in an obstacle than the skin: else DEM_ERROR_MODEL names the node.  \param x [n][2] */
+/** Whether no site without contacts is deeper in an obstacle than the skin: else DEM_ERROR_MODEL names the node.
+ *  \param x  [n][2] */
 dem_status contact_admissible(const contact *c, const double *x);
 
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener);
+
+/** Opens all contacts without a word, for contact_start() to find those of another motion.
+ *  \return DEM_ERROR_MEMORY */
+dem_status contact_forget(contact *c);
 
 /** Takes up the contacts that sites are said to have in the state y: what follows from them is worked out anew.
  *  \return DEM_ERROR_MEMORY */

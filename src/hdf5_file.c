@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -208,21 +209,43 @@ static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *
     return u->status == DEM_OK ? 0 : -1;
 }
 
+/* One thread at a time has files open, as many as it likes: HDF5 may be built without locks, and whether it loads
+ * plugins is the process's. Where it has locks, it does not do two things at once either. */
+static pthread_mutex_t turn;
+static pthread_once_t turn_made = PTHREAD_ONCE_INIT;
+
+static void make_turn(void)
+{
+    pthread_mutexattr_t recursive;
+    (void)pthread_mutexattr_init(&recursive);
+    (void)pthread_mutexattr_settype(&recursive, PTHREAD_MUTEX_RECURSIVE);
+    (void)pthread_mutex_init(&turn, &recursive);
+    (void)pthread_mutexattr_destroy(&recursive);
+}
+
+static void prepare(hdf5_file *file)
+{
+    (void)pthread_once(&turn_made, make_turn);
+    (void)pthread_mutex_lock(&turn);
+    (void)H5Eget_auto2(H5E_DEFAULT, &file->report, &file->report_data);
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    (void)H5PLget_loading_state(&file->plugins);
+    (void)H5PLset_loading_state(0);
+}
+
 /* Leaves HDF5 as it was found. */
 static void restore(const hdf5_file *file)
 {
     (void)H5PLset_loading_state(file->plugins);
     (void)H5Eset_auto2(H5E_DEFAULT, file->report, file->report_data);
+    (void)pthread_mutex_unlock(&turn);
 }
 
 static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
 {
     hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
     dem_status status = DEM_OK;
-    (void)H5Eget_auto2(H5E_DEFAULT, &file.report, &file.report_data);
-    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    (void)H5PLget_loading_state(&file.plugins);
-    (void)H5PLset_loading_state(0);
+    prepare(&file);
     const hid_t how = make_access();
     if (access == H5F_ACC_TRUNC)
         file.id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, how);

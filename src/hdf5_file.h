@@ -12,8 +12,8 @@
 /** Number types. In memory HDF5_F32 is double too, HDF5_I8 is int64_t; the others are what they say. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
 
-/** An open file. From its opening to its closing HDF5's own error printing is off in this thread, and in this process
- *  the loading of plugins, which are programs that a file names. */
+/** An open file. From its opening to its closing, both in one thread, other threads wait with theirs; HDF5's own error
+ *  printing is off in this thread, and in this process the loading of plugins, which are programs that a file names. */
 typedef struct hdf5_file {
     hid_t id;
     const char *path;

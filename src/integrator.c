@@ -40,6 +40,7 @@ struct integrator {
     double asked;            /* s, what ARKODE is told to begin with after a restart; 0: nothing */
     bool knows_f0;           /* f0 is that of y0, */
     bool gives_f0;           /* and what ARKODE is given when it asks for it */
+    bool refused;            /* the last derivative cannot be had, whatever the step */
     dem_counts counts;
     char message[256]; /* ARKODE's last complaint */
 };
@@ -55,7 +56,9 @@ static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
     }
     I->counts.evaluations++;
     double *u = vector_fresh(f), *a = u + 2 * I->problem.n_nodes;
-    return I->problem.derivative(t, vector_values(y), u, a, I->problem.context) == 0 ? 0 : -1;
+    const int flag = I->problem.derivative(t, vector_values(y), u, a, I->problem.context);
+    I->refused = flag > 1;
+    return flag == 0 ? 0 : -1;
 }
 
 /* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation they are the stored ones: no
@@ -374,7 +377,7 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
             (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, vector_values(I->y0)));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
-        if (I->problem.fixed_step > 0.0 || attempt == max_retries)
+        if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)
             return DEM_ERROR_INTEGRATOR; /* message: derivative's */
         TRY(retry(I, &h));
     }

@@ -192,7 +192,7 @@ static double accelerate_row(const kernel *k, const model_load *load, const kern
 {
     const sweep_leap *p = y->leap;
     if (p != NULL) drift(k, p, i, i + 1);
-    const vec2 a = model_acceleration(k->model, load, i, y->x, y->v);
+    const vec2 a = model_own_acceleration(k->model, load, i, y->x, y->v);
     vec2_put(y->a, i, a);
     if (p != NULL) k->bulk->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
     return a.x + a.y;
@@ -232,9 +232,23 @@ static double accelerate_rest(const kernel *k, const model_load *load, const ker
     return sum;
 }
 
+/* What comes from outside is asked for all nodes at once. */
+static double push(const kernel *k, const model_load *load, const kernel_state *y)
+{
+    coupling *c = load->coupling;
+    double sum = 0.0;
+    coupling_ask(c, &(dem_force_query){y->v[load->clock], c->n_nodes, c->all, y->x, y->v});
+    for (dem_index i = 0; i < c->n_nodes; i++) {
+        const vec2 a = vec2_along(vec2_at(y->a, i), k->model->inverse_mass[i], vec2_at(c->answer, i));
+        vec2_put(y->a, i, a);
+        sum += a.x + a.y;
+    }
+    return sum;
+}
+
 bool kernel_may_leap(const kernel *k, const model_load *load)
 {
-    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && load->boundaries == NULL;
+    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && !model_is_driven(load);
 }
 
 double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y)
@@ -264,7 +278,8 @@ double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *
     double sum = sweep_blocks(k, &s);
     if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
-    return sum + accelerate_rest(k, load, y);
+    sum += accelerate_rest(k, load, y);
+    return load->coupling != NULL ? sum + push(k, load, y) : sum;
 }
 
 static double guard_bound(const kernel *k, const double *x, dem_index q)

@@ -2,6 +2,7 @@
 /* The group /lattice of an HDF5 file. It may come from anywhere: nothing is allocated unchecked. */
 #include "lattice_file.h"
 
+#include "foreign.h"
 #include "lattice.h"
 #include "sides.h"
 #include "status.h"
@@ -11,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum rows_of { NODES, SPRINGS, TRIANGLES, ANY, N_ROWS_OF };
 enum array {
@@ -60,19 +60,13 @@ static const struct dataset {
     [CONTACT_NODES] = {"/lattice/contact_nodes", HDF5_I64, ANY, 1, 0},
 };
 
-/* Larger than any lattice, small enough that sizes in bytes do not overflow. */
-static const hsize_t most_rows = (hsize_t)1 << 40;
-
-/* Deflate makes nothing shorter than by this factor. */
-static const hsize_t most_deflation = 1032;
-
 typedef struct reader {
     hdf5_file file;
     hsize_t rows[N_ROWS_OF]; /* valid once `known` */
     int known[N_ROWS_OF];
     int springs; /* one of their datasets is there */
     int measure; /* nothing but extents is wanted */
-    int present[N_ARRAYS];
+    bool present[N_ARRAYS];
     void *data[N_ARRAYS];
 } reader;
 
@@ -85,188 +79,74 @@ static size_t item_size(hdf5_kind kind)
 
 static dem_status refuse(const reader *r, const char *name, const char *reason)
 {
-    return status_fail(DEM_ERROR_IO, "%s: %s: %s", r->file.path, name, reason);
+    return foreign_refuse(&r->file, name, reason);
 }
 
-/* As h5py stores it: an enumeration of FALSE = 0 and TRUE = 1. */
-static int is_boolean(hid_t type)
+static dem_status check_extent(reader *r, const struct dataset *d, const foreign_shape *shape)
 {
-    signed char no = -1, yes = -1;
-    if (H5Tget_class(type) != H5T_ENUM || H5Tget_size(type) != 1 || H5Tget_nmembers(type) != 2) return 0;
-    return H5Tenum_valueof(type, "FALSE", &no) >= 0 && H5Tenum_valueof(type, "TRUE", &yes) >= 0 && no == 0 && yes == 1;
-}
-
-static dem_status check_type(const reader *r, const struct dataset *d, hid_t type)
-{
-    const H5T_class_t class = H5Tget_class(type);
-    const int number = d->kind == HDF5_F64, flag = d->kind == HDF5_U8;
-    const int fits = class == H5T_INTEGER || (number && class == H5T_FLOAT) || (flag && is_boolean(type));
-    if (fits && H5Tget_size(type) <= 16) return DEM_OK;
-    return refuse(r, d->name,
-                  number ? "is neither floating-point nor integer"
-                  : flag ? "is neither integer nor boolean"
-                         : "is not integer");
-}
-
-static dem_status check_filters(const reader *r, const struct dataset *d, hid_t layout)
-{
-    const int n = H5Pget_nfilters(layout);
-    int deflates = 0;
-    for (int k = 0; k < n; k++) {
-        size_t n_values = 0;
-        unsigned flags = 0;
-        const H5Z_filter_t filter = H5Pget_filter2(layout, (unsigned)k, &flags, &n_values, NULL, 0, NULL, NULL);
-        deflates += filter == H5Z_FILTER_DEFLATE;
-        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32)
-            return refuse(r, d->name, "uses a filter other than deflate, shuffle and fletcher32");
-    }
-    return n < 0 || deflates > 1 ? refuse(r, d->name, "has filters that cannot be told") : DEM_OK;
-}
-
-/* Sizes are only believed as far as the bytes in the file bear them out. */
-static dem_status check_storage(const reader *r, const struct dataset *d, hid_t dataset, hsize_t bytes)
-{
-    const hid_t layout = H5Dget_create_plist(dataset);
-    const H5D_layout_t kind = H5Pget_layout(layout);
-    dem_status status;
-    hsize_t in_file = 0;
-    (void)H5Fget_filesize(r->file.id, &in_file);
-    const hsize_t stored = H5Dget_storage_size(dataset);
-    if (H5Pget_external_count(layout) != 0)
-        status = refuse(r, d->name, "keeps its data in an external file");
-    else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
-        status = refuse(r, d->name, "has a virtual or unknown layout");
-    else if ((status = check_filters(r, d, layout)) == DEM_OK &&
-             (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0)))
-        status = refuse(r, d->name, "claims more data than the file holds");
-    (void)H5Pclose(layout);
-    return status;
-}
-
-static dem_status check_extent(reader *r, const struct dataset *d, hid_t dataset)
-{
-    hsize_t extent[2] = {0, 1};
+    const hsize_t rows = shape->extent[0];
     const int rank = d->width > 1 ? 2 : 1;
-    const hid_t space = H5Dget_space(dataset);
-    const int simple = H5Sget_simple_extent_type(space) == H5S_SIMPLE && H5Sget_simple_extent_ndims(space) == rank;
-    if (simple) (void)H5Sget_simple_extent_dims(space, extent, NULL);
-    (void)H5Sclose(space);
-    CHECK(simple && extent[1] == d->width, DEM_ERROR_IO, "%s: %s: is not of shape [n]%s", r->file.path, d->name,
+    CHECK(shape->rank == rank && (rank == 1 || shape->extent[1] == d->width), DEM_ERROR_IO,
+          "%s: %s: is not of shape [n]%s", r->file.path, d->name,
           d->width == 2   ? "[2]"
           : d->width == 3 ? "[3]"
                           : "");
-    if (extent[0] > most_rows) return refuse(r, d->name, "has more than 2^40 rows");
-    CHECK(!r->known[d->of] || extent[0] == r->rows[d->of], DEM_ERROR_MODEL,
+    CHECK(!r->known[d->of] || rows == r->rows[d->of], DEM_ERROR_MODEL,
           "%s: %s: has %llu rows where the datasets before it have %llu", r->file.path, d->name,
-          (unsigned long long)extent[0], (unsigned long long)r->rows[d->of]);
-    r->rows[d->of] = extent[0];
+          (unsigned long long)rows, (unsigned long long)r->rows[d->of]);
+    r->rows[d->of] = rows;
     r->known[d->of] = d->of != ANY;
     return DEM_OK;
 }
 
-static dem_status check_dataset(reader *r, const struct dataset *d, hid_t dataset)
-{
-    const hid_t type = H5Dget_type(dataset);
-    const dem_status status = check_type(r, d, type);
-    const hsize_t size = H5Tget_size(type);
-    (void)H5Tclose(type);
-    TRY(status);
-    TRY(check_extent(r, d, dataset));
-    return check_storage(r, d, dataset, r->rows[d->of] * d->width * size);
-}
-
 /* ---- reading ---- */
 
-/* A number that does not fit is an error, not the nearest number that does. */
-static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid_t to, void *value, void *result,
-                                    void *context)
-{
-    (void)from, (void)to, (void)value, (void)result, (void)context;
-    return exception == H5T_CONV_EXCEPT_RANGE_HI || exception == H5T_CONV_EXCEPT_RANGE_LOW ? H5T_CONV_ABORT
-                                                                                           : H5T_CONV_UNHANDLED;
-}
-
-static dem_status read_data(reader *r, enum array a, hid_t dataset)
+static dem_status read_data(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
-    r->data[a] = lattice_zeros((dem_index)(r->rows[d->of] * d->width), item_size(d->kind));
+    const foreign_rows all = {0, r->rows[d->of], 0};
+    r->data[a] = lattice_zeros((dem_index)(all.count * d->width), item_size(d->kind));
     CHECK_MEMORY(r->data[a]);
-    if (r->rows[d->of] == 0) return DEM_OK;
-    const hid_t transfer = H5Pcreate(H5P_DATASET_XFER);
-    (void)H5Pset_type_conv_cb(transfer, on_conversion, NULL);
-    dem_status status = DEM_OK;
-    if (H5Dread(dataset, hdf5_memory_type(d->kind), H5S_ALL, H5S_ALL, transfer, r->data[a]) < 0)
-        status = hdf5_fail(&r->file, d->name, "cannot be read");
-    (void)H5Pclose(transfer);
-    return status;
-}
-
-/* Soft and external links could lead anywhere. */
-static dem_status check_link(const reader *r, const char *name, int *present)
-{
-    H5L_info_t info;
-    *present = H5Lexists(r->file.id, name, H5P_DEFAULT) > 0;
-    if (*present && (H5Lget_info(r->file.id, name, &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD))
-        return refuse(r, name, "is a soft or external link");
-    return DEM_OK;
+    return foreign_read(&r->file, d->name, d->kind, all, r->data[a]);
 }
 
 static dem_status read_array(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
-    TRY(check_link(r, d->name, &r->present[a]));
+    foreign_shape shape;
+    TRY(foreign_find(&r->file, d->name, &r->present[a]));
     if (!r->present[a])
         return d->required && (d->of != SPRINGS || r->springs) ? refuse(r, d->name, "is missing") : DEM_OK;
-    const hid_t dataset = H5Dopen2(r->file.id, d->name, H5P_DEFAULT);
-    if (dataset < 0) return hdf5_fail(&r->file, d->name, "is not a readable dataset");
-    dem_status status = check_dataset(r, d, dataset);
-    if (status == DEM_OK && !r->measure) status = read_data(r, a, dataset);
-    (void)H5Dclose(dataset);
-    return status;
+    TRY(foreign_measure(&r->file, d->name, d->kind, &shape));
+    TRY(check_extent(r, d, &shape));
+    return r->measure ? DEM_OK : read_data(r, a);
 }
 
 /* A name that is not known is a misspelt one, and what it holds would be missed without a word. */
-static herr_t check_name(hid_t group, const char *name, const H5L_info_t *info, void *context)
+static dem_status check_name(void *context, const char *name)
 {
     reader *r = context;
-    char known[192] = "", printable[41];
+    char known[192] = "", printable[FOREIGN_PRINTABLE];
     size_t n = 0;
-    (void)group, (void)info;
     for (int a = 0; a < N_ARRAYS; a++) {
         const char *own = datasets[a].name + sizeof "/lattice";
         if (strcmp(name, own) == 0) {
             r->springs |= datasets[a].of == SPRINGS;
-            return 0;
+            return DEM_OK;
         }
         n += (size_t)snprintf(known + n, sizeof known - n, "%s%s", a == 0 ? "" : ", ", own);
     }
-    for (n = 0; n + 1 < sizeof printable && name[n] != '\0'; n++)
-        printable[n] = name[n] > ' ' && name[n] <= '~' ? name[n] : '?';
-    printable[n] = '\0';
-    (void)status_fail(DEM_ERROR_IO, "%s: /lattice/%s: is none of the datasets of a lattice: %s", r->file.path,
-                      printable, known);
-    return 1;
-}
-
-/* In no order: to sort the names of a damaged group, HDF5 1.10 frees what it has not allocated. */
-static dem_status check_names(reader *r)
-{
-    const hid_t group = H5Gopen2(r->file.id, "/lattice", H5P_DEFAULT);
-    if (group < 0) return hdf5_fail(&r->file, "/lattice", "is not a readable group");
-    const herr_t stopped = H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, check_name, r);
-    const dem_status status = stopped < 0   ? hdf5_fail(&r->file, "/lattice", "cannot be listed")
-                              : stopped > 0 ? DEM_ERROR_IO
-                                            : DEM_OK;
-    (void)H5Gclose(group);
-    return status;
+    foreign_print(printable, name);
+    return status_fail(DEM_ERROR_IO, "%s: /lattice/%s: is none of the datasets of a lattice: %s", r->file.path,
+                       printable, known);
 }
 
 static dem_status read_arrays(reader *r)
 {
-    int present = 0;
-    TRY(check_link(r, "/lattice", &present));
+    bool present = false;
+    TRY(foreign_find(&r->file, "/lattice", &present));
     if (!present) return refuse(r, "/lattice", "is missing");
-    TRY(check_names(r));
+    TRY(foreign_list(&r->file, "/lattice", check_name, r));
     for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
     for (int a = 0; a < N_ARRAYS; a++)
         if (datasets[a].of == TRIANGLES && r->present[a] && !r->present[CORNERS])
@@ -335,9 +215,7 @@ static dem_status check_indices(const dem_lattice *lattice, const char *path)
 
 static dem_status read_file(reader *r, const char *path)
 {
-    struct stat kind;
-    CHECK(stat(path, &kind) != 0 || S_ISREG(kind.st_mode), DEM_ERROR_IO, "%s: is not a regular file", path);
-    TRY(hdf5_open_read(&r->file, path));
+    TRY(foreign_open(&r->file, path));
     return hdf5_close(&r->file, read_arrays(r));
 }
 

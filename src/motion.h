@@ -19,7 +19,8 @@ typedef struct motion {
     dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
     bool prescribes;    /* whether some x' are given, so that they are not v */
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An engine that knows v may leave
-     *  u out if nothing is prescribed. Returns 0, or 1 if something is not finite. */
+     *  u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or 2
+     *  if nothing may. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
     /** Does the step of all nodes but the books, whose positions and velocities at its end are given, and fills their
      *  rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not from this

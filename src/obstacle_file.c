@@ -2,9 +2,13 @@
 /* The polylines twice: as the model has them, and as one grid. */
 #include "obstacle_file.h"
 
+#include "foreign.h"
 #include "grid.h"
+#include "grow.h"
+#include "lattice.h"
 #include "status.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,6 +36,94 @@ dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
     }
     return DEM_OK;
 }
+
+/* ---- reading ---- */
+
+static dem_status read_law(const hdf5_file *file, const char *group, dem_obstacle *o)
+{
+    char law[16];
+    TRY(foreign_read_attribute(file, group, "restitution", HDF5_F64, &o->restitution));
+    TRY(foreign_read_attribute(file, group, "friction", HDF5_F64, &o->friction));
+    TRY(foreign_read_attribute_text(file, group, "friction_law", law, sizeof law));
+    if (strcmp(law, "paper") == 0)
+        o->friction_law = DEM_FRICTION_PAPER;
+    else if (strcmp(law, "coulomb") != 0)
+        return foreign_refuse(file, group, "friction_law is neither coulomb nor paper");
+    return DEM_OK;
+}
+
+/* The points are the caller's as soon as they are allocated. */
+static dem_status read_points(const hdf5_file *file, const char *name, dem_obstacle *o)
+{
+    foreign_shape shape;
+    TRY(foreign_measure(file, name, HDF5_F64, &shape));
+    if (shape.rank != 2 || shape.extent[1] != 2) return foreign_refuse(file, name, "is not of shape [n][2]");
+    double *points = lattice_zeros((dem_index)shape.extent[0], 2 * sizeof *points);
+    CHECK_MEMORY(points);
+    o->n_points = (dem_index)shape.extent[0];
+    o->points = points;
+    return foreign_read(file, name, HDF5_F64, (foreign_rows){0, shape.extent[0], 0}, points);
+}
+
+static dem_status check(const hdf5_file *file, const char *group, const dem_obstacle *o)
+{
+    char reason[256];
+    dem_index segments[2];
+    const dem_status status = dem_obstacle_check(o, segments);
+    if (status == DEM_OK || status == DEM_ERROR_MEMORY) return status;
+    (void)snprintf(reason, sizeof reason, "%s", dem_status_message());
+    return foreign_refuse(file, group, reason);
+}
+
+static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_obstacle *out)
+{
+    char points[64];
+    bool present = false;
+    (void)snprintf(points, sizeof points, "%s/points", group);
+    TRY(foreign_find(file, points, &present));
+    if (!present) return foreign_refuse(file, points, "is missing");
+    TRY(read_points(file, points, out));
+    TRY(read_law(file, group, out));
+    return check(file, group, out);
+}
+
+/* After a failure too, what is there is [*n]. */
+static dem_status read_all(const hdf5_file *file, dem_obstacle **out, dem_index *n)
+{
+    dem_index capacity = 0;
+    for (bool present = true; present;) {
+        char group[48];
+        (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)*n);
+        TRY(foreign_find(file, group, &present));
+        if (!present) break;
+        CHECK(grow_array((void **)out, &capacity, *n + 1, sizeof **out), DEM_ERROR_MEMORY, "out of memory");
+        (*out)[*n] = (dem_obstacle){0};
+        TRY(read_obstacle(file, group, &(*out)[(*n)++]));
+    }
+    return DEM_OK;
+}
+
+dem_status obstacle_file_read(const hdf5_file *file, dem_obstacle **out, dem_index *n)
+{
+    dem_obstacle *all = NULL;
+    dem_index n_all = 0;
+    const dem_status status = read_all(file, &all, &n_all);
+    if (status == DEM_OK) {
+        *out = all;
+        *n = n_all;
+    } else {
+        obstacle_file_free(all, n_all);
+    }
+    return status;
+}
+
+void obstacle_file_free(dem_obstacle *obstacles, dem_index n)
+{
+    for (dem_index o = 0; o < n; o++) free((void *)(uintptr_t)obstacles[o].points);
+    free(obstacles);
+}
+
+/* ---- writing for ParaView ---- */
 
 /* The polylines as one grid. */
 typedef struct outline {

@@ -114,12 +114,16 @@ static dem_status add_rate(patch *p, dem_index place, int stage, double sign, ve
 static bool has_powers(const patch *p)
 {
     const contact_scene *scene = &p->ball.sites->scene;
-    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || scene->rule.load.mass_damping > 0.0;
+    const model_load *load = &scene->rule.load;
+    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || load->mass_damping > 0.0 ||
+           load->coupling != NULL;
 }
 
-/* What damping takes at a node, and boundaries put in, W; of these what no event changes is left out. */
-static vec2 node_powers(const patch *p, dem_index i, const double *x, const double *v)
+/* What damping takes at node j of the ball, and what is put in from outside, W; of these what no event changes is left
+ * out. The forces from outside are those asked for last, at the same state. */
+static vec2 node_powers(const patch *p, dem_index j, const double *x, const double *v)
 {
+    const dem_index i = p->ball.nodes[j].i;
     const contact_scene *scene = &p->ball.sites->scene;
     const dem_model *model = scene->model;
     const model_load *load = &scene->rule.load;
@@ -128,6 +132,7 @@ static vec2 node_powers(const patch *p, dem_index i, const double *x, const doub
                   0.0};
     if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
     if (load->boundaries != NULL) power.y += vec2_dot(boundaries_force(load->boundaries, i, v[load->clock]), vi);
+    if (load->coupling != NULL) power.y += vec2_dot(vec2_at(load->coupling->answer, j), vi);
     const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
     if (held != 0) {
         const vec2 a = model_acceleration(model, load, i, x, v);
@@ -158,7 +163,7 @@ static dem_status add_rates(patch *p, int stage, double sign, const double *y)
     }
     if (has_powers(p))
         for (dem_index j = 0; j < p->ball.end[rings]; j++) {
-            const vec2 powers = node_powers(p, p->ball.nodes[j].i, y, v);
+            const vec2 powers = node_powers(p, j, y, v);
             totals[0].y += powers.x;
             totals[1].x += powers.y;
         }
@@ -177,7 +182,7 @@ static double stage_time(const patch *p, const path *step, int stage)
 static void put_time(const patch *p, const path *step, int stage, double *y)
 {
     const dem_index last = step->n_nodes - 1;
-    if (p->ball.sites->scene.rule.load.boundaries == NULL) return;
+    if (!model_is_driven(&p->ball.sites->scene.rule.load)) return;
     vec2_put(y, step->n_nodes + last, path_velocity(step, stage_time(p, step, stage), last));
 }
 
@@ -219,6 +224,7 @@ static dem_status open_end(patch *p, const path *step)
         vec2_put(p->v[p->last], j, vec2_at(step->y1, step->n_nodes + i));
         vec2_put(p->a[p->last], j, vec2_at(step->f1, step->n_nodes + i));
     }
+    ball_push(&p->ball, reach(p, END), step->y1[4 * step->n_nodes - 1], p->x[p->last], p->v[p->last]);
     TRY(add_rates(p, END, -1.0, step->y1));
     return add_rates(p, p->last, -1.0, step->y1);
 }

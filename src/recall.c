@@ -98,8 +98,8 @@ static bool is_possible(const contact_sites *c, const site_entry *e)
 
 static void forget(contact_site *site)
 {
-    *site = (contact_site){
-        .node = site->node, .other = site->other, .previous = site->previous, .next = site->next, .behind = {-1, -1}};
+    *site = sites_anew(site);
+    site->behind[0] = site->behind[1] = -1;
 }
 
 static void restore(contact_site *site, const site_entry *e)

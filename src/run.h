@@ -22,6 +22,7 @@ struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
     boundaries boundaries;
+    coupling *coupling; /* NULL: no force from outside */
     kernel kernel;
     overlap overlap;
     contact contact;
@@ -36,7 +37,8 @@ struct dem_simulation {
     bool in_hand;          /* whether there is one */
     bool at_event;         /* whether it ends with one */
     bool started;          /* whether the contacts of the initial state have been taken up */
-    bool advanced;         /* whether it goes on: no more observers */
+    bool advanced;         /* whether it has gone on: no more observers */
+    bool advancing;        /* whether it does so just now */
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
     dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
@@ -47,13 +49,15 @@ struct dem_simulation {
     dem_index unrecorded;     /* steps since the last record */
     dem_record *record;       /* the last one, */
     bool has_record;          /* if there is one */
+    dem_record *refuge;       /* what was before contacts change that ask for the force from outside, */
+    bool has_refuge;          /* while they do */
     dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
     audience audience;
 };
 
 /* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
  * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
- * the energies that friction and damping take; then the work of the boundaries, and last the time. Before them there is
+ * the energies that friction and damping take; then the work from outside, and last the time. Before them there is
  * room, so that the velocities begin at a cache line as the positions do. */
 static inline dem_index run_room(const dem_model *model)
 {
@@ -91,6 +95,7 @@ static inline model_load run_load(const dem_simulation *s)
     return (model_load){{o->gravity[0], o->gravity[1]},
                         o->mass_damping,
                         s->boundaries.first != NULL ? &s->boundaries : NULL,
+                        s->coupling,
                         2 * (s->model->lattice.n_nodes + run_books(s->model)) - 1};
 }
 

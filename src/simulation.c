@@ -59,7 +59,8 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     contact_constrain(&s->contact, y, a);
     const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
-    fill_rates(s, y, a + n_real, work);
+    fill_rates(s, y, a + n_real, s->coupling != NULL ? work + coupling_power(s->coupling, v) : work);
+    if (coupling_failed(s->coupling)) return 2;
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, a);
     return 1;
@@ -135,6 +136,37 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 
 /* ---- the loop ---- */
 
+/* Nothing goes on that a force from outside has not been there for. */
+static dem_status heed(const dem_simulation *s, dem_status status)
+{
+    return coupling_failed(s->coupling) ? DEM_STOPPED : status;
+}
+
+/* Keeps the state with its contacts, which are about to change at once. */
+static dem_status take_refuge(dem_simulation *s)
+{
+    if (s->coupling == NULL) return DEM_OK;
+    if (s->refuge == NULL) TRY(dem_record_create(&s->refuge));
+    TRY(recall_put(s, s->refuge));
+    s->has_refuge = true;
+    return DEM_OK;
+}
+
+/* The force from outside has failed: back to the last state that it was there for. */
+static dem_status fall_back(dem_simulation *s)
+{
+    dem_status status = DEM_OK;
+    if (s->in_hand) queue_undo(&s->queue);
+    s->in_hand = s->at_event = false;
+    if (s->has_refuge)
+        status = recall_get(s, s->refuge);
+    else
+        status = engine_restart(&s->engine, s->t, s->y);
+    s->has_refuge = false;
+    view_at(s, s->t, s->y);
+    return status_first(status, coupling_report(s->coupling));
+}
+
 /* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
  * too long. */
 static double shortening(const queue *q, dem_status status)
@@ -163,7 +195,7 @@ static dem_status take_local_step(dem_simulation *s)
         TRY(engine_step(&s->engine, &s->path, &rooted));
         engine_end(&s->engine, &y1, &f1);
         queue_start(&s->queue, &s->path, y1, f1, s->frame);
-        const dem_status status = queue_show(&s->queue, s->path.t1);
+        const dem_status status = heed(s, queue_show(&s->queue, s->path.t1));
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
         queue_undo(&s->queue);
@@ -178,7 +210,7 @@ static dem_status take_step_to_event(dem_simulation *s)
     bool rooted;
     TRY(engine_step(&s->engine, &s->path, &rooted));
     s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
-    return DEM_OK;
+    return heed(s, DEM_OK);
 }
 
 static dem_status take_step(dem_simulation *s)
@@ -193,6 +225,8 @@ static dem_status take_step(dem_simulation *s)
 /* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
+    TRY(heed(s, DEM_OK));
+    s->has_refuge = false;
     status = status_first(status, engine_restart(&s->engine, s->t, s->y));
     return status == DEM_ERROR_CONTACT ? status : status_first(status, tell_step(s));
 }
@@ -222,6 +256,7 @@ static bool settle_step(dem_simulation *s)
 static dem_status commit_step_to_event(dem_simulation *s)
 {
     const contact_listener listener = {hear_event, s};
+    if (s->at_event) TRY(take_refuge(s));
     const bool moved = settle_step(s);
     if (!s->at_event && moved) TRY(engine_restart(&s->engine, s->t, s->y));
     if (!s->at_event) return tell_step(s);
@@ -232,7 +267,7 @@ static dem_status commit_step_to_event(dem_simulation *s)
 static dem_status commit_local_step(dem_simulation *s)
 {
     TRY(tell_events(s, s->path.t1));
-    TRY(queue_show(&s->queue, s->path.t1));
+    TRY(heed(s, queue_show(&s->queue, s->path.t1)));
     const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
     s->events += s->queue.n_stops;
     TRY(engine_bound(&s->engine, queue_reach(&s->queue)));
@@ -252,8 +287,10 @@ static dem_status commit_step(dem_simulation *s)
 static dem_status start(dem_simulation *s)
 {
     const contact_listener listener = {hear_event, s};
-    s->started = true;
-    return go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
+    TRY(take_refuge(s));
+    const dem_status status = go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
+    s->started = !coupling_failed(s->coupling);
+    return status;
 }
 
 static bool wants_record(const dem_simulation *s)
@@ -273,23 +310,30 @@ static dem_status take_record(dem_simulation *s)
     return audience_record(&s->audience, s, s->record);
 }
 
-dem_status dem_simulation_advance(dem_simulation *s, double t_end)
+static dem_status advance(dem_simulation *s, double t_end)
 {
-    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
-    CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
-          t_end, s->seen_t);
-    s->advanced = true;
     if (!s->started) TRY(start(s));
     for (;;) {
         if (!s->in_hand && wants_record(s)) TRY(take_record(s));
         if (!s->in_hand) TRY(take_step(s));
-        TRY(tell_frames(s, t_end));
+        TRY(heed(s, tell_frames(s, t_end)));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));
     }
     TRY(tell_events(s, t_end));
     view_inside(s, t_end);
     return DEM_OK;
+}
+
+dem_status dem_simulation_advance(dem_simulation *s, double t_end)
+{
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
+    CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
+          t_end, s->seen_t);
+    s->advanced = s->advancing = true;
+    const dem_status status = advance(s, t_end);
+    s->advancing = false;
+    return coupling_failed(s->coupling) ? fall_back(s) : status;
 }
 
 /* ---- set-up ---- */
@@ -330,6 +374,7 @@ static dem_status set_up(dem_simulation *s)
     const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
     TRY(boundaries_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice, model->obstacles.n));
     s->options.boundaries = NULL;
+    TRY(coupling_create(&s->coupling, o, model->lattice.n_nodes));
     TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
@@ -376,6 +421,7 @@ static dem_status set_up(dem_simulation *s)
 static dem_status resume(dem_simulation *s, const dem_record *record)
 {
     TRY(recall_get(s, record));
+    if (coupling_failed(s->coupling)) return coupling_report(s->coupling);
     s->started = s->has_record = true;
     view_at(s, s->t, s->y);
     return record_copy(s->record, record);
@@ -420,12 +466,14 @@ void dem_simulation_destroy(dem_simulation *s)
     queue_destroy(&s->queue);
     contact_destroy(&s->contact);
     boundaries_free(&s->boundaries);
+    coupling_destroy(s->coupling);
     overlap_destroy(&s->overlap);
     free(s->initial);
     free(s->frame);
     free(s->contacts);
     free(s->measures);
     dem_record_destroy(s->record);
+    dem_record_destroy(s->refuge);
     free(s);
 }
 

@@ -20,6 +20,16 @@ typedef struct contact_sites {
 dem_status sites_create(contact_sites *c, const dem_model *model, const contact_rule *rule);
 void sites_destroy(contact_sites *c);
 
+/** A site of the same nodes without contacts, of which nothing is known but behind what it is. */
+static inline contact_site sites_anew(const contact_site *site)
+{
+    return (contact_site){.node = site->node,
+                          .other = site->other,
+                          .previous = site->previous,
+                          .next = site->next,
+                          .behind = {site->behind[0], site->behind[1]}};
+}
+
 /** What was known of a site's distance to other things holds no more. */
 static inline void sites_disturb(contact_site *site)
 {

@@ -100,7 +100,7 @@ static inline dem_index scene_velocities(const contact_scene *scene)
 }
 
 /** Where the books begin among the nodes of a state: pairs for the impulses of the obstacles, for those of their
- *  friction, then (energy that friction takes, that damping takes), (work of the boundaries, time). */
+ *  friction, then (energy that friction takes, that damping takes), (work from outside, time). */
 static inline dem_index scene_books(const contact_scene *scene)
 {
     return scene->model->lattice.n_nodes + scene->rule.n_books - 2 * scene->model->obstacles.n - 2;

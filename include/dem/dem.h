@@ -12,9 +12,12 @@
  *  A function that can fail returns a dem_status; what it writes through `out` is set only on DEM_OK, and after a
  *  failure nothing has changed. dem_status_message() then tells what happened, with names and numbers.
  *  The library never prints, exits or aborts, and has no global state but that message, which each thread has for
- *  itself: distinct objects may live in distinct threads. */
+ *  itself, and the turns in which threads use HDF5: distinct objects may live in distinct threads, and simulations in
+ *  several threads may share a model. */
 #ifndef DEM_DEM_H
 #define DEM_DEM_H
+
+#include <string.h>
 
 #include <dem/lattice.h>
 #include <dem/method.h>
@@ -151,6 +154,23 @@ typedef struct dem_boundary {
     double ramp;            /**< s, >= 0; > 0 for a displacement */
 } dem_boundary;
 
+/** Where an external force is wanted: n nodes with their places and velocities at an instant. */
+typedef struct dem_force_query {
+    double t;               /**< s */
+    dem_index n;            /**< nodes asked about: all of them, or those near a contact */
+    const dem_index *nodes; /**< [n] their numbers in the lattice */
+    const double *x, *v;    /**< [n][2] m, m/s: of nodes[k] at x[2 k], x[2 k + 1] */
+} dem_force_query;
+
+/** A force from outside, by which other programs act on the nodes. It may depend on t, the node's number, its x and its
+ *  v, and on nothing that changes during an advance: the same query has the same answer, whatever else is asked about
+ *  beside it. It is asked for states that are then thrown away, and not in the order of time. What varies in x, v or t
+ *  faster than the bodies themselves wants a `max_step` of its own. Called in the thread that calls
+ *  dem_simulation_advance(), dem_simulation_resume() or dem_simulation_boundary(), never from several at once.
+ *  \param[out] force  [n][2] N, zero at entry
+ *  \return other than DEM_OK to end the advance, which returns it */
+typedef dem_status (*dem_force)(void *context, const dem_force_query *query, double *force);
+
 /** With which instructions forces are evaluated. All give the same results to the bit. */
 typedef enum dem_kernel {
     DEM_KERNEL_AUTO = 0, /**< the last of these that the machine has */
@@ -206,11 +226,14 @@ typedef struct dem_options {
                                          on a tolerance; 0: no records */
     dem_index n_boundaries; /**< default 0 */
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
+    dem_force force;                /**< default NULL: no external force */
+    void *force_context;            /**< handed to it */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
 {
-    dem_options options = {0};
+    dem_options options;
+    memset(&options, 0, sizeof options); /* C++ warns of = {0} */
     options.struct_size = sizeof options;
     options.gravity[1] = -9.81;
     options.rtol = 1e-6;
@@ -233,7 +256,7 @@ typedef struct dem_energy {
     double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
     double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
     double projection; /**< put in by returning nodes from the skin to the surface so far */
-    double boundary;   /**< put in by boundaries so far: work of what prescribes motions, and of forces */
+    double boundary;   /**< put in from outside so far: work of what prescribes motions, and of forces */
 } dem_energy;
 
 /** Of motion and strain: what the ledger is compared with. */
@@ -377,10 +400,22 @@ DEM_API void dem_simulation_destroy(dem_simulation *simulation);
 
 /** Integrates (4) to t_end, with (9) and friction at every impact. The state there is interpolated, never stepped to,
  *  so a run to t1 continued to t2 is a run to t2.
- *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state */
+ *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state,
+ *          and what the external force returned, or DEM_ERROR_INTEGRATOR if it is not finite, with that before the step
+ *          in which it was asked for: another advance goes on from there */
 DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
 
-/** The last record, valid and unchanged until the next advance; NULL before the first. */
+/** Puts nodes elsewhere, or gives them other velocities, where the last advance has ended: not from an observer.
+ *  Contacts are looked for at the next advance, as at the start, and until then there are none; then observers are
+ *  shown the step, and a record is taken: an older one is of the motion that was. What it changes of the energy counts
+ *  as put in from outside (`boundary`). Copies both.
+ *  \param x  [n_nodes][2] m, no deeper in obstacles than the skin; NULL: as it is
+ *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
+ *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */
+DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);
+
+/** The last record, valid and unchanged until the next advance; NULL before the first, and after
+ *  dem_simulation_set_motion(). */
 DEM_API const dem_record *dem_simulation_record(const dem_simulation *simulation);
 
 DEM_API void dem_simulation_state(const dem_simulation *simulation, dem_state *state);

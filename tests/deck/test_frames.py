@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs decks and reads their files back with VTK and h5py: `test_frames.py DEM_BATCH INPUTS READ_VTKHDF`."""
+"""Runs decks and reads their files back with VTK and h5py: `test_frames.py DEM_BATCH INPUTS READ_VTKHDF [OPTIONS]`;
+the options are handed on to the reader."""
 import pathlib
 import subprocess
 import sys
@@ -13,6 +14,7 @@ except ImportError as error:
     sys.exit(77)
 
 DEM_BATCH, INPUTS, READER = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
+OPTIONS = sys.argv[4:]
 
 PROBES = """
 &probe name = 'spring', kind = 'spring', number = 7, every = 3 /
@@ -45,7 +47,7 @@ BOUNCE = """
 def check(name, text, folder, *options):
     pathlib.Path(folder, "deck.nml").write_text(text, encoding="utf-8")
     subprocess.run([DEM_BATCH, "deck.nml"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    command = [sys.executable, READER, pathlib.Path(folder, f"{name}.vtkhdf"), *map(str, options)]
+    command = [sys.executable, READER, pathlib.Path(folder, f"{name}.vtkhdf"), *OPTIONS, *map(str, options)]
     return subprocess.run(command, check=False).returncode
 
 

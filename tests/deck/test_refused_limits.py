@@ -134,7 +134,7 @@ class Limits(refusal.Refusal):
         if self.sanitized:
             return
         self.put(of_size("100", "0.01"))
-        code, _, stderr, _ = self.run_program("--check", "--max-disk", "1000", "deck.nml", space=10**9)
+        code, _, stderr, _ = self.run_program("--check", *MANY, "deck.nml", space=10**9)
         self.assertEqual((code, stderr), (6, stderr_of([memory("14:5", "120", "1e+08", "1")])))
 
     def test_a_run_that_has_begun_may_fill_the_disk(self):

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -662,6 +663,39 @@ static void equal_data_makes_equal_files(void **state)
     free(b);
 }
 
+/* Opens the same file again and again, a second time within the first; \return how often plugins could be loaded. */
+static void *open_and_close(void *unused)
+{
+    static long faults[2]; /* of each thread one */
+    long *faulty = &faults[unused != NULL];
+    for (int k = 0; k < 2000; k++) {
+        hdf5_file file, within;
+        unsigned loaded = 0;
+        *faulty += hdf5_open_read(&file, path) != DEM_OK;
+        *faulty += hdf5_open_read(&within, path) != DEM_OK || hdf5_close(&within, DEM_OK) != DEM_OK;
+        (void)H5PLget_loading_state(&loaded);
+        *faulty += loaded != 0;
+        *faulty += hdf5_close(&file, DEM_OK) != DEM_OK;
+    }
+    return faulty;
+}
+
+static void threads_take_turns(void **state)
+{
+    pthread_t threads[2];
+    (void)state;
+    fill("text");
+    const unsigned before = plugins();
+    for (int k = 0; k < 2; k++)
+        assert_int_equal(pthread_create(&threads[k], NULL, open_and_close, k == 0 ? NULL : path), 0);
+    for (int k = 0; k < 2; k++) {
+        void *faulty;
+        assert_int_equal(pthread_join(threads[k], &faulty), 0);
+        assert_int_equal(*(long *)faulty, 0);
+    }
+    assert_int_equal(plugins(), before);
+}
+
 static void publishing_renames_and_replaces(void **state)
 {
     (void)state;
@@ -763,6 +797,7 @@ int main(void)
         CASE(closing_passes_a_failure_on),
         CASE(hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards),
         CASE(no_plugin_is_loaded_while_a_file_is_open),
+        CASE(threads_take_turns),
         CASE(equal_data_makes_equal_files),
         CASE(publishing_renames_and_replaces),
         CASE(what_cannot_be_read_back_is_not_published),

@@ -72,6 +72,49 @@ static void the_group_has_points_and_laws(void **state)
     dem_model_destroy(model);
 }
 
+static void they_are_read_back(void **state)
+{
+    (void)state;
+    dem_model *model = make_model();
+    hdf5_file file;
+    dem_obstacle *found = NULL;
+    dem_index n = 0, n_given = 0;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(obstacle_file_write(&file, model));
+    assert_ok(obstacle_file_read(&file, &found, &n));
+    const dem_obstacle *given = dem_model_obstacles(model, &n_given);
+    assert_int_equal(n, n_given);
+    for (dem_index o = 0; o < n; o++) {
+        assert_int_equal(found[o].n_points, given[o].n_points);
+        assert_memory_equal(found[o].points, given[o].points, 2 * (size_t)found[o].n_points * sizeof(double));
+        assert_close(found[o].restitution, given[o].restitution, 0.0);
+        assert_close(found[o].friction, given[o].friction, 0.0);
+        assert_int_equal(found[o].friction_law, given[o].friction_law);
+    }
+    obstacle_file_free(found, n);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
+static void what_is_no_obstacle_is_refused(void **state)
+{
+    (void)state;
+    dem_model *model = make_model();
+    hdf5_file file;
+    dem_obstacle *found = NULL;
+    dem_index n = 7;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(obstacle_file_write(&file, model));
+    assert_true(H5Adelete_by_name(file.id, "/obstacles/1", "friction_law", H5P_DEFAULT) >= 0);
+    assert_ok(hdf5_write_attribute_text(&file, "/obstacles/1", "friction_law", "dry"));
+    assert_int_equal(obstacle_file_read(&file, &found, &n), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/obstacles/1: friction_law is neither coulomb nor paper"));
+    assert_int_equal(n, 7);
+    assert_null(found);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
 static void the_file_has_them_as_lines(void **state)
 {
     (void)state;
@@ -101,6 +144,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_group_has_points_and_laws),
+        cmocka_unit_test(they_are_read_back),
+        cmocka_unit_test(what_is_no_obstacle_is_refused),
         cmocka_unit_test(the_file_has_them_as_lines),
         cmocka_unit_test(a_part_that_cannot_be_published_is_taken_away),
     };

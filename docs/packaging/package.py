@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Recipe of dem for Spack: docs/linking.md."""
+
+from spack_repo.builtin.build_systems.meson import MesonPackage
+
+from spack.package import *
+
+
+class Dem(MesonPackage):
+    """Impact of elastic bodies as lattices of point masses and springs: a C library, a batch driver that reads
+    Fortran namelists, pictures and conversion of its runs."""
+
+    license("BSD-3-Clause")
+
+    version("main", branch="main")
+
+    variant("openmp", default=True, description="Evaluate forces in several threads")
+    variant("cairo", default=True, description="Read PNG images as shapes of bodies, draw runs")
+
+    depends_on("c", type="build")
+    depends_on("meson@1.0:", type="build")
+    depends_on("pkgconfig", type="build")
+    # By which meson finds SUNDIALS.
+    depends_on("cmake", type="build")
+
+    depends_on("sundials@6.4:7 +ARKODE ~mpi")
+    depends_on("hdf5@1.10: ~mpi")
+    depends_on("gsl")
+    depends_on("zlib-api")
+    depends_on("cairo +png +svg +pdf", when="+cairo")
+
+    conflicts("default_library=static", msg="libdem is a shared library")
+
+    def meson_args(self):
+        switch = lambda variant: "enabled" if self.spec.satisfies(f"+{variant}") else "disabled"
+        return [
+            f"-Dopenmp={switch('openmp')}",
+            f"-Dcairo={switch('cairo')}",
+            "-Dtests=false",
+        ]

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "vtu.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "piece.h"
+
+enum { ENDING = 32 };
+
+static const char series[] = ".pvd", obstacles_file[] = ".obstacle.vtu";
+static const double line = 3.0; /* VTK_LINE */
+
+static void name_frame(char ending[ENDING], dem_index frame)
+{
+    (void)snprintf(ending, ENDING, "_%04lld.vtu", (long long)frame);
+}
+
+/* ---- lines ---- */
+
+typedef struct lines {
+    dem_index n;
+    double *ends, *offsets, *types; /* [n][2], [n], [n] */
+} lines;
+
+static void free_lines(lines *l)
+{
+    free(l->ends);
+    free(l->offsets);
+    free(l->types);
+}
+
+/* Without their ends; free after a failure too. */
+static bool make_lines(lines *out, const task *t, dem_index n)
+{
+    *out = (lines){n, task_allocate(t, 2 * n, sizeof(double)), task_allocate(t, n, sizeof(double)),
+                   task_allocate(t, n, sizeof(double))};
+    if (out->ends == NULL || out->offsets == NULL || out->types == NULL) return false;
+    for (dem_index k = 0; k < n; k++) {
+        out->offsets[k] = 2.0 * (double)(k + 1);
+        out->types[k] = line;
+    }
+    return true;
+}
+
+static piece_array *put_lines(piece_array *at, const lines *l)
+{
+    *at++ = (piece_array){PIECE_CELLS, "connectivity", DEM_FILM_I64, 1, 2 * l->n, l->ends, NULL};
+    *at++ = (piece_array){PIECE_CELLS, "offsets", DEM_FILM_I64, 1, l->n, l->offsets, NULL};
+    *at++ = (piece_array){PIECE_CELLS, "types", DEM_FILM_U8, 1, l->n, l->types, NULL};
+    return at;
+}
+
+/* ---- frames ---- */
+
+/* What the files of all frames are made of. */
+typedef struct reel {
+    const task *task;
+    lines springs;
+    double *x, *points;         /* [n_nodes][2], [n_nodes][3] m */
+    double *scratch, *energies; /* as of a piece; [columns] */
+    piece_array *arrays;
+    dem_index n_arrays;
+} reel;
+
+static void free_reel(reel *r)
+{
+    free_lines(&r->springs);
+    free(r->x);
+    free(r->points);
+    free(r->scratch);
+    free(r->energies);
+    free(r->arrays);
+}
+
+/* Time, and what the table of the frames has. */
+static piece_array *put_fields(piece_array *at, const reel *r)
+{
+    dem_index n = 0, k = 0;
+    const dem_film_column *columns = dem_film_columns(r->task->film, &n);
+    *at++ = (piece_array){PIECE_FIELD, "TimeValue", DEM_FILM_F64, 1, 1, r->energies, NULL};
+    for (dem_index c = 0; c < n; c++)
+        if (strcmp(columns[c].table, "frames") == 0 && columns[c].width == 1)
+            *at++ = (piece_array){PIECE_FIELD, columns[c].name, columns[c].type, 1, 1, &r->energies[++k], NULL};
+    return at;
+}
+
+static bool read_fields(const reel *r, dem_index frame)
+{
+    dem_index n = 0, k = 0;
+    const dem_film_column *columns = dem_film_columns(r->task->film, &n);
+    r->energies[0] = dem_film_times(r->task->film, &n)[frame];
+    (void)dem_film_columns(r->task->film, &n);
+    for (dem_index c = 0; c < n; c++)
+        if (strcmp(columns[c].table, "frames") == 0 && columns[c].width == 1 &&
+            !task_holds(r->task, dem_film_read_rows(r->task->film, &columns[c], frame, 1, &r->energies[++k])))
+            return false;
+    return true;
+}
+
+static bool allocate(reel *r)
+{
+    const dem_lattice *l = dem_film_lattice(r->task->film);
+    dem_index n_arrays = 0, n_columns = 0, largest = 0;
+    const dem_film_array *arrays = dem_film_arrays(r->task->film, &n_arrays);
+    (void)dem_film_columns(r->task->film, &n_columns);
+    for (dem_index k = 0; k < n_arrays; k++) {
+        const dem_index size = (arrays[k].of_springs ? l->n_springs : l->n_nodes) * arrays[k].components;
+        largest = size > largest ? size : largest;
+    }
+    r->x = task_allocate(r->task, 2 * l->n_nodes, sizeof *r->x);
+    r->points = task_allocate(r->task, 3 * l->n_nodes, sizeof *r->points);
+    r->scratch = task_allocate(r->task, largest, sizeof *r->scratch);
+    r->energies = task_allocate(r->task, 1 + n_columns, sizeof *r->energies);
+    r->arrays = task_allocate(r->task, n_arrays + n_columns + 5, sizeof *r->arrays);
+    return r->x != NULL && r->points != NULL && r->scratch != NULL && r->energies != NULL && r->arrays != NULL;
+}
+
+static bool make_reel(reel *r, const task *t)
+{
+    const dem_lattice *l = dem_film_lattice(t->film);
+    dem_index n = 0;
+    const dem_film_array *arrays = dem_film_arrays(t->film, &n);
+    *r = (reel){.task = t};
+    if (!make_lines(&r->springs, t, l->n_springs) || !allocate(r)) return false;
+    for (dem_index k = 0; k < 2 * l->n_springs; k++) r->springs.ends[k] = (double)l->ends[k];
+    piece_array *at = put_lines(put_fields(r->arrays, r), &r->springs);
+    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_FILM_F64, 3, l->n_nodes, r->points, NULL};
+    for (dem_index k = 0; k < n; k++)
+        *at++ = (piece_array){arrays[k].of_springs ? PIECE_CELL_DATA : PIECE_POINT_DATA,
+                              arrays[k].name,
+                              arrays[k].type,
+                              arrays[k].components,
+                              arrays[k].of_springs ? l->n_springs : l->n_nodes,
+                              NULL,
+                              &arrays[k]};
+    r->n_arrays = at - r->arrays;
+    return true;
+}
+
+static bool write_frame(const reel *r, dem_index frame)
+{
+    char ending[ENDING];
+    const dem_lattice *l = dem_film_lattice(r->task->film);
+    const piece p = {l->n_nodes, l->n_springs, r->n_arrays, r->arrays, frame, r->scratch};
+    name_frame(ending, frame);
+    if (!read_fields(r, frame) || !task_holds(r->task, dem_film_positions(r->task->film, frame, r->x))) return false;
+    for (dem_index i = 0; i < l->n_nodes; i++) memcpy(r->points + 3 * i, r->x + 2 * i, 2 * sizeof *r->x);
+    return piece_write(r->task, ending, &p);
+}
+
+static bool write_frames(const task *t)
+{
+    reel r;
+    bool good = make_reel(&r, t);
+    for (size_t k = 0; good && k < t->frames.n; k++) good = write_frame(&r, t->frames.frame[k]);
+    free_reel(&r);
+    return good;
+}
+
+static bool write_series(const task *t)
+{
+    sheet s;
+    char ending[ENDING];
+    dem_index n = 0;
+    const double *times = dem_film_times(t->film, &n);
+    if (!sheet_open(&s, t, "", series)) return false;
+    sheet_print(&s, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
+    for (size_t k = 0; k < t->frames.n; k++) {
+        name_frame(ending, t->frames.frame[k]);
+        sheet_print(&s, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"", times[t->frames.frame[k]]);
+        piece_print_text(&s, t->name);
+        sheet_print(&s, "%s\"/>\n", ending);
+    }
+    sheet_print(&s, "</Collection>\n</VTKFile>\n");
+    return sheet_close(&s, true);
+}
+
+/* ---- obstacles ---- */
+
+static bool write_outlines(const task *t, const dem_obstacle *obstacles, dem_index n, dem_index n_points)
+{
+    lines segments;
+    piece_array arrays[5], *at;
+    double *points = task_allocate(t, 3 * n_points, sizeof *points), *owner = task_allocate(t, n_points, sizeof *owner);
+    bool good = make_lines(&segments, t, n_points - n) && points != NULL && owner != NULL;
+    for (dem_index o = 0, point = 0, segment = 0; good && o < n; o++)
+        for (dem_index k = 0; k < obstacles[o].n_points; k++, point++) {
+            memcpy(points + 3 * point, obstacles[o].points + 2 * k, 2 * sizeof *points);
+            if (k == 0) continue;
+            segments.ends[2 * segment] = (double)(point - 1);
+            segments.ends[2 * segment + 1] = (double)point;
+            owner[segment++] = (double)o;
+        }
+    at = put_lines(arrays, &segments);
+    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_FILM_F64, 3, n_points, points, NULL};
+    *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_FILM_I32, 1, segments.n, owner, NULL};
+    const piece p = {n_points, segments.n, at - arrays, arrays, 0, NULL};
+    good = good && piece_write(t, obstacles_file, &p);
+    free_lines(&segments);
+    free(points);
+    free(owner);
+    return good;
+}
+
+static bool write_obstacles(const task *t)
+{
+    dem_index n = 0, n_points = 0;
+    const dem_obstacle *obstacles = dem_film_obstacles(t->film, &n);
+    for (dem_index o = 0; o < n; o++) n_points += obstacles[o].n_points;
+    return n == 0 || write_outlines(t, obstacles, n, n_points);
+}
+
+/* ---- all ---- */
+
+static bool is_free(const task *t)
+{
+    char ending[ENDING];
+    dem_index n = 0;
+    (void)dem_film_obstacles(t->film, &n);
+    bool good = sheet_is_free(t, "", series) && (n == 0 || sheet_is_free(t, "", obstacles_file));
+    for (size_t k = 0; good && k < t->frames.n; k++) {
+        name_frame(ending, t->frames.frame[k]);
+        good = sheet_is_free(t, "", ending);
+    }
+    return good;
+}
+
+bool vtu_export(const task *t)
+{
+    if (t->frames.n == 0) {
+        outcome_fail(t->outcome, EXIT_INVALID, "dem_export", "%s: has no frames", t->input);
+        return false;
+    }
+    return is_free(t) && write_frames(t) && write_series(t) && write_obstacles(t);
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Pictures of runs. Exit codes: README.md. */
+#include <stdio.h>
+
+#include <dem/film.h>
+
+#include "commit.h"
+#include "request.h"
+#include "show.h"
+#include "timeline.h"
+
+static void draw(const request *asked, outcome *o)
+{
+    dem_film *film = NULL;
+    const dem_status status = dem_film_open(&film, asked->input);
+    if (status != DEM_OK)
+        outcome_fail_status(o, status, "dem_plot");
+    else if (asked->action == REQUEST_HISTORY)
+        (void)timeline_draw(film, asked, stdout, o);
+    else if (asked->action == REQUEST_ANIMATION)
+        (void)show_animation(film, asked, stdout, o);
+    else
+        (void)show_strip(film, asked, stdout, o);
+    dem_film_close(film);
+}
+
+int main(int argc, char **argv)
+{
+    request asked;
+    outcome o = {.code = request_parse(&asked, argc > 0 ? argv + 1 : argv)};
+    if (o.code != EXIT_DONE) return (int)o.code;
+    if (asked.action == REQUEST_HELP)
+        request_help(stdout);
+    else if (asked.action == REQUEST_VERSION)
+        (void)printf("dem_plot of dem %s (%s)\n", dem_version(), DEM_COMMIT);
+    else
+        draw(&asked, &o);
+    const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
+    if (!printed) (void)fprintf(stderr, "dem_plot: error: standard output cannot be written\n");
+    return printed || o.code != EXIT_DONE ? (int)o.code : (int)EXIT_IO;
+}

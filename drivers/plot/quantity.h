@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What colours stand for: a number of each spring or of each node, from the arrays of a film. */
+#ifndef DEM_QUANTITY_H
+#define DEM_QUANTITY_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include <dem/film.h>
+
+#include "outcome.h"
+#include "palette.h"
+
+typedef struct quantity {
+    const char *name, *label;     /* as after --color, and beside the colours */
+    const dem_film_array *source; /* NULL: there is none, all springs have one colour */
+    int part;                     /* component, or -1: the length of the vector */
+    palette_kind scale;
+} quantity;
+
+/** By its name; NULL: the first of strain, force, von_mises and speed that the film has, or none. False after a fault,
+ *  which is told. */
+bool quantity_find(quantity *q, const dem_film *film, const char *name, outcome *o);
+
+/** Whether there is such a name. */
+bool quantity_is_known(const char *name);
+
+/** Prints all names, with commas between. */
+void quantity_list(FILE *out);
+
+/** How many numbers it has in a frame: of springs, or of nodes; 0 of none. */
+size_t quantity_count(const quantity *q, const dem_lattice *lattice);
+
+/** Those of a frame.
+ *  \param[out] value  [quantity_count()] */
+dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value);
+
+#endif

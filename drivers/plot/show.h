@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Frames of a film as pictures: a strip of some, or numbered files of all. */
+#ifndef DEM_SHOW_H
+#define DEM_SHOW_H
+
+#include <dem/film.h>
+
+#include "outcome.h"
+#include "request.h"
+
+/** As asked for; what was drawn is told in `log`. False after a fault, which is told. */
+bool show_strip(const dem_film *film, const request *asked, FILE *log, outcome *o);
+bool show_animation(const dem_film *film, const request *asked, FILE *log, outcome *o);
+
+#endif

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "snapshot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "digest.h"
+
+static void find_bare(snapshot *s)
+{
+    const dem_lattice *l = s->lattice;
+    memset(s->is_bare, 1, (size_t)l->n_nodes);
+    for (dem_index k = 0; k < 2 * l->n_springs; k++) s->is_bare[l->ends[k]] = 0;
+}
+
+bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o)
+{
+    const dem_lattice *l = dem_film_lattice(film);
+    const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, n = quantity_count(shown, l);
+    *s = (snapshot){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = span_reach_none()};
+    s->x = malloc(2 * nodes * sizeof *s->x);
+    s->value = malloc((n + 1) * sizeof *s->value);
+    s->work = malloc((n + 1) * sizeof *s->work);
+    s->is_bare = malloc(nodes);
+    if (dem_film_array_find(film, "broken") != NULL) s->broken = calloc(springs + 1, sizeof *s->broken);
+    const bool has_broken = s->broken != NULL || dem_film_array_find(film, "broken") == NULL;
+    if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && has_broken)
+        return find_bare(s), true;
+    outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory");
+    return false;
+}
+
+void snapshot_free(snapshot *s)
+{
+    free(s->x);
+    free(s->value);
+    free(s->work);
+    free(s->broken);
+    free(s->is_bare);
+    *s = (snapshot){0};
+}
+
+bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
+{
+    dem_index n;
+    dem_status status = dem_film_positions(s->film, frame, s->x);
+    if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->film, frame, s->value);
+    if (status == DEM_OK && s->broken != NULL && s->lattice->n_springs > 0)
+        status = dem_film_read(s->film, dem_film_array_find(s->film, "broken"), frame, s->broken);
+    if (status != DEM_OK) return outcome_fail_status(o, status, "dem_plot"), false;
+    s->frame = frame;
+    s->t = dem_film_times(s->film, &n)[frame];
+    s->bounds = box_around(s->lattice->n_nodes, s->x);
+    s->reach = span_reach_of(s->n_values, s->value, s->work);
+    return true;
+}
+
+double snapshot_spacing(const snapshot *s)
+{
+    const dem_lattice *l = s->lattice;
+    double sum = 0.0;
+    for (dem_index k = 0; k < l->n_springs; k++) sum += l->rest_length[k];
+    return l->n_springs > 0 ? sum / (double)l->n_springs : 0.0;
+}
+
+uint64_t snapshot_hash(const snapshot *s, uint64_t hash)
+{
+    hash = digest_add(hash, &s->frame, sizeof s->frame);
+    hash = digest_add(hash, &s->t, sizeof s->t);
+    hash = digest_add(hash, s->x, 2 * (size_t)s->lattice->n_nodes * sizeof *s->x);
+    return digest_add(hash, s->value, s->n_values * sizeof *s->value);
+}
+
+static double mean_of_nodes(const snapshot *s, const dem_index *nodes, int n)
+{
+    double sum = 0.0;
+    for (int k = 0; k < n; k++) sum += s->value[nodes[k]];
+    return sum / n;
+}
+
+double snapshot_spring_value(const snapshot *s, dem_index spring)
+{
+    if (s->shown->source == NULL) return 0.0;
+    if (s->shown->source->of_springs) return s->value[spring];
+    return mean_of_nodes(s, s->lattice->ends + 2 * spring, 2);
+}
+
+double snapshot_triangle_value(const snapshot *s, dem_index triangle)
+{
+    return mean_of_nodes(s, s->lattice->triangles + 3 * triangle, 3);
+}

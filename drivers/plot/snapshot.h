@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A frame of a film as it is drawn: where the nodes are, and the number that gives each its colour. */
+#ifndef DEM_SNAPSHOT_H
+#define DEM_SNAPSHOT_H
+
+#include <stdint.h>
+
+#include <dem/film.h>
+
+#include "box.h"
+#include "outcome.h"
+#include "quantity.h"
+#include "span.h"
+
+typedef struct snapshot {
+    const dem_film *film;
+    const quantity *shown;
+    const dem_lattice *lattice;
+    size_t n_values;
+    double *x;              /* [n_nodes][2] m */
+    double *value;          /* [n_values] of springs or nodes */
+    double *work;           /* [n_values] */
+    double *broken;         /* [n_springs] not 0 where a spring is no more; NULL: never */
+    unsigned char *is_bare; /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
+    dem_index frame;
+    double t;         /* s */
+    box bounds;       /* of the nodes, m */
+    span_reach reach; /* of the values */
+} snapshot;
+
+/** Without a frame yet; borrows film and quantity. False after a fault, which is told. To be freed in any case. */
+bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o);
+void snapshot_free(snapshot *s);
+
+/** False after a fault, which is told. */
+bool snapshot_load(snapshot *s, dem_index frame, outcome *o);
+
+/** The mean length of a spring of the lattice at rest, m; 0 without springs. */
+double snapshot_spacing(const snapshot *s);
+
+/** The hash of its frame, time, places and values, after `hash`. */
+uint64_t snapshot_hash(const snapshot *s, uint64_t hash);
+
+/** The number that colours a spring, or a triangle: its own, or the mean of its nodes'. 0 without a quantity. */
+double snapshot_spring_value(const snapshot *s, dem_index spring);
+double snapshot_triangle_value(const snapshot *s, dem_index triangle);
+
+#endif

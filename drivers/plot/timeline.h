@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The history of a run as a picture: charts one below the other over one axis of time. */
+#ifndef DEM_TIMELINE_H
+#define DEM_TIMELINE_H
+
+#include <dem/film.h>
+
+#include "outcome.h"
+#include "request.h"
+
+/** Energies, reactions of obstacles, forces of boundaries, contacts and steps, of those that the film has; what
+ *  was drawn is told in `log`. False after a fault, which is told. */
+bool timeline_draw(const dem_film *film, const request *asked, FILE *log, outcome *o);
+
+#endif

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the Fortran module dem_c, the C interface of include/dem: `bindings.py SOURCE_ROOT`.
+With `--check` it only says whether src/fortran/dem_c.f90 is what it would write."""
+import difflib
+import pathlib
+import sys
+
+from headers import read_headers
+
+NUMBERS = {
+    "double": "real(c_double)", "int": "integer(c_int)", "int32_t": "integer(c_int32_t)",
+    "uint32_t": "integer(c_int32_t)", "uint64_t": "integer(c_int64_t)", "size_t": "integer(c_size_t)",
+    "unsigned char": "integer(c_signed_char)", "dem_index": "integer(dem_index)", "char": "character(kind=c_char)"}
+
+# What C leaves open: how many of a thing a pointer is for. Structs are one unless they are here; other names are to be
+# in one of both. "function.argument" goes before "argument".
+ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_obstacles", "n_frames"}
+MANY = {
+    "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "n_edges": "*",
+    "nodes": "*", "springs": "*", "area": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
+    "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_force.force": "2, *",
+    "direction": "2"}
+MAY_BE_NULL = {
+    "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",
+    "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
+    "dem_simulation_set_motion.v"}
+FILLED = {"out", "state"}  # structs of which nothing is read
+ZERO_AT_ENTRY = {"dem_force.force"}
+
+MAX_LINE = 120
+HEAD = """\
+! SPDX-License-Identifier: BSD-3-Clause
+!> The C interface of dem, name by name, as src/fortran/bindings.py writes it from the headers in include/dem; these tell
+!> what everything does, with shapes, units, errors and ownership. Programs use the module dem, which is made of this.
+module dem_c
+  use, intrinsic :: iso_c_binding
+  implicit none
+  public
+
+  integer, parameter :: dem_index = c_int64_t
+"""
+
+
+class Writer:
+    def __init__(self, headers):
+        self.headers = headers
+        self.enums = {name for header in headers for name, _ in header.enums}
+        self.structs = {name for header in headers for name in header.structs}
+        self.callbacks = {name for header in headers for name in header.callbacks}
+        self.lines = HEAD.splitlines()
+
+    def kind(self, item):
+        """The Fortran type of a value."""
+        if item.type in NUMBERS:
+            return NUMBERS[item.type]
+        return f"integer({item.type})" if item.type in self.enums else f"type({item.type})"
+
+    def extents(self, function, item):
+        """Of what a pointer points to."""
+        if item.shape:
+            return "(" + ", ".join(map(str, reversed(item.shape))) + ")"
+        for name in (f"{function.name}.{item.name}", item.name):
+            if name in MANY:
+                return f"({MANY[name]})"
+        if item.type not in self.structs and item.name not in ONE:
+            raise SystemExit(f"{function.name}: is '{item.name}' one or many? Say so in bindings.py")
+        return ""
+
+    def argument(self, function, item):
+        """Its declaration: attributes, name with extents."""
+        if item.type in self.callbacks:
+            return f"procedure({item.type})", item.name
+        if item.stars == 2:
+            return "type(c_ptr), intent(out)", item.name
+        if item.stars == 1 and item.type not in NUMBERS and item.type not in self.structs | self.enums:
+            return "type(c_ptr), value", item.name
+        if not item.stars and not item.shape:
+            return f"{self.kind(item)}, value", item.name
+        full = f"{function.name}.{item.name}"
+        read_too = item.type in self.structs and item.name not in FILLED or full in ZERO_AT_ENTRY
+        changed = "inout" if read_too else "out"
+        optional = ", optional" if full in MAY_BE_NULL else ""
+        return (f"{self.kind(item)}, intent({'in' if item.const else changed}){optional}",
+                item.name + self.extents(function, item))
+
+    def member(self, item):
+        if item.type in self.callbacks:
+            return "type(c_funptr)", f"{item.name} = c_null_funptr"
+        if item.stars:
+            return "type(c_ptr)", f"{item.name} = c_null_ptr"
+        extents = "(" + ", ".join(map(str, reversed(item.shape))) + ")" if item.shape else ""
+        return self.kind(item), item.name + extents + ("" if item.type in self.structs else " = 0")
+
+    def declare(self, indent, pairs):
+        """Neighbours of one type share a line."""
+        before = None
+        for attributes, name in pairs:
+            if attributes == before and len(self.lines[-1]) + len(name) + 2 <= MAX_LINE:
+                self.lines[-1] += f", {name}"
+            else:
+                self.lines.append(f"{indent}{attributes} :: {name}")
+            before = attributes
+
+    def write_enum(self, name, constants):
+        self.lines.append("")
+        if name:
+            self.lines.append(f"  integer, parameter :: {name} = c_int")
+        self.lines.append("  enum, bind(c)")
+        self.declare("    ", [("enumerator", f"{constant} = {value}") for constant, value in constants.items()])
+        self.lines.append("  end enum")
+
+    def write_struct(self, name, members):
+        self.lines += ["", f"  type, bind(c) :: {name}"]
+        self.declare("    ", [self.member(item) for item in members])
+        self.lines.append("  end type")
+
+    def write_function(self, function):
+        result = function.result
+        kind = "subroutine"
+        if result.stars or result.type != "void":
+            kind = ("type(c_ptr)" if result.stars else self.kind(result)) + " function"
+        name, label = function.name, ""
+        if result.type == "char":  # the module dem has a function of that name, which returns a Fortran string
+            name, label = "c_" + name.removeprefix("dem_"), f", name='{name}'"
+        names = ", ".join(item.name for item in function.arguments)
+        self.lines += ["", f"    {kind} {name}({names}) bind(c{label})"]
+        assert len(self.lines[-1]) <= MAX_LINE, function.name
+        self.lines.append("      import")
+        self.declare("      ", [self.argument(function, item) for item in function.arguments])
+        self.lines.append(f"    end {kind.split()[-1]}")
+
+    def write_interface(self, head, functions):
+        if functions:
+            self.lines += ["", f"  {head}"]
+            for function in functions.values():
+                self.write_function(function)
+            self.lines += ["", "  end interface"]
+
+    def module(self):
+        for header in self.headers:
+            rule = "-" * (MAX_LINE - len(f"  ! ---- dem/{header.name} "))
+            self.lines += ["", f"  ! ---- dem/{header.name} {rule}"]
+            for name, constants in header.enums:
+                self.write_enum(name, constants)
+            for name, members in header.structs.items():
+                self.write_struct(name, members)
+            self.write_interface("abstract interface", header.callbacks)
+            self.write_interface("interface", header.functions)
+        return "\n".join(self.lines + ["end module", ""])
+
+
+root = pathlib.Path(sys.argv[1])
+path = root / "src" / "fortran" / "dem_c.f90"
+text = Writer(read_headers(root / "include" / "dem")).module()
+if sys.argv[2:] != ["--check"]:
+    path.write_text(text, encoding="utf-8")
+    sys.exit()
+old = path.read_text(encoding="utf-8")
+difference = "\n".join(difflib.unified_diff(old.splitlines(), text.splitlines(), path.name, "headers", lineterm=""))
+sys.exit(f"{difference}\nrun src/fortran/bindings.py" if difference else 0)

@@ -1,0 +1,92 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> dem from Fortran: docs/fortran.md. The names are those of the C headers in include/dem, which say what each does; this
+!> module has beside them (dem_c.f90) what a C header defines itself, and C strings as Fortran's.
+module dem
+  use dem_c
+  implicit none
+  public
+  private :: c_status_message, c_kernel_name, c_version, c_version_sundials, c_version_hdf5
+
+contains
+
+  !> A copy of a C string; '' if there is none.
+  function dem_string(chars) result(text)
+    type(c_ptr), intent(in) :: chars
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: c(:)
+    integer(c_size_t) :: n, k
+    interface
+      integer(c_size_t) function strlen(chars) bind(c)
+        import
+        type(c_ptr), value :: chars
+      end function
+    end interface
+
+    n = 0
+    if (c_associated(chars)) n = strlen(chars)
+    allocate (character(n) :: text)
+    if (n == 0) return
+    call c_f_pointer(chars, c, [n])
+    do k = 1, n
+      text(k:k) = c(k)
+    end do
+  end function
+
+  !> What the last failure in this thread was.
+  function dem_status_message() result(text)
+    character(:), allocatable :: text
+    text = dem_string(c_status_message())
+  end function
+
+  !> '' if there is no such kernel.
+  function dem_kernel_name(kind) result(text)
+    integer(dem_kernel), intent(in) :: kind
+    character(:), allocatable :: text
+    text = dem_string(c_kernel_name(kind))
+  end function
+
+  function dem_version() result(text)
+    character(:), allocatable :: text
+    text = dem_string(c_version())
+  end function
+
+  function dem_version_sundials() result(text)
+    character(:), allocatable :: text
+    text = dem_string(c_version_sundials())
+  end function
+
+  function dem_version_hdf5() result(text)
+    character(:), allocatable :: text
+    text = dem_string(c_version_hdf5())
+  end function
+
+  pure type(dem_options) function dem_options_default() result(options)
+    options%struct_size = c_sizeof(options)
+    options%gravity = [0d0, -9.81d0]
+    options%rtol = 1d-6
+    options%max_impacts = 10000
+    options%window = -1
+    options%vertices = 1
+    options%threads = 1
+    options%record_steps = 256
+  end function
+
+  pure type(dem_trajectory_options) function dem_trajectory_options_default() result(options)
+    options%struct_size = c_sizeof(options)
+    options%deflate = 1
+    options%most_stressed = 5
+    options%fields = iand(DEM_FIELD_ALL, not(DEM_FIELD_PRINCIPAL))
+  end function
+
+  !> Of motion and strain: what the ledger is compared with.
+  pure real(c_double) function dem_energy_motion(e)
+    type(dem_energy), intent(in) :: e
+    dem_energy_motion = e%kinetic + e%elastic + e%area + e%guard
+  end function
+
+  !> What stays constant in a run, up to the integrator's error.
+  pure real(c_double) function dem_energy_ledger(e)
+    type(dem_energy), intent(in) :: e
+    dem_energy_ledger = dem_energy_motion(e) + e%gravity + e%impact + e%friction + e%damping - e%projection - e%boundary
+  end function
+end module

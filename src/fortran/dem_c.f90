@@ -1,0 +1,1005 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The C interface of dem, name by name, as src/fortran/bindings.py writes it from the headers in include/dem; these tell
+!> what everything does, with shapes, units, errors and ownership. Programs use the module dem, which is made of this.
+module dem_c
+  use, intrinsic :: iso_c_binding
+  implicit none
+  public
+
+  integer, parameter :: dem_index = c_int64_t
+
+  ! ---- dem/status.h --------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_status = c_int
+  enum, bind(c)
+    enumerator :: DEM_OK = 0, DEM_STOPPED = 1, DEM_ERROR_MEMORY = -1, DEM_ERROR_ARGUMENT = -2, DEM_ERROR_MODEL = -3
+    enumerator :: DEM_ERROR_INTEGRATOR = -4, DEM_ERROR_CONTACT = -5, DEM_ERROR_IO = -6
+  end enum
+
+  interface
+
+    type(c_ptr) function c_status_message() bind(c, name='dem_status_message')
+      import
+    end function
+
+    type(c_ptr) function c_version() bind(c, name='dem_version')
+      import
+    end function
+
+    type(c_ptr) function c_version_sundials() bind(c, name='dem_version_sundials')
+      import
+    end function
+
+  end interface
+
+  ! ---- dem/lattice.h -------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_plane = c_int
+  enum, bind(c)
+    enumerator :: DEM_PLANE_STRESS = 0, DEM_PLANE_STRAIN = 1
+  end enum
+
+  enum, bind(c)
+    enumerator :: DEM_NODE_FIXED = 1, DEM_NODE_CONTACT = 2
+  end enum
+
+  type, bind(c) :: dem_material
+    real(c_double) :: youngs_modulus = 0, bond_stiffness = 0, poissons_ratio = 0
+    integer(dem_plane) :: plane = 0
+    real(c_double) :: density = 0, thickness = 0, guard = 0, damping_time = 0
+  end type
+
+  type, bind(c) :: dem_lattice
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int) :: dim = 0
+    integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0
+    type(c_ptr) :: x = c_null_ptr, mass = c_null_ptr, ends = c_null_ptr, rest_length = c_null_ptr
+    type(c_ptr) :: stiffness = c_null_ptr, triangles = c_null_ptr, viscosity = c_null_ptr, guard = c_null_ptr
+    type(c_ptr) :: area_stiffness = c_null_ptr, thickness = c_null_ptr, modulus = c_null_ptr, flags = c_null_ptr
+    type(c_ptr) :: body = c_null_ptr, position = c_null_ptr, velocity = c_null_ptr
+  end type
+
+  abstract interface
+
+    integer(c_int) function dem_lattice_cut_keep(context, x) bind(c)
+      import
+      type(c_ptr), value :: context
+      real(c_double), intent(in) :: x(2)
+    end function
+
+  end interface
+
+  interface
+
+    subroutine dem_lattice_init(lattice) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+    end subroutine
+
+    subroutine dem_lattice_free(lattice) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+    end subroutine
+
+    integer(dem_status) function dem_lattice_rectangle(out, width, height, spacing) bind(c)
+      import
+      type(dem_lattice), intent(out) :: out
+      real(c_double), value :: width, height, spacing
+    end function
+
+    integer(dem_status) function dem_lattice_squares(out, width, height, spacing) bind(c)
+      import
+      type(dem_lattice), intent(out) :: out
+      real(c_double), value :: width, height, spacing
+    end function
+
+    integer(dem_status) function dem_lattice_disc(out, radius, spacing) bind(c)
+      import
+      type(dem_lattice), intent(out) :: out
+      real(c_double), value :: radius, spacing
+    end function
+
+    integer(dem_status) function dem_lattice_cut(lattice, keep, context) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      procedure(dem_lattice_cut_keep) :: keep
+      type(c_ptr), value :: context
+    end function
+
+    integer(dem_status) function dem_lattice_trim(lattice, keep) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      integer(c_signed_char), intent(in) :: keep(*)
+    end function
+
+    integer(dem_status) function dem_lattice_pieces(lattice, n_pieces, piece) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      integer(dem_index), intent(out) :: n_pieces
+      integer(dem_index), intent(out), optional :: piece(*)
+    end function
+
+    integer(dem_status) function dem_lattice_rims(lattice, n_edges) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      integer(dem_index), intent(out) :: n_edges(*)
+    end function
+
+    integer(dem_status) function dem_lattice_assemble(lattice, material) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      type(dem_material), intent(in) :: material
+    end function
+
+    integer(dem_status) function dem_lattice_assemble_squares(lattice, material, diagonal) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      type(dem_material), intent(in) :: material
+      real(c_double), value :: diagonal
+    end function
+
+    integer(dem_status) function dem_lattice_assemble_mixed(lattice, materials, n_materials, of, diagonal) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      type(dem_material), intent(in) :: materials(*)
+      integer(dem_index), value :: n_materials
+      integer(dem_index), intent(in), optional :: of(*)
+      real(c_double), value :: diagonal
+    end function
+
+    integer(dem_status) function dem_lattice_jitter(lattice, radius, seed) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      real(c_double), value :: radius
+      integer(c_int64_t), value :: seed
+    end function
+
+    integer(dem_status) function dem_lattice_parts(lattice, n_parts, part) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      integer(dem_index), intent(out) :: n_parts
+      integer(dem_index), intent(out), optional :: part(*)
+    end function
+
+    integer(dem_status) function dem_lattice_select(lattice, keep) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      integer(c_signed_char), intent(in) :: keep(*)
+    end function
+
+    subroutine dem_lattice_move(lattice, angle, offset) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      real(c_double), value :: angle
+      real(c_double), intent(in) :: offset(2)
+    end subroutine
+
+    integer(dem_status) function dem_lattice_launch(lattice, velocity) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      real(c_double), intent(in) :: velocity(2)
+    end function
+
+    integer(dem_status) function dem_lattice_spin(lattice, angular_velocity) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      real(c_double), value :: angular_velocity
+    end function
+
+    integer(dem_status) function dem_lattice_exclude(lattice, nodes, n) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      integer(dem_index), intent(in) :: nodes(*)
+      integer(dem_index), value :: n
+    end function
+
+    integer(dem_status) function dem_lattice_edge_shares(lattice, nodes, n, direction, area) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      integer(dem_index), intent(in) :: nodes(*)
+      integer(dem_index), value :: n
+      real(c_double), intent(in), optional :: direction(2)
+      real(c_double), intent(out) :: area(*)
+    end function
+
+    integer(dem_status) function dem_lattice_append(lattice, other) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      type(dem_lattice), intent(in) :: other
+    end function
+
+  end interface
+
+  ! ---- dem/method.h --------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_method = c_int
+  enum, bind(c)
+    enumerator :: DEM_METHOD_FEHLBERG45 = 0, DEM_METHOD_DOPRI45 = 1, DEM_METHOD_CASHKARP45 = 2
+    enumerator :: DEM_METHOD_ZONNEVELD34 = 3, DEM_METHOD_BS23 = 4, DEM_METHOD_HEUN12 = 5, DEM_METHOD_SAYFYABURUB34 = 6
+    enumerator :: DEM_METHOD_ARK23 = 7, DEM_METHOD_ARK34 = 8, DEM_METHOD_ARK34B = 9, DEM_METHOD_ARK45 = 10
+    enumerator :: DEM_METHOD_ARK45B = 11, DEM_METHOD_VERNER56 = 12, DEM_METHOD_VERNER67 = 13, DEM_METHOD_VERNER78 = 14
+    enumerator :: DEM_METHOD_VERNER89 = 15, DEM_METHOD_FEHLBERG78 = 16, DEM_METHOD_KNOTHWOLKE3 = 17, DEM_METHOD_RK4 = 18
+    enumerator :: DEM_METHOD_VERLET = 19
+  end enum
+
+  type, bind(c) :: dem_method_traits
+    type(c_ptr) :: name = c_null_ptr
+    integer(c_int32_t) :: order = 0, evaluations = 0, adaptive = 0
+    real(c_double) :: stable = 0, usable = 0
+  end type
+
+  interface
+
+    integer(dem_status) function dem_method_describe(out, method) bind(c)
+      import
+      type(dem_method_traits), intent(out) :: out
+      integer(dem_method), value :: method
+    end function
+
+    integer(dem_status) function dem_method_find(out, name) bind(c)
+      import
+      integer(dem_method), intent(out) :: out
+      character(kind=c_char), intent(in) :: name(*)
+    end function
+
+    real(c_double) function dem_method_growth(method, omega_h) bind(c)
+      import
+      integer(dem_method), value :: method
+      real(c_double), value :: omega_h
+    end function
+
+  end interface
+
+  ! ---- dem/record.h --------------------------------------------------------------------------------------------------
+
+  interface
+
+    integer(dem_status) function dem_record_create(out) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+    end function
+
+    subroutine dem_record_destroy(record) bind(c)
+      import
+      type(c_ptr), value :: record
+    end subroutine
+
+    integer(dem_status) function dem_record_put(record, name, data, size) bind(c)
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), value :: data
+      integer(c_size_t), value :: size
+    end function
+
+    integer(dem_status) function dem_record_get(record, name, data, size) bind(c)
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), value :: data
+      integer(c_size_t), value :: size
+    end function
+
+    type(c_ptr) function dem_record_find(record, name, size) bind(c)
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_size_t), intent(out) :: size
+    end function
+
+    integer(dem_status) function dem_record_write(record, path) bind(c)
+      import
+      type(c_ptr), value :: record
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(dem_status) function dem_record_read(out, path) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(dem_status) function dem_publish(part, path) bind(c)
+      import
+      character(kind=c_char), intent(in) :: part(*), path(*)
+    end function
+
+  end interface
+
+  ! ---- dem/dem.h -----------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_friction_law = c_int
+  enum, bind(c)
+    enumerator :: DEM_FRICTION_COULOMB = 0, DEM_FRICTION_PAPER = 1
+  end enum
+
+  integer, parameter :: dem_boundary_kind = c_int
+  enum, bind(c)
+    enumerator :: DEM_BOUNDARY_VELOCITY = 0, DEM_BOUNDARY_DISPLACEMENT = 1, DEM_BOUNDARY_FORCE = 2
+  end enum
+
+  enum, bind(c)
+    enumerator :: DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2
+  end enum
+
+  integer, parameter :: dem_kernel = c_int
+  enum, bind(c)
+    enumerator :: DEM_KERNEL_AUTO = 0, DEM_KERNEL_PORTABLE = 1, DEM_KERNEL_AVX2 = 2, DEM_KERNEL_AVX512 = 3
+  end enum
+
+  integer, parameter :: dem_contact_method = c_int
+  enum, bind(c)
+    enumerator :: DEM_CONTACT_LOCAL = 0, DEM_CONTACT_EXACT = 1
+  end enum
+
+  integer, parameter :: dem_contact_state = c_int
+  enum, bind(c)
+    enumerator :: DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP = 1, DEM_CONTACT_STICK = 2
+  end enum
+
+  integer, parameter :: dem_event_kind = c_int
+  enum, bind(c)
+    enumerator :: DEM_EVENT_IMPACT = 0, DEM_EVENT_CLOSE = 1, DEM_EVENT_RELEASE = 2, DEM_EVENT_SLIP = 3
+    enumerator :: DEM_EVENT_STICK = 4, DEM_EVENT_PASS = 5
+  end enum
+
+  type, bind(c) :: dem_obstacle
+    integer(dem_index) :: n_points = 0
+    type(c_ptr) :: points = c_null_ptr
+    real(c_double) :: restitution = 0, friction = 0
+    integer(dem_friction_law) :: friction_law = 0
+  end type
+
+  type, bind(c) :: dem_csr
+    integer(dem_index) :: n_nodes = 0
+    type(c_ptr) :: row = c_null_ptr, neighbour = c_null_ptr, spring = c_null_ptr, stiffness = c_null_ptr
+    type(c_ptr) :: rest_length = c_null_ptr, viscosity = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_model_size
+    integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0, n_bodies = 0, n_contact_nodes = 0
+    integer(dem_index) :: n_contact_edges = 0, n_obstacles = 0, n_segments = 0, n_vertices = 0
+  end type
+
+  type, bind(c) :: dem_constants
+    real(c_double) :: stiffness(3, 3) = 0, youngs_modulus = 0, poissons_ratio = 0, anisotropy = 0
+    real(c_double) :: longitudinal_speed = 0, transverse_speed = 0, volume = 0
+  end type
+
+  type, bind(c) :: dem_boundary
+    integer(dem_boundary_kind) :: kind = 0
+    integer(c_int32_t) :: components = 0
+    integer(dem_index) :: n_nodes = 0
+    type(c_ptr) :: nodes = c_null_ptr, share = c_null_ptr
+    real(c_double) :: value(2) = 0, ramp = 0
+  end type
+
+  type, bind(c) :: dem_force_query
+    real(c_double) :: t = 0
+    integer(dem_index) :: n = 0
+    type(c_ptr) :: nodes = c_null_ptr, x = c_null_ptr, v = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_options
+    integer(c_size_t) :: struct_size = 0
+    integer(dem_method) :: method = 0
+    real(c_double) :: gravity(2) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0, skin = 0
+    real(c_double) :: rest_speed = 0
+    integer(dem_index) :: max_impacts = 0
+    real(c_double) :: window = 0, mass_damping = 0
+    integer(c_int32_t) :: vertices = 0
+    integer(dem_contact_method) :: contact = 0
+    integer(dem_kernel) :: kernel = 0
+    integer(c_int32_t) :: threads = 0
+    integer(dem_index) :: record_steps = 0, n_boundaries = 0
+    type(c_ptr) :: boundaries = c_null_ptr
+    type(c_funptr) :: force = c_null_funptr
+    type(c_ptr) :: force_context = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_energy
+    real(c_double) :: kinetic = 0, elastic = 0, area = 0, guard = 0, gravity = 0, impact = 0, friction = 0, damping = 0
+    real(c_double) :: projection = 0, boundary = 0
+  end type
+
+  type, bind(c) :: dem_contact
+    integer(c_int32_t) :: n_nodes = 0
+    integer(dem_contact_state) :: state = 0
+    integer(dem_index) :: nodes(4) = 0
+    real(c_double) :: weights(4) = 0
+    integer(dem_index) :: obstacle = 0, segment = 0
+    real(c_double) :: x(2) = 0, normal(2) = 0, force = 0, friction = 0
+  end type
+
+  type, bind(c) :: dem_event
+    real(c_double) :: t = 0
+    integer(dem_event_kind) :: kind = 0
+    integer(dem_contact_state) :: state = 0
+    integer(dem_index) :: node = 0, other = 0
+    real(c_double) :: weight = 0
+    integer(dem_index) :: obstacle = 0, segment = 0
+    real(c_double) :: x(2) = 0, normal(2) = 0, impulse(2) = 0, before(2) = 0, after(2) = 0, energy = 0
+  end type
+
+  type, bind(c) :: dem_state
+    integer(c_size_t) :: struct_size = 0
+    real(c_double) :: t = 0, step = 0
+    type(c_ptr) :: x = c_null_ptr, v = c_null_ptr
+    integer(dem_index) :: n_contacts = 0
+    type(c_ptr) :: contacts = c_null_ptr
+    type(dem_energy) :: energy
+  end type
+
+  type, bind(c) :: dem_body_motion
+    real(c_double) :: mass = 0, centre(2) = 0, velocity(2) = 0, angular_momentum = 0
+  end type
+
+  type, bind(c) :: dem_obstacle_load
+    real(c_double) :: reaction(2) = 0, point(2) = 0, impulse(2) = 0, friction_impulse(2) = 0
+    integer(dem_index) :: contacts = 0
+  end type
+
+  type, bind(c) :: dem_boundary_load
+    real(c_double) :: force(2) = 0, displacement(2) = 0
+  end type
+
+  type, bind(c) :: dem_counts
+    integer(dem_index) :: steps = 0, rejected = 0, evaluations = 0, events = 0, impacts = 0, vertex_impacts = 0
+    integer(dem_index) :: early = 0, closings = 0, releases = 0, slips = 0, sticks = 0, passings = 0, late = 0
+    integer(dem_index) :: retries = 0, behind = 0
+  end type
+
+  type, bind(c) :: dem_strain
+    real(c_double) :: min = 0, max = 0
+    integer(dem_index) :: spring_min = 0, spring_max = 0
+    real(c_double) :: area_min = 0
+    integer(dem_index) :: guarded = 0, inverted = 0
+  end type
+
+  type, bind(c) :: dem_overlap
+    integer(dem_index) :: now = 0, most = 0
+    real(c_double) :: t = 0
+    integer(dem_index) :: node = 0, triangle = 0
+    real(c_double) :: x(2) = 0
+  end type
+
+  type, bind(c) :: dem_observer
+    real(c_double) :: interval = 0
+    type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, record = c_null_funptr
+    type(c_ptr) :: context = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_node_peak
+    real(c_double) :: von_mises = 0, t = 0, stress(3) = 0
+  end type
+
+  type, bind(c) :: dem_spring_peak
+    real(c_double) :: strain = 0, t = 0
+  end type
+
+  abstract interface
+
+    integer(dem_status) function dem_force(context, query, force) bind(c)
+      import
+      type(c_ptr), value :: context
+      type(dem_force_query), intent(in) :: query
+      real(c_double), intent(inout) :: force(2, *)
+    end function
+
+    integer(dem_status) function dem_observer_frame(context, simulation) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+    end function
+
+    integer(dem_status) function dem_observer_step(context, simulation) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+    end function
+
+    integer(dem_status) function dem_observer_event(context, simulation, event) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+      type(dem_event), intent(in) :: event
+    end function
+
+    integer(dem_status) function dem_observer_record(context, simulation, record) bind(c)
+      import
+      type(c_ptr), value :: context, simulation, record
+    end function
+
+  end interface
+
+  interface
+
+    integer(dem_status) function dem_obstacle_check(obstacle, segments) bind(c)
+      import
+      type(dem_obstacle), intent(in) :: obstacle
+      integer(dem_index), intent(out) :: segments(2)
+    end function
+
+    integer(dem_status) function dem_model_create(out, lattice, obstacles, n_obstacles) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      type(dem_lattice), intent(in) :: lattice
+      type(dem_obstacle), intent(in), optional :: obstacles(*)
+      integer(dem_index), value :: n_obstacles
+    end function
+
+    subroutine dem_model_destroy(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end subroutine
+
+    type(dem_csr) function dem_model_csr(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    type(c_ptr) function dem_model_lattice(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    type(c_ptr) function dem_model_obstacles(model, n_obstacles) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(dem_index), intent(out) :: n_obstacles
+    end function
+
+    type(dem_model_size) function dem_model_sizes(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    real(c_double) function dem_model_spacing(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    real(c_double) function dem_model_omega_max(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    integer(dem_status) function dem_model_omega(model, omega) bind(c)
+      import
+      type(c_ptr), value :: model
+      real(c_double), intent(out) :: omega
+    end function
+
+    integer(dem_status) function dem_model_constants(model, body, out) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(dem_index), value :: body
+      type(dem_constants), intent(out) :: out
+    end function
+
+    real(c_double) function dem_model_mass(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    type(c_ptr) function dem_model_volumes(model) bind(c)
+      import
+      type(c_ptr), value :: model
+    end function
+
+    real(c_double) function dem_model_gap(model, x) bind(c)
+      import
+      type(c_ptr), value :: model
+      real(c_double), intent(in) :: x(2)
+    end function
+
+    integer(dem_status) function dem_kernel_find(out, name) bind(c)
+      import
+      integer(dem_kernel), intent(out) :: out
+      character(kind=c_char), intent(in) :: name(*)
+    end function
+
+    type(c_ptr) function c_kernel_name(kind) bind(c, name='dem_kernel_name')
+      import
+      integer(dem_kernel), value :: kind
+    end function
+
+    integer(dem_status) function dem_kernel_check(kind) bind(c)
+      import
+      integer(dem_kernel), value :: kind
+    end function
+
+    integer(dem_status) function dem_simulation_create(out, model, options) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      type(c_ptr), value :: model
+      type(dem_options), intent(in) :: options
+    end function
+
+    integer(dem_status) function dem_simulation_resume(out, model, options, record) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      type(c_ptr), value :: model
+      type(dem_options), intent(in) :: options
+      type(c_ptr), value :: record
+    end function
+
+    subroutine dem_simulation_destroy(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end subroutine
+
+    integer(dem_status) function dem_simulation_advance(simulation, t_end) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), value :: t_end
+    end function
+
+    integer(dem_status) function dem_simulation_set_motion(simulation, x, v) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(in), optional :: x(2, *), v(2, *)
+    end function
+
+    type(c_ptr) function dem_simulation_record(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    subroutine dem_simulation_state(simulation, state) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      type(dem_state), intent(out) :: state
+    end subroutine
+
+    type(dem_energy) function dem_simulation_energy(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    type(dem_strain) function dem_simulation_strain(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    subroutine dem_simulation_strains(simulation, strain) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: strain(*)
+    end subroutine
+
+    subroutine dem_simulation_forces(simulation, force) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: force(*)
+    end subroutine
+
+    subroutine dem_simulation_stress(simulation, stress) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: stress(3, *)
+    end subroutine
+
+    subroutine dem_simulation_stress_at(simulation, node, stress) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: node
+      real(c_double), intent(out) :: stress(3)
+    end subroutine
+
+    type(dem_overlap) function dem_simulation_overlap(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    type(dem_counts) function dem_simulation_counts(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    type(dem_body_motion) function dem_simulation_body(simulation, body) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: body
+    end function
+
+    type(dem_obstacle_load) function dem_simulation_obstacle(simulation, obstacle) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: obstacle
+    end function
+
+    type(dem_boundary_load) function dem_simulation_boundary(simulation, boundary) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: boundary
+    end function
+
+    real(c_double) function dem_simulation_residual(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    type(c_ptr) function dem_simulation_model(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    type(dem_options) function dem_simulation_options(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    real(c_double) function dem_stress_von_mises(stress) bind(c)
+      import
+      real(c_double), intent(in) :: stress(3)
+    end function
+
+    subroutine dem_stress_principal(stress, value, direction) bind(c)
+      import
+      real(c_double), intent(in) :: stress(3)
+      real(c_double), intent(out) :: value(2), direction(2)
+    end subroutine
+
+    integer(dem_status) function dem_simulation_observe(simulation, observer) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      type(dem_observer), intent(in) :: observer
+    end function
+
+    integer(dem_status) function dem_peaks_create(out, model, every) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      type(c_ptr), value :: model
+      integer(dem_index), value :: every
+    end function
+
+    integer(dem_status) function dem_peaks_resume(out, model, every, record) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      type(c_ptr), value :: model
+      integer(dem_index), value :: every
+      type(c_ptr), value :: record
+    end function
+
+    subroutine dem_peaks_destroy(peaks) bind(c)
+      import
+      type(c_ptr), value :: peaks
+    end subroutine
+
+    type(dem_observer) function dem_peaks_observer(peaks) bind(c)
+      import
+      type(c_ptr), value :: peaks
+    end function
+
+    type(c_ptr) function dem_peaks_nodes(peaks) bind(c)
+      import
+      type(c_ptr), value :: peaks
+    end function
+
+    type(c_ptr) function dem_peaks_springs(peaks) bind(c)
+      import
+      type(c_ptr), value :: peaks
+    end function
+
+    integer(dem_index) function dem_peaks_most_stressed_nodes(peaks, n, nodes) bind(c)
+      import
+      type(c_ptr), value :: peaks
+      integer(dem_index), value :: n
+      integer(dem_index), intent(out) :: nodes(*)
+    end function
+
+    integer(dem_index) function dem_peaks_most_strained_springs(peaks, n, springs) bind(c)
+      import
+      type(c_ptr), value :: peaks
+      integer(dem_index), value :: n
+      integer(dem_index), intent(out) :: springs(*)
+    end function
+
+  end interface
+
+  ! ---- dem/film.h ----------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_film_type = c_int
+  enum, bind(c)
+    enumerator :: DEM_FILM_F64 = 0, DEM_FILM_F32 = 1, DEM_FILM_I64 = 2, DEM_FILM_I32 = 3, DEM_FILM_I8 = 4
+    enumerator :: DEM_FILM_U8 = 5
+  end enum
+
+  type, bind(c) :: dem_film_array
+    type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
+    integer(dem_film_type) :: type = 0
+    integer(c_int) :: of_springs = 0, components = 0, constant = 0
+  end type
+
+  type, bind(c) :: dem_film_column
+    type(c_ptr) :: table = c_null_ptr, name = c_null_ptr, unit = c_null_ptr
+    integer(dem_film_type) :: type = 0
+    integer(dem_index) :: n_rows = 0, items = 0, components = 0, width = 0
+  end type
+
+  interface
+
+    integer(dem_status) function dem_film_open(out, path) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    subroutine dem_film_close(film) bind(c)
+      import
+      type(c_ptr), value :: film
+    end subroutine
+
+    type(c_ptr) function dem_film_lattice(film) bind(c)
+      import
+      type(c_ptr), value :: film
+    end function
+
+    type(c_ptr) function dem_film_obstacles(film, n_obstacles) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n_obstacles
+    end function
+
+    type(c_ptr) function dem_film_times(film, n_frames) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n_frames
+    end function
+
+    type(c_ptr) function dem_film_arrays(film, n) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n
+    end function
+
+    type(c_ptr) function dem_film_array_find(film, name) bind(c)
+      import
+      type(c_ptr), value :: film
+      character(kind=c_char), intent(in) :: name(*)
+    end function
+
+    integer(dem_status) function dem_film_positions(film, frame, x) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), value :: frame
+      real(c_double), intent(out) :: x(2, *)
+    end function
+
+    integer(dem_status) function dem_film_read(film, array, frame, values) bind(c)
+      import
+      type(c_ptr), value :: film
+      type(dem_film_array), intent(in) :: array
+      integer(dem_index), value :: frame
+      real(c_double), intent(out) :: values(*)
+    end function
+
+    type(c_ptr) function dem_film_columns(film, n) bind(c)
+      import
+      type(c_ptr), value :: film
+      integer(dem_index), intent(out) :: n
+    end function
+
+    type(c_ptr) function dem_film_column_find(film, table, name) bind(c)
+      import
+      type(c_ptr), value :: film
+      character(kind=c_char), intent(in) :: table(*), name(*)
+    end function
+
+    integer(dem_status) function dem_film_read_column(film, column, values) bind(c)
+      import
+      type(c_ptr), value :: film
+      type(dem_film_column), intent(in) :: column
+      real(c_double), intent(out) :: values(*)
+    end function
+
+    integer(dem_status) function dem_film_read_rows(film, column, first, count, values) bind(c)
+      import
+      type(c_ptr), value :: film
+      type(dem_film_column), intent(in) :: column
+      integer(dem_index), value :: first, count
+      real(c_double), intent(out) :: values(*)
+    end function
+
+  end interface
+
+  ! ---- dem/trajectory.h ----------------------------------------------------------------------------------------------
+
+  enum, bind(c)
+    enumerator :: DEM_FIELD_DISPLACEMENT = 1, DEM_FIELD_VELOCITY = 2, DEM_FIELD_STRESS = 4, DEM_FIELD_VON_MISES = 8
+    enumerator :: DEM_FIELD_PRINCIPAL = 16, DEM_FIELD_STRAIN = 32, DEM_FIELD_FORCE = 64, DEM_FIELD_ALL = 127
+  end enum
+
+  integer, parameter :: dem_probe_kind = c_int
+  enum, bind(c)
+    enumerator :: DEM_PROBE_NODE = 0, DEM_PROBE_SPRING = 1, DEM_PROBE_GAUGE = 2
+  end enum
+
+  type, bind(c) :: dem_probe
+    type(c_ptr) :: name = c_null_ptr
+    integer(dem_probe_kind) :: kind = 0
+    integer(dem_index) :: number(2) = 0, every = 0
+  end type
+
+  type, bind(c) :: dem_trajectory_options
+    integer(c_size_t) :: struct_size = 0
+    real(c_double) :: frame_interval = 0
+    integer(c_int) :: double_precision = 0, deflate = 0, events = 0
+    integer(c_int32_t) :: fields = 0
+    type(c_ptr) :: peaks = c_null_ptr
+    integer(dem_index) :: most_stressed = 0, n_probes = 0
+    type(c_ptr) :: probes = c_null_ptr
+  end type
+
+  interface
+
+    integer(dem_status) function dem_trajectory_create(out, path, simulation, options) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), value :: simulation
+      type(dem_trajectory_options), intent(in) :: options
+    end function
+
+    integer(dem_status) function dem_trajectory_resume(out, path, simulation, options, record) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), value :: simulation
+      type(dem_trajectory_options), intent(in) :: options
+      type(c_ptr), value :: record
+    end function
+
+    type(dem_observer) function dem_trajectory_observer(trajectory) bind(c)
+      import
+      type(c_ptr), value :: trajectory
+    end function
+
+    integer(dem_status) function dem_trajectory_note(trajectory, name, text) bind(c)
+      import
+      type(c_ptr), value :: trajectory
+      character(kind=c_char), intent(in) :: name(*), text(*)
+    end function
+
+    integer(dem_status) function dem_trajectory_segment(trajectory, record) bind(c)
+      import
+      type(c_ptr), value :: trajectory, record
+    end function
+
+    integer(dem_status) function dem_trajectory_finish(trajectory) bind(c)
+      import
+      type(c_ptr), value :: trajectory
+    end function
+
+    subroutine dem_trajectory_destroy(trajectory) bind(c)
+      import
+      type(c_ptr), value :: trajectory
+    end subroutine
+
+    integer(dem_status) function dem_trajectory_read_note(path, name, text, size) bind(c)
+      import
+      character(kind=c_char), intent(in) :: path(*), name(*)
+      character(kind=c_char), intent(out) :: text(*)
+      integer(c_size_t), value :: size
+    end function
+
+    integer(dem_status) function dem_lattice_read(out, path) bind(c)
+      import
+      type(dem_lattice), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(dem_status) function dem_lattice_measure(path, n_nodes, n_springs) bind(c)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      integer(dem_index), intent(out) :: n_nodes, n_springs
+    end function
+
+    subroutine dem_hdf5_skip_exit() bind(c)
+      import
+    end subroutine
+
+    type(c_ptr) function c_version_hdf5() bind(c, name='dem_version_hdf5')
+      import
+    end function
+
+  end interface
+end module

@@ -1,0 +1,164 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> One call of each kind: values, arrays, structs in and out, strings, arguments left out, views, callbacks.
+module watching
+  use dem
+  implicit none
+
+  type tally
+    integer :: steps = 0
+    real(c_double) :: ledger(2) = 0 !< at the start, and now
+  end type
+
+contains
+
+  integer(c_int) function left_half(context, x) bind(c)
+    type(c_ptr), value :: context
+    real(c_double), intent(in) :: x(2)
+    left_half = merge(1, 0, .not. c_associated(context) .and. x(1) < 0)
+  end function
+
+  integer(dem_status) function look(context, simulation) bind(c)
+    type(c_ptr), value :: context, simulation
+    type(tally), pointer :: seen
+    call c_f_pointer(context, seen)
+    seen%ledger(2) = dem_energy_ledger(dem_simulation_energy(simulation))
+    if (seen%steps == 0) seen%ledger(1) = seen%ledger(2)
+    seen%steps = seen%steps + 1
+    look = DEM_OK
+  end function
+end module
+
+program calls
+  use watching
+  implicit none
+  real(c_double), target :: floor(2, 2) = reshape([-1d0, 0d0, 1d0, 0d0], [2, 2])
+  type(dem_material) :: rubber = dem_material(youngs_modulus=1d7, poissons_ratio=0.4d0, density=1050, thickness=2)
+  real(c_double), parameter :: t = 0.1d0
+  type(dem_lattice) :: lattice
+  type(c_ptr) :: model, simulation
+  type(tally), target :: seen
+  integer :: faults = 0
+
+  call strings()
+  call lattices()
+  call models()
+  call simulations()
+  call records()
+  call dem_simulation_destroy(simulation)
+  call dem_model_destroy(model)
+  call dem_lattice_free(lattice)
+  if (faults > 0) error stop
+
+contains
+
+  subroutine expect(truth, what)
+    logical, intent(in) :: truth
+    character(*), intent(in) :: what
+    if (truth) return
+    faults = faults + 1
+    print '(a)', 'not so: '//what//' ('//dem_status_message()//')'
+  end subroutine
+
+  subroutine succeed(status)
+    integer(dem_status), intent(in) :: status
+    if (status == DEM_OK) return
+    print '(a)', dem_status_message()
+    error stop
+  end subroutine
+
+  subroutine strings()
+    type(dem_method_traits) :: traits
+    integer(dem_method) :: method
+    integer(dem_kernel) :: kernel
+    call expect(dem_kernel_find(kernel, 'none'//c_null_char) == DEM_ERROR_ARGUMENT, 'no such kernel')
+    call expect(index(dem_status_message(), '''none''') > 0, 'the message names it')
+    call expect(dem_kernel_name(DEM_KERNEL_AVX2) == 'avx2', 'a kernel''s name')
+    call expect(dem_kernel_name(99) == '', 'no name')
+    call succeed(dem_method_find(method, 'verlet'//c_null_char))
+    call succeed(dem_method_describe(traits, method))
+    call expect(method == DEM_METHOD_VERLET, 'a method by its name')
+    call expect(dem_string(traits%name) == 'verlet', 'the name of a method')
+    call expect(index(dem_version(), '.') > 0, 'our version')
+    call expect(index(dem_version_hdf5(), '.') > 0, 'version of HDF5')
+    call expect(index(dem_version_sundials(), '.') > 0, 'version of SUNDIALS')
+  end subroutine
+
+  !> Thirteen rows, of eleven and ten nodes in turn; of each row five are on the left.
+  subroutine lattices()
+    integer(dem_index) :: n_parts
+    integer(dem_index), allocatable :: part(:)
+    call succeed(dem_lattice_rectangle(lattice, 1d0, 1d0, 0.1d0))
+    call succeed(dem_lattice_cut(lattice, left_half, c_null_ptr))
+    call expect(lattice%n_nodes == 65, 'its left half')
+    call succeed(dem_lattice_assemble(lattice, rubber))
+    allocate (part(lattice%n_nodes))
+    call succeed(dem_lattice_parts(lattice, n_parts, part))
+    call expect(n_parts == 1 .and. all(part == 0), 'one part')
+    n_parts = 0
+    call succeed(dem_lattice_parts(lattice, n_parts))
+    call expect(n_parts == 1, 'only the number of parts')
+    call dem_lattice_move(lattice, 0d0, [0d0, 1d0])
+  end subroutine
+
+  subroutine models()
+    type(dem_obstacle) :: granite
+    type(dem_constants) :: constants
+    type(dem_csr) :: csr
+    type(dem_lattice), pointer :: held
+    integer(dem_index), pointer :: row(:)
+    real(c_double) :: value(2), direction(2)
+    granite = dem_obstacle(n_points=2, points=c_loc(floor), restitution=0.5d0)
+    call succeed(dem_model_create(model, lattice, [granite], 1_dem_index))
+    call expect(abs(dem_model_gap(model, [0.3d0, 0.25d0]) - 0.25d0) < 1d-15, 'the gap to the floor')
+    call succeed(dem_model_constants(model, 0_dem_index, constants))
+    call expect(abs(constants%youngs_modulus / rubber%youngs_modulus - 1) < 1d-9, 'E of a regular lattice')
+    call expect(abs(constants%stiffness(2, 1) / constants%stiffness(1, 1) - rubber%poissons_ratio) < 1d-9, 'nu')
+    csr = dem_model_csr(model)
+    call c_f_pointer(csr%row, row, [csr%n_nodes + 1])
+    call c_f_pointer(dem_model_lattice(model), held)
+    call expect(row(csr%n_nodes + 1) == 2 * held%n_springs .and. held%n_nodes == csr%n_nodes, 'two slots a spring')
+    call expect(abs(dem_stress_von_mises([3d0, 3d0, 0d0]) - 3) < 1d-15, 'von Mises of equal tensions')
+    call dem_stress_principal([0d0, 0d0, 2d0], value, direction)
+    call expect(all(abs(value - [2, -2]) < 1d-15) .and. abs(direction(1) - direction(2)) < 1d-15, 'pure shear')
+  end subroutine
+
+  !> It falls freely: v = -g t, no stress, and what the observer saw of the energy is constant.
+  subroutine simulations()
+    type(dem_options) :: options
+    type(dem_observer) :: observer
+    type(dem_body_motion) :: motion
+    type(dem_state) :: state
+    real(c_double), pointer :: v(:, :)
+    real(c_double), allocatable :: stress(:, :)
+    procedure(dem_observer_step), pointer :: step
+    options = dem_options_default()
+    step => look
+    observer%step = c_funloc(step)
+    observer%context = c_loc(seen)
+    call succeed(dem_simulation_create(simulation, model, options))
+    call succeed(dem_simulation_observe(simulation, observer))
+    call succeed(dem_simulation_advance(simulation, t))
+    call dem_simulation_state(simulation, state)
+    motion = dem_simulation_body(simulation, 0_dem_index)
+    call c_f_pointer(state%v, v, [2_dem_index, lattice%n_nodes])
+    allocate (stress(3, lattice%n_nodes))
+    call dem_simulation_stress(simulation, stress)
+    call expect(maxval(abs(v(2, :) + 9.81d0 * state%t)) < 1d-9 .and. maxval(abs(v(1, :))) < 1d-9, 'it falls')
+    call expect(abs(motion%velocity(2) + 9.81d0 * t) < 1d-9, 'its mean motion')
+    call expect(maxval(abs(stress)) < 1d-9 * rubber%youngs_modulus, 'no stress')
+    call expect(seen%steps > 1 .and. abs(seen%ledger(2) - seen%ledger(1)) < 1d-6 * abs(seen%ledger(1)), 'the ledger')
+  end subroutine
+
+  subroutine records()
+    type(c_ptr) :: record, entry
+    real(c_double), target :: written(3) = [1d0, 2d0, 3d0], read(3) = 0
+    integer(c_size_t) :: bytes
+    call succeed(dem_record_create(record))
+    call succeed(dem_record_put(record, 'mine'//c_null_char, c_loc(written), c_sizeof(written)))
+    call succeed(dem_record_get(record, 'mine'//c_null_char, c_loc(read), c_sizeof(read)))
+    call expect(maxval(abs(read - written)) < 1d-300, 'the same')
+    entry = dem_record_find(record, 'mine'//c_null_char, bytes)
+    call expect(c_associated(entry) .and. bytes == 24, 'found')
+    call dem_record_destroy(record)
+  end subroutine
+end program

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run of three nodes with springs of 3, 4 and 5 m, the last node fixed, over an obstacle, as dem_export finds it; and
+ * what it makes of that. */
+#ifndef DEM_TEST_EXPORTED_H
+#define DEM_TEST_EXPORTED_H
+
+#include "../verification/support.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <dem/trajectory.h>
+
+#include "task.h"
+
+enum { EXPORTED_FRAMES = 3, EXPORTED_TEXT = 1 << 16 };
+
+typedef struct exported {
+    char folder[64], path[96];
+    dem_film *film;
+    outcome outcome;
+    task task;
+    char text[EXPORTED_TEXT]; /* of the file last read */
+} exported;
+
+/** How the run is written. */
+typedef struct exported_how {
+    const char *resolved; /* the deck; NULL: none */
+    int double_precision, n_obstacles;
+    double frame_interval;
+} exported_how;
+
+static inline exported_how exported_usual(void)
+{
+    return (exported_how){.n_obstacles = 1, .frame_interval = 0.25};
+}
+
+static inline void exported_lattice(dem_lattice *l)
+{
+    static double x[6] = {0.0, 1.0, 3.0, 1.0, 3.0, 5.0}, mass[3] = {1.0, 2.0, 2.0}, stiffness[3] = {6.0, 8.0, 6.0};
+    static double rest[3] = {3.0, 4.0, 5.0}, guard[1] = {0.5}, velocity[6] = {0.1, -0.25, 0.1, -0.25, 0.0, 0.0};
+    static dem_index ends[6] = {0, 1, 1, 2, 2, 0}, corners[3] = {0, 1, 2};
+    static unsigned char flags[3] = {DEM_NODE_CONTACT, DEM_NODE_CONTACT, DEM_NODE_FIXED};
+    dem_lattice_init(l);
+    l->n_nodes = l->n_springs = 3, l->n_triangles = 1;
+    l->x = x, l->mass = mass, l->velocity = velocity, l->flags = flags;
+    l->ends = ends, l->rest_length = rest, l->stiffness = stiffness;
+    l->triangles = corners, l->guard = guard;
+}
+
+static inline void exported_run(const exported *e, const exported_how *how)
+{
+    static const double floor[6] = {-9.0, -1.0, 0.0, -1.0, 9.0, -1.0};
+    const dem_obstacle obstacle = {.n_points = 3, .points = floor, .restitution = 0.5};
+    const dem_probe probe = {"tip", DEM_PROBE_NODE, {0, 0}, 1};
+    dem_trajectory_options options = dem_trajectory_options_default();
+    dem_options usual = dem_options_default();
+    dem_lattice lattice;
+    dem_model *model;
+    dem_simulation *simulation;
+    dem_trajectory *trajectory;
+    usual.gravity[1] = 0.0;
+    options.frame_interval = how->frame_interval, options.double_precision = how->double_precision;
+    options.n_probes = 1, options.probes = &probe;
+    exported_lattice(&lattice);
+    assert_ok(dem_model_create(&model, &lattice, &obstacle, how->n_obstacles));
+    assert_ok(dem_simulation_create(&simulation, model, &usual));
+    assert_ok(dem_trajectory_create(&trajectory, e->path, simulation, &options));
+    const dem_observer observer = dem_trajectory_observer(trajectory);
+    assert_ok(dem_simulation_observe(simulation, &observer));
+    if (how->resolved != NULL) assert_ok(dem_trajectory_note(trajectory, "resolved", how->resolved));
+    assert_ok(dem_simulation_advance(simulation, 0.6));
+    assert_ok(dem_trajectory_finish(trajectory));
+    dem_trajectory_destroy(trajectory);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+}
+
+/** \param e  set; the task refers to it */
+static inline void exported_open(exported *e, exported_how how)
+{
+    static char folder[80];
+    dem_index n = 0;
+    *e = (exported){.folder = "test_export_XXXXXX"};
+    assert_non_null(mkdtemp(e->folder));
+    (void)snprintf(folder, sizeof folder, "%s/", e->folder);
+    (void)snprintf(e->path, sizeof e->path, "%s/run.vtkhdf", e->folder);
+    exported_run(e, &how);
+    assert_ok(dem_film_open(&e->film, e->path));
+    (void)dem_film_times(e->film, &n);
+    e->task = (task){.input = e->path, .film = e->film, .folder = folder, .name = "run", .outcome = &e->outcome};
+    assert_true(moments_all(&e->task.frames, n));
+}
+
+static inline int exported_has(const exported *e, const char *name)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/%s", e->folder, name);
+    return access(path, F_OK) == 0;
+}
+
+static inline const char *exported_text(exported *e, const char *name)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/%s", e->folder, name);
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) fail_msg("there is no %s", name);
+    const size_t n = fread(e->text, 1, EXPORTED_TEXT - 1, file);
+    assert_int_equal(fclose(file), 0);
+    e->text[n] = '\0';
+    return e->text;
+}
+
+/** Fails unless the file has these lines, in this order and without others between. */
+static inline void exported_expect(exported *e, const char *name, const char *lines)
+{
+    if (strstr(exported_text(e, name), lines) == NULL) fail_msg("%s has not\n%s\nbut\n%s", name, lines, e->text);
+}
+
+static inline void exported_put(const exported *e, const char *name, const char *text)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/%s", e->folder, name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+static inline void exported_close(exported *e)
+{
+    DIR *list = opendir(e->folder);
+    assert_non_null(list);
+    moments_free(&e->task.frames);
+    dem_film_close(e->film);
+    for (struct dirent *entry; (entry = readdir(list)) != NULL;) {
+        if (strstr(entry->d_name, ".new") != NULL) fail_msg("%s was left", entry->d_name);
+        (void)unlinkat(dirfd(list), entry->d_name, 0);
+    }
+    (void)closedir(list);
+    assert_int_equal(rmdir(e->folder), 0);
+}
+
+#endif
