@@ -51,6 +51,8 @@ class DemReader(FileReaderInterface):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
     pipeline = import_file(sys.argv[1], input_format=DemReader)
     frame = range(pipeline.num_frames)[int(sys.argv[3]) if len(sys.argv) > 3 else -1]
     limit = abs(pipeline.compute(frame).particles.bonds["strain"][...]).max()

@@ -12,6 +12,8 @@ matplotlib.use("Agg")  # no display
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
 path, out = sys.argv[1:3]
 with h5py.File(path) as file:
     vtk = file["VTKHDF"]

@@ -7,6 +7,8 @@ import sys
 
 import pyvista
 
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
 path, out = sys.argv[1:3]
 reader = pyvista.get_reader(path).reader  # VTK's own: PyVista's has no times
 reader.UpdateInformation()
