@@ -299,7 +299,8 @@ static void write_diary(diary *d, stage *s, unsigned long seed, manner how)
     assert_ok(dem_simulation_advance(s->simulation, 0.25 * s->scene.t_end));
 }
 
-/* Fails at one call, or at one about a single node (< 0), leaves a state that the run goes through, and goes on from there. */
+/* Fails at one call, or at one about a single node (< 0), leaves a state that the run goes through, and goes on from
+ * there. */
 static void stumble(const diary *d, unsigned long seed, manner how, long call, dem_status wanted)
 {
     stage s;
