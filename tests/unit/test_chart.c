@@ -122,9 +122,9 @@ static void narrow_charts_are_legible(void **state)
     (void)state;
     rows *r = fill(wave);
     const chart c = make(r);
-    sheet s = sheet_new();
+    witness s = witness_new();
     assert_true(chart_draw(&c, (box){14, 14, 386, 150}, true, &s.face));
-    sheet_expect_legible(&s, (box){0, 0, 400, 150});
+    witness_expect_legible(&s, (box){0, 0, 400, 150});
     free(r);
 }
 
