@@ -15,9 +15,11 @@ class Dem(MesonPackage):
     version("main", branch="main")
 
     variant("openmp", default=True, description="Evaluate forces in several threads")
-    variant("cairo", default=True, description="Read PNG images as shapes of bodies, draw runs")
+    variant("cairo", default=True, description="Build dem_plot, and read PNG images as masks")
+    variant("fortran", default=True, description="Build the Fortran module")
 
     depends_on("c", type="build")
+    depends_on("fortran", type="build", when="+fortran")
     depends_on("meson@1.0:", type="build")
     depends_on("pkgconfig", type="build")
     # By which meson finds SUNDIALS.
@@ -36,5 +38,6 @@ class Dem(MesonPackage):
         return [
             f"-Dopenmp={switch('openmp')}",
             f"-Dcairo={switch('cairo')}",
+            f"-Dfortran={switch('fortran')}",
             "-Dtests=false",
         ]

@@ -57,22 +57,26 @@ static bool take_range(const char **text, dem_index n_frames, range *out)
     return good && (**text == ',' || **text == '\0') && out->step > 0;
 }
 
-static bool append(moments *m, const range *r, dem_index n_frames)
+/* NULL if it is done, or what is wrong. */
+static const char *append(moments *m, const range *r, dem_index n_frames)
 {
-    if (r->first < 0 || r->last >= n_frames || r->last < r->first) return false;
+    if (r->first < 0 || r->last >= n_frames || r->last < r->first) return "names frames that are not there";
     const size_t more = (size_t)((r->last - r->first) / r->step) + 1;
+    dem_index *larger = realloc(m->frame, (m->n + more) * sizeof *larger);
+    if (larger == NULL) return "takes too much memory";
+    m->frame = larger;
     for (size_t k = 0; k < more; k++) m->frame[m->n++] = r->first + (dem_index)k * r->step;
-    return true;
+    return NULL;
 }
 
 bool moments_parse(moments *m, const char *text, dem_index n_frames, const char **fault)
 {
-    const size_t ranges = count(text, ',') + 1;
-    range r;
-    if (!reserve(m, ranges * (size_t)n_frames)) return refuse(m, fault, "out of memory");
-    for (size_t k = 0; k < ranges; k++, text++) {
+    *m = (moments){0};
+    for (bool more = true; more; text++) {
+        range r;
         if (!take_range(&text, n_frames, &r)) return refuse(m, fault, "is no list of frames as 0,5,10 or 0:20:5");
-        if (!append(m, &r, n_frames)) return refuse(m, fault, "names frames that are not there");
+        if ((*fault = append(m, &r, n_frames)) != NULL) return refuse(m, fault, *fault);
+        more = *text == ',';
     }
     return true;
 }
@@ -88,7 +92,7 @@ dem_index moments_nearest(dem_index n_frames, const double *t, double instant)
 bool moments_parse_times(moments *m, const char *text, dem_index n_frames, const double *t, const char **fault)
 {
     const size_t n = count(text, ',') + 1;
-    if (!reserve(m, n)) return refuse(m, fault, "out of memory");
+    if (!reserve(m, n)) return refuse(m, fault, "takes too much memory");
     for (size_t k = 0; k < n; k++, text++) {
         char *end;
         const double instant = strtod(text, &end);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "body.h"
+#include "digest.h"
 #include "file.h"
 #include "loading.h"
 #include "precision.h"
@@ -380,14 +381,6 @@ static char *folder_of(const char *path)
     return strndup(path, slash == NULL ? 0 : (size_t)(slash - path) + 1);
 }
 
-static const uint64_t offset_basis = UINT64_C(0xcbf29ce484222325);
-
-static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
-{
-    for (size_t k = 0; k < n; k++) hash = (hash ^ (unsigned char)bytes[k]) * UINT64_C(0x100000001b3); /* FNV-1a */
-    return hash;
-}
-
 /* Puts a file's whole path in the place of its name. */
 static bool name_file(schema_instance *body, const char *folder, namelist_errors *errors)
 {
@@ -409,9 +402,9 @@ static bool hash_file(schema_instance *body, namelist_errors *errors)
 {
     const char *path = schema_text(body, "file");
     char bytes[4096], text[32];
-    uint64_t hash = offset_basis;
+    uint64_t hash = DIGEST_BEGIN;
     FILE *file = fopen(path, "rb");
-    for (size_t n; file != NULL && (n = fread(bytes, 1, sizeof bytes, file)) > 0;) hash = hash_bytes(hash, bytes, n);
+    for (size_t n; file != NULL && (n = fread(bytes, 1, sizeof bytes, file)) > 0;) hash = digest_add(hash, bytes, n);
     if (file == NULL || ferror(file))
         namelist_errors_add(errors, schema_value_of(body, "file")->place, "%s: %s", path, strerror(errno));
     if (file != NULL) (void)fclose(file);
@@ -438,8 +431,8 @@ static bool set_texts(deck *d, schema_deck *groups, const char *folder, namelist
     if (!schema_echo(groups, SCHEMA_PHYSICS, &d->physics) || !schema_echo(groups, SCHEMA_COURSE, &d->course) ||
         !schema_echo(groups, SCHEMA_BARE, &bare))
         return false;
-    d->hash = hash_bytes(offset_basis, d->physics, strlen(d->physics));
-    d->run_hash = hash_bytes(offset_basis, bare, strlen(bare));
+    d->hash = digest_add(DIGEST_BEGIN, d->physics, strlen(d->physics));
+    d->run_hash = digest_add(DIGEST_BEGIN, bare, strlen(bare));
     free(bare);
     return true;
 }

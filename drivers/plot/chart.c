@@ -158,7 +158,8 @@ static void draw_numbers(const axes *a, double factor, canvas *c)
 static void draw_times(const axes *a, bool has_labels, canvas *c)
 {
     const ticks_prefix prefix = ticks_prefix_of(fmax(fabs(a->t0), fabs(a->t1)));
-    const ticks at = ticks_linear(a->t0 / prefix.factor, a->t1 / prefix.factor, 11);
+    const int most = (int)fmin(fmax(box_width(a->place) / 60.0, 2.0), 11.0);
+    const ticks at = ticks_linear(a->t0 / prefix.factor, a->t1 / prefix.factor, most);
     const double bottom = a->place.y1;
     char text[TICKS_TEXT];
     for (int k = 0; k < at.n; k++) {

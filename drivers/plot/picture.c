@@ -37,7 +37,8 @@ picture_format picture_format_of(const char *path)
 
 static bool refuse(outcome *o, const char *path)
 {
-    outcome_fail(o, EXIT_IO, "dem_plot", "%s: cannot be written (%s)", path, strerror(errno));
+    outcome_fail(o, EXIT_IO, "dem_plot", "%s: cannot be written (%s)", path,
+                 errno != 0 ? strerror(errno) : "the picture is too large");
     return false;
 }
 

@@ -2,7 +2,6 @@
 #include "quantity.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LENGTH = -1 };
@@ -80,15 +79,11 @@ static double reduce(const double *row, int components, int part)
     return sqrt(sum);
 }
 
-dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value)
+dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value, double *rows)
 {
     const size_t n = quantity_count(q, dem_film_lattice(film)), components = (size_t)q->source->components;
-    if (components == 1) return dem_film_read(film, q->source, frame, value);
-    double *rows = malloc(n * components * sizeof *rows);
-    if (rows == NULL) return DEM_ERROR_MEMORY;
     const dem_status status = dem_film_read(film, q->source, frame, rows);
     for (size_t k = 0; k < n && status == DEM_OK; k++)
         value[k] = reduce(rows + components * k, q->source->components, q->part);
-    free(rows);
     return status;
 }

@@ -32,7 +32,8 @@ void quantity_list(FILE *out);
 size_t quantity_count(const quantity *q, const dem_lattice *lattice);
 
 /** Those of a frame.
- *  \param[out] value  [quantity_count()] */
-dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value);
+ *  \param[out] value  [quantity_count()]
+ *  \param rows        [quantity_count()] times the components of the source, to work in */
+dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value, double *rows);
 
 #endif

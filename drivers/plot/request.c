@@ -21,7 +21,7 @@ static const char usage[] =
     "  --range LIMIT|LO:HI    of the colours, SI units (default: round limits for 99.5 % of the values of every "
     "frame)\n"
     "  --zoom X0:X1,Y0:Y1     show this, m (default: all that is in the frames, and the obstacles near it)\n"
-    "  --width PIXELS         of the picture, 200 to 20000 (default: 1200)\n"
+    "  --width PIXELS         of the picture, 400 to 20000 (default: 1200)\n"
     "  --columns N            of the strip (default: what fits)\n"
     "  --hash                 print the hash of the data plotted\n"
     "files: a picture takes the place of an older one of its name\n"
@@ -124,8 +124,8 @@ static bool parse_zoom(request *r, const char *text)
 
 static bool parse_width(request *r, const char *text)
 {
-    if (!read_numbers(text, "", &r->width) || !(r->width >= 200.0 && r->width <= 20000.0))
-        return refuse("'--width' needs 200 to 20000 pixels, got '%s'", text);
+    if (!read_numbers(text, "", &r->width) || !(r->width >= 400.0 && r->width <= 20000.0))
+        return refuse("'--width' needs 400 to 20000 pixels, got '%s'", text);
     return true;
 }
 

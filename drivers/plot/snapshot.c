@@ -17,10 +17,11 @@ bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, o
 {
     const dem_lattice *l = dem_film_lattice(film);
     const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, n = quantity_count(shown, l);
+    const size_t components = shown->source != NULL ? (size_t)shown->source->components : 0;
     *s = (snapshot){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = span_reach_none()};
     s->x = malloc(2 * nodes * sizeof *s->x);
     s->value = malloc((n + 1) * sizeof *s->value);
-    s->work = malloc((n + 1) * sizeof *s->work);
+    s->work = malloc((n * components + 1) * sizeof *s->work);
     s->is_bare = malloc(nodes);
     if (dem_film_array_find(film, "broken") != NULL) s->broken = calloc(springs + 1, sizeof *s->broken);
     const bool has_broken = s->broken != NULL || dem_film_array_find(film, "broken") == NULL;
@@ -40,14 +41,25 @@ void snapshot_free(snapshot *s)
     *s = (snapshot){0};
 }
 
+static bool is_finite(size_t n, const double *x)
+{
+    size_t k = 0;
+    while (k < n && isfinite(x[k])) k++;
+    return k == n;
+}
+
 bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
 {
     dem_index n;
     dem_status status = dem_film_positions(s->film, frame, s->x);
-    if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->film, frame, s->value);
+    if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->film, frame, s->value, s->work);
     if (status == DEM_OK && s->broken != NULL && s->lattice->n_springs > 0)
         status = dem_film_read(s->film, dem_film_array_find(s->film, "broken"), frame, s->broken);
     if (status != DEM_OK) return outcome_fail_status(o, status, "dem_plot"), false;
+    if (!is_finite(2 * (size_t)s->lattice->n_nodes, s->x)) {
+        outcome_fail(o, EXIT_INVALID, "dem_plot", "frame %lld has places that are not finite", (long long)frame);
+        return false;
+    }
     s->frame = frame;
     s->t = dem_film_times(s->film, &n)[frame];
     s->bounds = box_around(s->lattice->n_nodes, s->x);

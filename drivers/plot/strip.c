@@ -5,6 +5,7 @@
 
 static const double margin = 12.0, gap = 10.0, above = 26.0, below = 66.0; /* pixels */
 static const double highest = 0.75;                                        /* of a picture, over its width */
+static const double narrowest = 20.0;                                      /* panel, pixels */
 static const double flattest = 0.25;                                       /* a panel's height over its width */
 
 static double across_of(double width, size_t columns)
@@ -22,11 +23,17 @@ static size_t divide_up(size_t n, size_t by)
     return (n + by - 1) / by;
 }
 
+static size_t most_columns(size_t n, double width)
+{
+    const size_t room = (size_t)((width - 2.0 * margin + gap) / (narrowest + gap));
+    return n < room ? n : room;
+}
+
 /* More rows make larger panels, and a higher picture; a last row with few panels looks forgotten. */
 static size_t choose_columns(size_t n, double shape, double width)
 {
-    size_t columns = n;
-    for (size_t rows = 2; rows <= n; rows++) {
+    size_t columns = most_columns(n, width);
+    for (size_t rows = divide_up(n, columns) + 1; rows <= n; rows++) {
         const size_t fewer = divide_up(n, rows), last = n - (divide_up(n, fewer) - 1) * fewer;
         if (height_of(divide_up(n, fewer), shape * across_of(width, fewer)) > highest * width) break;
         if (3 * last >= 2 * fewer) columns = fewer;
@@ -48,11 +55,12 @@ strip strip_plan(size_t n, box view, double width, size_t columns)
 {
     strip s = {.n = n, .width = 2.0 * ceil(0.5 * width)};
     const double shape = fmax(box_height(view) / box_width(view), flattest);
-    s.columns = columns > 0 ? (columns < n ? columns : n) : choose_columns(n, shape, s.width);
+    s.columns = columns > 0 ? most_columns(columns < n ? columns : n, s.width) : choose_columns(n, shape, s.width);
     s.rows = divide_up(n, s.columns);
     s.across = across_of(s.width, s.columns);
     const double room = (highest * s.width - height_of(s.rows, 0.0)) / (double)s.rows;
-    s.down = round(s.columns == n ? fmin(shape * s.across, room) : shape * s.across);
+    const bool is_limited = columns == 0 || s.rows == 1;
+    s.down = round(is_limited ? fmin(shape * s.across, fmax(room, narrowest)) : shape * s.across);
     s.height = 2.0 * ceil(0.5 * height_of(s.rows, s.down));
     s.view = widen(view, s.down / s.across);
     return s;

@@ -19,7 +19,8 @@ typedef struct strip {
 /** \param n        panels, > 0
  *  \param view     what they show at least, m; not empty
  *  \param width    of the picture, pixels
- *  \param columns  0: as few as make a picture that is no higher than three quarters of its width */
+ *  \param columns  0: as few as make a picture that is no higher than three quarters of its width; more than have
+ *                 room are not taken */
 strip strip_plan(size_t n, box view, double width, size_t columns);
 
 panel strip_panel(const strip *s, size_t k);

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> dem from Fortran: docs/fortran.md. The names are those of the C headers in include/dem, which say what each does; this
+!> dem from Fortran: docs/fortran.md. Names are those of the C headers in include/dem, which say what each does. This
 !> module has beside them (dem_c.f90) what a C header defines itself, and C strings as Fortran's.
 module dem
   use dem_c

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The C interface of dem, name by name, as src/fortran/bindings.py writes it from the headers in include/dem; these tell
+!> The C interface of dem, name by name, written by src/fortran/bindings.py from the headers in include/dem, which tell
 !> what everything does, with shapes, units, errors and ownership. Programs use the module dem, which is made of this.
 module dem_c
   use, intrinsic :: iso_c_binding

@@ -114,7 +114,9 @@ class Decks(unittest.TestCase):
         cls.keep = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.keep.name)
         for name in ("rectangle", "disc", "porous"):
-            cls.batch(INPUTS / f"{name}.nml", "--set", "body.spacing=6e-3", "--set", "run.t_end=8e-3")
+            cls.batch(INPUTS / f"{name}.nml", "--set", "body.spacing=6e-3", "--set", "run.t_end=8e-3", "--set",
+                      "output.frame_interval=4e-4")
+        cls.batch(INPUTS / "every_key.nml")
         with h5py.File(cls.folder / "point.h5", "w") as file:
             file["lattice/x"], file["lattice/mass"] = [[0.0, 0.0]], [2.0]
         for name, text in (("fine", FINE), ("point", POINT)):
@@ -161,10 +163,11 @@ class Decks(unittest.TestCase):
                 self.assertTrue(np.all(drawn[:2] > place[:2] + 1) and np.all(drawn[2:] < place[2:] - 1), (name, frame))
                 self.assertTrue(0 <= place[0] and place[2] <= strip.size[0] and place[3] <= strip.size[1])
 
-    def test_greatest_compression_is_among_the_frames(self):
-        film = Film(self.at("disc"))
-        peak = film.history["t"][np.argmax(film.history["elastic"])]
-        self.assertIn(np.argmin(np.abs(film.t - peak)), self.strip("disc").frames)
+    def test_greatest_compression_is_the_third_of_the_frames(self):
+        for name in ("rectangle", "disc", "porous"):
+            film = Film(self.at(name))
+            peak = film.history["t"][np.argmax(film.history["elastic"])]
+            self.assertEqual(sorted(self.strip(name).frames)[2], np.argmin(np.abs(film.t - peak)))
 
     def test_limits_are_symmetric_and_hold_what_is_usual(self):
         film, strip = Film(self.at("disc")), self.strip("disc")
@@ -241,8 +244,8 @@ class Decks(unittest.TestCase):
         """The pixels of a fine lattice are those of its area: all of the rectangle without its hole, and nothing else."""
         path, film = self.folder / "e.png", Film(self.at("fine"))
         self.assertGreater(len(film.ends), 50000)
-        self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 300).stdout)
-        strip = self.strip("fine", "--frames", "0", "--width", 300)
+        self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 400).stdout)
+        strip = self.strip("fine", "--frames", "0", "--width", 400)
         group = strip.frames[0]
         place = numbers(group.get("data-place"))
         y, x = np.mgrid[int(place[1]) + 2:int(place[3]) - 2, int(place[0]) + 2:int(place[2]) - 2]
@@ -293,11 +296,25 @@ class Decks(unittest.TestCase):
         charts = [g for g in strip.root.iter(f"{SVG}g") if g.get("class") == "chart"]
         self.assertEqual([int(g.get("data-rows")) for g in charts], [rows] * 4)
 
+    def test_the_sum_of_energies_is_a_level_line(self):
+        """With boundaries that do work, impacts, damping: to the 2e-3 that docs/verification.md asks for, 1 px here."""
+        run_plot(self.at("every_key"), "--history", "-o", self.folder / "h.svg")
+        chart = next(g for g in Strip(self.folder / "h.svg").root.iter(f"{SVG}g") if g.get("class") == "chart")
+        lines = {path.get("stroke"): points_of(path.get("d"))[0] for path in chart.iter(f"{SVG}path") if path.get("stroke-width") == "1.60"}
+        heights = {ink: np.ptp(line[:, 1]) for ink, line in lines.items()}
+        self.assertGreaterEqual(len(heights), 5)
+        self.assertLess(heights.pop("#1a1a1a"), 1.0)
+        self.assertGreater(sorted(heights.values())[-2], 100.0)
+
     def test_faults_are_one_line_and_leave_nothing(self):
         disc, out = self.at("disc"), self.folder / "none.svg"
         broken = self.folder / "broken.vtkhdf"
         broken.write_bytes(disc.read_bytes()[:4000])
-        cases = (([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
+        endless = self.folder / "endless.vtkhdf"
+        endless.write_bytes(disc.read_bytes())
+        with h5py.File(endless, "r+") as file:
+            file["VTKHDF/Points"][7, 0] = np.inf
+        cases = (([endless, "-o", out], 3), ([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
                  ([disc, "-o", out, "--frames", "99"], 3), ([disc, "-o", out, "--frames", "x"], 3),
                  ([disc, "-o", out, "--color", "principal_1"], 3), ([self.folder / "no.vtkhdf", "-o", out], 5),
                  ([broken, "-o", out], 5), ([disc, "-o", self.folder / "no/where.svg"], 5),

@@ -165,6 +165,13 @@ static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem
     return status;
 }
 
+static dem_status lean(void *context, const dem_force_query *query, double *force)
+{
+    (void)context;
+    for (dem_index k = 0; k < query->n; k++) force[2 * k] = 1e-3;
+    return DEM_OK;
+}
+
 /* From the beginning but not to the end, or to the end from a record. */
 static dem_status run_from(const dem_record *record, const dem_model *model)
 {
@@ -173,6 +180,7 @@ static dem_status run_from(const dem_record *record, const dem_model *model)
     dem_peaks *peaks = NULL;
     options.contact = DEM_CONTACT_EXACT;
     options.record_steps = 12;
+    options.force = lean;
     dem_status status = record == NULL ? dem_simulation_create(&simulation, model, &options)
                                        : dem_simulation_resume(&simulation, model, &options, record);
     if (status == DEM_OK)

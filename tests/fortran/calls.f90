@@ -44,6 +44,7 @@ program calls
   call models()
   call simulations()
   call records()
+  call films()
   call dem_simulation_destroy(simulation)
   call dem_model_destroy(model)
   call dem_lattice_free(lattice)
@@ -160,5 +161,46 @@ contains
     entry = dem_record_find(record, 'mine'//c_null_char, bytes)
     call expect(c_associated(entry) .and. bytes == 24, 'found')
     call dem_record_destroy(record)
+  end subroutine
+
+  !> A run written to the file that is named on the command line, and read back.
+  subroutine films()
+    type(dem_trajectory_options) :: options
+    type(dem_film_array), pointer :: array
+    type(c_ptr) :: falling, file, film
+    character(:), allocatable :: path
+    character(kind=c_char) :: note(8)
+    real(c_double), pointer :: times(:)
+    real(c_double), allocatable :: x(:, :), v(:, :)
+    integer(dem_index) :: n_frames
+    integer :: length
+    call get_command_argument(1, length=length)
+    allocate (character(length) :: path)
+    call get_command_argument(1, path)
+    path = path//c_null_char
+    options = dem_trajectory_options_default()
+    options%frame_interval = t / 2
+    call succeed(dem_simulation_create(falling, model, dem_options_default()))
+    call succeed(dem_trajectory_create(file, path, falling, options))
+    call succeed(dem_trajectory_note(file, 'mine'//c_null_char, 'a note'//c_null_char))
+    call succeed(dem_simulation_observe(falling, dem_trajectory_observer(file)))
+    call succeed(dem_simulation_advance(falling, t))
+    call succeed(dem_trajectory_finish(file))
+    call dem_trajectory_destroy(file)
+    call dem_simulation_destroy(falling)
+
+    call succeed(dem_trajectory_read_note(path, 'mine'//c_null_char, note, size(note, kind=c_size_t)))
+    call expect(transfer(note(:6), 'a note') == 'a note' .and. note(7) == c_null_char, 'the note')
+    call succeed(dem_film_open(film, path))
+    call c_f_pointer(dem_film_times(film, n_frames), times, [3])
+    call expect(n_frames == 3 .and. maxval(abs(times - [0d0, t / 2, t])) < 1d-15, 'three frames')
+    call c_f_pointer(dem_film_array_find(film, 'velocity'//c_null_char), array)
+    call expect(dem_string(array%unit) == 'm/s' .and. array%components == 3, 'velocities in three components')
+    allocate (x(2, lattice%n_nodes), v(array%components, lattice%n_nodes))
+    call succeed(dem_film_positions(film, n_frames - 1, x))
+    call succeed(dem_film_read(film, array, n_frames - 1, v))
+    call expect(abs(minval(x(2, :)) - 1 + 9.81d0 * t**2 / 2) < 1d-9, 'how far it fell')
+    call expect(maxval(abs(v(2, :) + 9.81d0 * t)) < 1d-6, 'how fast, in single precision')
+    call dem_film_close(film)
   end subroutine
 end program

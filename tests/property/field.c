@@ -5,7 +5,9 @@
 dem_status field_act(void *context, const dem_force_query *q, double *force)
 {
     field *f = context;
-    const int fails = ++f->calls == f->fails_at;
+    f->calls++;
+    f->alone += q->n == 1;
+    const int fails = f->calls == f->fails_at || (q->n == 1 && f->alone == f->fails_at_alone);
     for (dem_index k = 0; k < q->n; k++) {
         const double *x = q->x + 2 * k, *v = q->v + 2 * k, turned[2] = {-v[1], v[0]};
         for (int e = 0; e < 2; e++)

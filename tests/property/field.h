@@ -8,8 +8,9 @@
 /** m (a + B (x - c) - d v + w J v + f cos(o t + node)), J a quarter turn; it may fail, once. */
 typedef struct field {
     double mass, a[2], b[2][2], c[2], d, w, f[2], o;
-    long calls, fails_at; /* the call at which it does; 0: at none */
-    dem_status status;    /* then; DEM_OK: with a number that is none */
+    long calls, fails_at;       /* the call at which it does; 0: at none */
+    long alone, fails_at_alone; /* the same of calls about one node */
+    dem_status status;          /* then; DEM_OK: with a number that is none */
 } field;
 
 /** The same for the same scene and seed. */

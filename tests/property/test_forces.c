@@ -299,7 +299,8 @@ static void write_diary(diary *d, stage *s, unsigned long seed, manner how)
     assert_ok(dem_simulation_advance(s->simulation, 0.25 * s->scene.t_end));
 }
 
-/* Fails at one call, leaves a state that the run goes through, and goes on from there. */
+/* Fails at one call, or at one about a single node (< 0), leaves a state that the run goes through, and goes on from
+ * there. */
 static void stumble(const diary *d, unsigned long seed, manner how, long call, dem_status wanted)
 {
     stage s;
@@ -308,11 +309,12 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
     dem_index page = 0;
     open_stage(&s, seed, how, NULL);
     watch_stage(&w, &s);
-    s.field.fails_at = call;
+    s.field.fails_at = call > 0 ? call : 0;
+    s.field.fails_at_alone = call < 0 ? -call : 0;
     s.field.status = wanted;
     const double t_end = 0.25 * s.scene.t_end;
     const dem_status status = dem_simulation_advance(s.simulation, t_end);
-    assert_int_equal(s.field.calls, call);
+    assert_int_equal(call > 0 ? s.field.calls : -s.field.alone, call);
     assert_int_equal(status, wanted == DEM_OK ? DEM_ERROR_INTEGRATOR : wanted);
     assert_non_null(strstr(dem_status_message(), "the external force"));
     dem_simulation_state(s.simulation, &state);
@@ -343,6 +345,8 @@ static void a_force_that_fails_leaves_the_last_state(void **state)
             const long call = n < 4 ? n + 1 : whole.field.calls * (n - 3) / (most - 3) - n % 3;
             if (call > 0) stumble(&d, seed, how, call, statuses[n % 3]);
         }
+        for (long n = 1; n <= most && n <= whole.field.alone; n++)
+            stumble(&d, seed, how, -whole.field.alone * n / most, statuses[n % 3]);
         close_stage(&whole);
     }
 }

@@ -116,6 +116,18 @@ static void axes_have_numbers_units_and_names(void **state)
     free(r);
 }
 
+/* As narrow as the command line lets it be. */
+static void narrow_charts_are_legible(void **state)
+{
+    (void)state;
+    rows *r = fill(wave);
+    const chart c = make(r);
+    witness s = witness_new();
+    assert_true(chart_draw(&c, (box){14, 14, 386, 150}, true, &s.face));
+    witness_expect_legible(&s, (box){0, 0, 400, 150});
+    free(r);
+}
+
 static double decay(double t)
 {
     return t < 1e-4 ? 0.0 : pow(10.0, -3.0 - 6.0 * t);
@@ -160,9 +172,11 @@ static void flat_and_empty_lines_have_axes_all_the_same(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thinning_keeps_what_is_seen), cmocka_unit_test(a_single_step_is_not_lost),
-        cmocka_unit_test(axes_have_numbers_units_and_names), cmocka_unit_test(decades_leave_out_what_has_no_logarithm),
-        cmocka_unit_test(flat_and_empty_lines_have_axes_all_the_same)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(thinning_keeps_what_is_seen),
+                                       cmocka_unit_test(a_single_step_is_not_lost),
+                                       cmocka_unit_test(axes_have_numbers_units_and_names),
+                                       cmocka_unit_test(narrow_charts_are_legible),
+                                       cmocka_unit_test(decades_leave_out_what_has_no_logarithm),
+                                       cmocka_unit_test(flat_and_empty_lines_have_axes_all_the_same)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

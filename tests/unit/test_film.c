@@ -782,12 +782,15 @@ static void what_has_changed_since_is_refused(void **state)
     const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
     put_flat(file, "/VTKHDF/PointData/velocity");
     drop(file, "/history/t");
+    put_flat(file, "/history/h");
     put_huge(file, "/VTKHDF/Points");
     (void)H5Fclose(file);
     assert_int_equal(dem_film_read(film, dem_film_array_find(film, "velocity"), 3, values), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "velocity: has another shape than when the film was opened"));
     assert_int_equal(dem_film_read_column(film, dem_film_column_find(film, "history", "t"), values), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/history/t: is missing"));
+    assert_int_equal(dem_film_read_column(film, dem_film_column_find(film, "history", "h"), values), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/history/h: has another shape than when the film was opened"));
     assert_int_equal(dem_film_positions(film, 3, values), DEM_ERROR_IO);
     free(values);
     dem_film_close(film);

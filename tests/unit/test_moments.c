@@ -72,6 +72,7 @@ static void usual_ones_mirror_about_the_greatest_compression(void **state)
     (void)state;
     expect_usual(21, 4, 6, (const dem_index[]){0, 2, 4, 6, 8, 20});
     expect_usual(21, 3, 6, (const dem_index[]){0, 2, 3, 5, 6, 20});
+    expect_usual(21, 9, 6, (const dem_index[]){0, 5, 9, 14, 18, 20});
     expect_usual(21, 14, 6, (const dem_index[]){0, 7, 14, 16, 18, 20});
     expect_usual(21, 1, 4, (const dem_index[]){0, 1, 2, 20});
     expect_usual(21, -1, 6, (const dem_index[]){0, 4, 8, 12, 16, 20});

@@ -34,7 +34,10 @@ static double *read_all(const filmed *f, const char *name)
     assert_true(quantity_find(&q, f->film, name, &o));
     double *value = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * sizeof *value);
     assert_non_null(value);
-    filmed_ok(quantity_read(&q, f->film, 0, value));
+    double *rows = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * 6 * sizeof *rows);
+    assert_non_null(rows);
+    filmed_ok(quantity_read(&q, f->film, 0, value, rows));
+    free(rows);
     return value;
 }
 
@@ -60,15 +63,16 @@ static void components_of_stress_are_those_named(void **state)
     static const int column[] = {0, 1, 3};
     const dem_index n = dem_film_lattice(f->film)->n_nodes;
     double *all = malloc((size_t)n * 6 * sizeof *all), *one = malloc((size_t)n * sizeof *one);
+    double *rows = malloc((size_t)n * 6 * sizeof *rows);
     filmed_ok(dem_film_read(f->film, stress, FILMED_FRAMES - 1, all));
     for (int c = 0; c < 3; c++) {
         quantity q;
         outcome o = {0};
         assert_true(quantity_find(&q, f->film, names[c], &o));
-        filmed_ok(quantity_read(&q, f->film, FILMED_FRAMES - 1, one));
+        filmed_ok(quantity_read(&q, f->film, FILMED_FRAMES - 1, one, rows));
         for (dem_index k = 0; k < n; k++) assert_close(one[k], all[6 * k + column[c]], 0.0);
     }
-    free(all), free(one);
+    free(all), free(one), free(rows);
 }
 
 static void what_the_file_lacks_is_refused(void **state)

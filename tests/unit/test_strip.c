@@ -43,6 +43,17 @@ static void panels_do_not_meet_whatever_their_number_and_shape(void **state)
             }
 }
 
+static void very_many_panels_have_more_rows(void **state)
+{
+    (void)state;
+    for (size_t n = 25; n < 3000; n = 3 * n / 2)
+        for (size_t columns = 0; columns <= 100; columns += 50) {
+            const strip s = strip_plan(n, (box){0, 0, 1, 1}, 400.0, columns);
+            check(&s, (box){0, 0, 1, 1});
+            assert_true(s.across >= 20.0 && s.down >= 20.0);
+        }
+}
+
 static void widths_become_even(void **state)
 {
     (void)state;
@@ -83,9 +94,11 @@ static void a_point_has_a_view(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(panels_do_not_meet_whatever_their_number_and_shape), cmocka_unit_test(widths_become_even),
-        cmocka_unit_test(six_square_panels_are_two_rows_of_three), cmocka_unit_test(a_view_has_the_ground_that_is_near),
-        cmocka_unit_test(a_point_has_a_view)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(panels_do_not_meet_whatever_their_number_and_shape),
+                                       cmocka_unit_test(very_many_panels_have_more_rows),
+                                       cmocka_unit_test(widths_become_even),
+                                       cmocka_unit_test(six_square_panels_are_two_rows_of_three),
+                                       cmocka_unit_test(a_view_has_the_ground_that_is_near),
+                                       cmocka_unit_test(a_point_has_a_view)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

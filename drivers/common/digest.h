@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A hash of what is plotted, FNV-1a: of the data, before fonts and pixels come in. */
+/* Hashes, FNV-1a, by which problems and plotted data are known. */
 #ifndef DEM_DIGEST_H
 #define DEM_DIGEST_H
 
