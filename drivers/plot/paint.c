@@ -155,6 +155,7 @@ canvas *paint_open_pdf(FILE *file, double width, double height)
 {
     const double points = 0.75; /* 72 to the inch */
     cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(put_file, file, points * width, points * height);
+    cairo_pdf_surface_restrict_to_version(surface, CAIRO_PDF_VERSION_1_4); /* as text, whatever cairo's own choice */
     canvas *c = open_paint(file, surface, true);
     if (c != NULL) cairo_scale(cairo_of(c), points, points);
     return c;
