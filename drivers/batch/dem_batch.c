@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The batch driver. Exit codes: README.md. */
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <dem/trajectory.h>
 
 #include "cases.h"
@@ -10,6 +7,7 @@
 #include "preview.h"
 #include "schema.h"
 #include "signals.h"
+#include "streams.h"
 
 /* One after the other, whatever becomes of each, until one is stopped; the largest code is the worst. */
 static exit_code do_all(const command *c)
@@ -52,23 +50,14 @@ static exit_code act(const command *c)
     return EXIT_DONE;
 }
 
-/* A file must not get the number of a closed standard stream: what is printed would go into it. */
-static void fill_streams(void)
-{
-    for (int k = 0; k <= STDERR_FILENO; k++)
-        if (fcntl(k, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
-}
-
 int main(int argc, char **argv)
 {
     command c;
-    fill_streams();
+    streams_begin();
     signals_catch();
     dem_hdf5_skip_exit();
     exit_code code = command_parse(&c, argc, argv);
     if (code == EXIT_DONE) code = act(&c);
     command_free(&c);
-    const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
-    if (!printed) (void)fprintf(stderr, "dem_batch: error: standard output cannot be written\n");
-    return printed || code != EXIT_DONE ? (int)code : (int)EXIT_IO;
+    return streams_end("dem_batch", code);
 }

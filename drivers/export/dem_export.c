@@ -8,6 +8,7 @@
 
 #include "commit.h"
 #include "export.h"
+#include "streams.h"
 
 enum { MOST_PATH = 4096 };
 
@@ -91,6 +92,7 @@ static void write_files(const export *e, outcome *o)
 int main(int argc, char **argv)
 {
     export e;
+    streams_begin();
     dem_hdf5_skip_exit();
     outcome o = {.code = export_parse(&e, argc > 0 ? argv + 1 : argv)};
     if (o.code != EXIT_DONE) return (int)o.code;
@@ -100,7 +102,5 @@ int main(int argc, char **argv)
         (void)printf("dem_export of dem %s (%s)\n", dem_version(), DEM_COMMIT);
     else
         write_files(&e, &o);
-    const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
-    if (!printed) (void)fprintf(stderr, "dem_export: error: standard output cannot be written\n");
-    return printed || o.code != EXIT_DONE ? (int)o.code : (int)EXIT_IO;
+    return streams_end("dem_export", o.code);
 }

@@ -7,6 +7,7 @@
 #include "commit.h"
 #include "request.h"
 #include "show.h"
+#include "streams.h"
 #include "timeline.h"
 
 static void draw(const request *asked, outcome *o)
@@ -27,6 +28,7 @@ static void draw(const request *asked, outcome *o)
 int main(int argc, char **argv)
 {
     request asked;
+    streams_begin();
     outcome o = {.code = request_parse(&asked, argc > 0 ? argv + 1 : argv)};
     if (o.code != EXIT_DONE) return (int)o.code;
     if (asked.action == REQUEST_HELP)
@@ -35,7 +37,5 @@ int main(int argc, char **argv)
         (void)printf("dem_plot of dem %s (%s)\n", dem_version(), DEM_COMMIT);
     else
         draw(&asked, &o);
-    const bool printed = fflush(stdout) == 0 && ferror(stdout) == 0;
-    if (!printed) (void)fprintf(stderr, "dem_plot: error: standard output cannot be written\n");
-    return printed || o.code != EXIT_DONE ? (int)o.code : (int)EXIT_IO;
+    return streams_end("dem_plot", o.code);
 }
