@@ -153,7 +153,8 @@ class Installed(unittest.TestCase):
         manual = (SOURCE / "docs/linking.md").read_text(encoding="utf-8")
         (self.work / "CMakeLists.txt").write_text(re.search(r"(?s)```cmake\n(.*?)```", manual)[1])
         (self.work / "drive.c").write_bytes((SOURCE / "docs/examples/drive.c").read_bytes())
-        run("cmake", "-S", self.work, "-B", self.work / "cmake", f"-DCMAKE_C_COMPILER={COMPILER[-1]}", env=self.env)
+        run("cmake", "-G", "Ninja", f"-DCMAKE_C_COMPILER={COMPILER[-1]}", "-S", self.work, "-B", self.work / "cmake",
+            env=self.env)
         run("cmake", "--build", self.work / "cmake", env=self.env)
         run(self.work / "cmake/drive", env=self.env)
 
