@@ -89,4 +89,19 @@ static inline void filmed_close(filmed *f)
     assert_int_equal(rmdir(f->folder), 0);
 }
 
+/** For a group of tests, whose state it is. */
+static inline int filmed_begin(void **state)
+{
+    static filmed f;
+    f = filmed_open();
+    *state = &f;
+    return 0;
+}
+
+static inline int filmed_end(void **state)
+{
+    filmed_close(*state);
+    return 0;
+}
+
 #endif

@@ -88,25 +88,11 @@ static void what_is_out_of_view_is_left_out(void **state)
     snapshot_free(&v.s);
 }
 
-static int open_film(void **state)
-{
-    static filmed f;
-    f = filmed_open();
-    *state = &f;
-    return 0;
-}
-
-static int close_film(void **state)
-{
-    filmed_close(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scale_is_pixels_by_metres), cmocka_unit_test(springs_points_and_ground_are_drawn),
         cmocka_unit_test(numbers_of_nodes_fill_triangles), cmocka_unit_test(binned_ones_are_an_image),
         cmocka_unit_test(what_is_out_of_view_is_left_out)};
-    return cmocka_run_group_tests(tests, open_film, close_film);
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
 }

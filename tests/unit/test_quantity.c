@@ -87,25 +87,11 @@ static void what_the_file_lacks_is_refused(void **state)
     assert_false(quantity_is_known("colour"));
 }
 
-static int open_film(void **state)
-{
-    static filmed f;
-    f = filmed_open();
-    *state = &f;
-    return 0;
-}
-
-static int close_film(void **state)
-{
-    filmed_close(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_default_is_the_strain), cmocka_unit_test(none_has_no_numbers),
         cmocka_unit_test(vectors_are_taken_by_length_and_component),
         cmocka_unit_test(components_of_stress_are_those_named), cmocka_unit_test(what_the_file_lacks_is_refused)};
-    return cmocka_run_group_tests(tests, open_film, close_film);
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
 }

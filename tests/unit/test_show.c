@@ -90,24 +90,10 @@ static void an_animation_has_a_file_for_each_frame(void **state)
     assert_int_equal(rmdir(r.folder), 0);
 }
 
-static int open_film(void **state)
-{
-    static filmed f;
-    f = filmed_open();
-    *state = &f;
-    return 0;
-}
-
-static int close_film(void **state)
-{
-    filmed_close(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_strip_has_all_frames_of_a_short_film),
                                        cmocka_unit_test(frames_and_times_are_taken),
                                        cmocka_unit_test(an_animation_has_a_file_for_each_frame)};
-    return cmocka_run_group_tests(tests, open_film, close_film);
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
 }

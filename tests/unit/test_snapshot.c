@@ -89,24 +89,10 @@ static void a_frame_that_is_not_there_is_refused(void **state)
     snapshot_free(&s);
 }
 
-static int open_film(void **state)
-{
-    static filmed f;
-    f = filmed_open();
-    *state = &f;
-    return 0;
-}
-
-static int close_film(void **state)
-{
-    filmed_close(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_and_bounds_are_those_of_the_frame), cmocka_unit_test(nodes_lend_their_numbers),
         cmocka_unit_test(hashes_tell_frames_and_quantities), cmocka_unit_test(a_frame_that_is_not_there_is_refused)};
-    return cmocka_run_group_tests(tests, open_film, close_film);
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
 }

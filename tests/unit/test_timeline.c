@@ -58,24 +58,10 @@ static void the_same_film_has_the_same_hash(void **state)
     free(b);
 }
 
-static int open_film(void **state)
-{
-    static filmed f;
-    f = filmed_open();
-    *state = &f;
-    return 0;
-}
-
-static int close_film(void **state)
-{
-    filmed_close(*state);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(energies_reaction_contacts_and_steps_have_charts),
                                        cmocka_unit_test(what_never_is_has_no_line),
                                        cmocka_unit_test(the_same_film_has_the_same_hash)};
-    return cmocka_run_group_tests(tests, open_film, close_film);
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
 }
