@@ -132,10 +132,11 @@ static vec2 node_powers(const patch *p, dem_index j, const double *x, const doub
                   0.0};
     if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
     if (load->boundaries != NULL) power.y += vec2_dot(boundaries_force(load->boundaries, i, v[load->clock]), vi);
-    if (load->coupling != NULL) power.y += vec2_dot(vec2_at(load->coupling->answer, j), vi);
+    const vec2 push = load->coupling != NULL ? vec2_at(load->coupling->answer, j) : (vec2){0.0, 0.0};
+    if (load->coupling != NULL) power.y += vec2_dot(push, vi);
     const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
     if (held != 0) {
-        const vec2 a = model_acceleration(model, load, i, x, v);
+        const vec2 a = vec2_along(model_own_acceleration(model, load, i, x, v), model->inverse_mass[i], push);
         if (held & DEM_COMPONENT_X) power.y -= model->lattice.mass[i] * a.x * vi.x;
         if (held & DEM_COMPONENT_Y) power.y -= model->lattice.mass[i] * a.y * vi.y;
     }
