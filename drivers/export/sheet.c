@@ -69,10 +69,10 @@ bool sheet_close(sheet *s, bool good)
     char name[SHEET_PATH];
     int cause = 0;
     errno = EIO;
-    if (fflush(s->file) != 0 || ferror(s->file) != 0 || fsync(fileno(s->file)) != 0) cause = errno;
+    if (fflush(s->file) != 0 || ferror(s->file) != 0) cause = errno;
     if (fclose(s->file) != 0 && cause == 0) cause = errno;
     name_unfinished(name, s);
-    if (good && cause == 0 && rename(name, s->path) != 0) cause = errno;
-    if (!good || cause != 0) (void)unlink(name);
-    return good && (cause == 0 || fail(s, cause));
+    good = good && (cause == 0 || fail(s, cause)) && task_holds(s->task, dem_publish(name, s->path));
+    if (!good) (void)unlink(name);
+    return good;
 }
