@@ -87,10 +87,9 @@ static piece_array *put_fields(piece_array *at, const reel *r)
 
 static bool read_fields(const reel *r, dem_index frame)
 {
-    dem_index n = 0, k = 0;
+    dem_index n_frames = 0, n = 0, k = 0;
     const dem_film_column *columns = dem_film_columns(r->task->film, &n);
-    r->energies[0] = dem_film_times(r->task->film, &n)[frame];
-    (void)dem_film_columns(r->task->film, &n);
+    r->energies[0] = dem_film_times(r->task->film, &n_frames)[frame];
     for (dem_index c = 0; c < n; c++)
         if (strcmp(columns[c].table, "frames") == 0 && columns[c].width == 1 &&
             !task_holds(r->task, dem_film_read_rows(r->task->film, &columns[c], frame, 1, &r->energies[++k])))
