@@ -43,7 +43,7 @@ static unsigned char shade_of(const panel_look *look, double value)
 
 static bool is_there(const snapshot *s, dem_index spring)
 {
-    return s->broken == NULL || s->broken[spring] == 0.0;
+    return s->broken[spring] == 0.0;
 }
 
 static bool gather_springs(const panel *p, const snapshot *s, const panel_look *look, sheaf *h)

@@ -23,9 +23,9 @@ bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, o
     s->value = malloc((n + 1) * sizeof *s->value);
     s->work = malloc((n * components + 1) * sizeof *s->work);
     s->is_bare = malloc(nodes);
-    if (dem_film_array_find(film, "broken") != NULL) s->broken = calloc(springs + 1, sizeof *s->broken);
-    const bool has_broken = s->broken != NULL || dem_film_array_find(film, "broken") == NULL;
-    if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && has_broken)
+    s->broken = calloc(springs + 1, sizeof *s->broken);
+    s->breaks = dem_film_array_find(film, "broken");
+    if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && s->broken != NULL)
         return find_bare(s), true;
     outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory");
     return false;
@@ -53,8 +53,8 @@ bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
     dem_index n;
     dem_status status = dem_film_positions(s->film, frame, s->x);
     if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->film, frame, s->value, s->work);
-    if (status == DEM_OK && s->broken != NULL && s->lattice->n_springs > 0)
-        status = dem_film_read(s->film, dem_film_array_find(s->film, "broken"), frame, s->broken);
+    if (status == DEM_OK && s->breaks != NULL && s->lattice->n_springs > 0)
+        status = dem_film_read(s->film, s->breaks, frame, s->broken);
     if (status != DEM_OK) return outcome_fail_status(o, status, "dem_plot"), false;
     if (!is_finite(2 * (size_t)s->lattice->n_nodes, s->x)) {
         outcome_fail(o, EXIT_INVALID, "dem_plot", "frame %lld has places that are not finite", (long long)frame);

@@ -17,11 +17,12 @@ typedef struct snapshot {
     const quantity *shown;
     const dem_lattice *lattice;
     size_t n_values;
-    double *x;              /* [n_nodes][2] m */
-    double *value;          /* [n_values] of springs or nodes */
-    double *work;           /* [n_values][components of the source] */
-    double *broken;         /* [n_springs] not 0 where a spring is no more; NULL: never */
-    unsigned char *is_bare; /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
+    double *x;                    /* [n_nodes][2] m */
+    double *value;                /* [n_values] of springs or nodes */
+    double *work;                 /* [n_values][components of the source] */
+    const dem_film_array *breaks; /* NULL: springs never break */
+    double *broken;               /* [n_springs] not 0 where a spring is no more */
+    unsigned char *is_bare;       /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
     dem_index frame;
     double t;         /* s */
     box bounds;       /* of the nodes, m */
