@@ -106,7 +106,7 @@ def incline(axes, folder):
         axes.plot(t, x[:, 0, :2] @ along, ".", color=colour, label=f"mu = {mu:g}")
         worst = max(worst, numpy.abs(x[:, 0, :2] @ along - way(t)).max())
     axes.set(title="a point thrown up an incline of 30 degrees", xlabel="t, s", ylabel="way, m")
-    expect("incline", worst, 1e-5)  # the skin
+    expect("incline", worst, 1e-8)  # rtol in each of a hundred steps; along the incline the skin does not count
 
 
 def pair(axes, errors, folder):
