@@ -219,7 +219,7 @@ static void pull(const ball *b, int rings, const double *x, double *f)
 static void accelerate_plain(const ball *b, int rings, const ball_state *s, double *a)
 {
     const contact_scene *scene = &b->sites->scene;
-    const model_load *load = &scene->rule.load;
+    const forces *load = &scene->rule.load;
     pull(b, rings, s->x, a);
     for (dem_index j = 0; j < b->end[rings]; j++) {
         const double inverse_mass = scene->model->inverse_mass[b->nodes[j].i];
@@ -240,11 +240,11 @@ void ball_push(const ball *b, int rings, double t, const double *x, const double
 void ball_accelerate(ball *b, int rings, const ball_state *s, double *a)
 {
     const contact_scene *scene = &b->sites->scene;
-    const model_load *load = &scene->rule.load;
+    const forces *load = &scene->rule.load;
     const double *v = s->y + scene_velocities(scene);
     if (b->plain) accelerate_plain(b, rings, s, a);
     for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
-        vec2_put(a, j, model_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));
+        vec2_put(a, j, forces_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));
     ball_push(b, rings, v[load->clock], s->x, s->v);
     for (dem_index j = 0; j < b->end[rings] && load->coupling != NULL; j++)
         vec2_put(

@@ -57,7 +57,7 @@ static dem_status measure(loading *l)
         const double h = lattice->thickness != NULL ? lattice->thickness[k] : 1.0;
         if (is_of_body(l, c[0]))
             l->volume +=
-                h * triangles_area(vec2_at(lattice->x, c[0]), vec2_at(lattice->x, c[1]), vec2_at(lattice->x, c[2]));
+                h * vec2_triangle_area(vec2_at(lattice->x, c[0]), vec2_at(lattice->x, c[1]), vec2_at(lattice->x, c[2]));
     }
     CHECK(l->volume > 0.0, DEM_ERROR_MODEL, "the body has no triangles, whose volume its constants refer to");
     for (dem_index i = 0; i < lattice->n_nodes; i++) {

@@ -16,7 +16,7 @@ dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], c
     return energy;
 }
 
-double diagnostics_damping_power(const dem_model *model, const model_load *load, const double *x, const double *v)
+double diagnostics_damping_power(const dem_model *model, const forces *load, const double *x, const double *v)
 {
     double twice_kinetic = 0.0; /* of the nodes that move */
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
@@ -50,8 +50,8 @@ static void measure_triangles(const dem_model *model, const double *x, dem_strai
     const dem_lattice *l = &model->lattice;
     for (dem_index k = 0; k < l->n_triangles; k++) {
         const dem_index *c = &l->triangles[3 * k];
-        const double rest_area = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
-        const double ratio = triangles_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
+        const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double ratio = vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
         strain->area_min = fmin(strain->area_min, ratio);
         strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
         strain->inverted += ratio <= 0.0;
@@ -111,16 +111,16 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
 }
 
 /* What a prescribed component of a node's motion takes, N. */
-static vec2 held_force(const dem_model *model, const model_load *load, const boundary *b, dem_index i, const double *x,
+static vec2 held_force(const dem_model *model, const forces *load, const boundary *b, dem_index i, const double *x,
                        const double *v)
 {
     const vec2 wanted = boundary_acceleration(b, v[load->clock]);
-    const vec2 force = vec2_scale(model->lattice.mass[i], vec2_sub(wanted, model_acceleration(model, load, i, x, v)));
+    const vec2 force = vec2_scale(model->lattice.mass[i], vec2_sub(wanted, forces_acceleration(model, load, i, x, v)));
     return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
 }
 
-dem_boundary_load diagnostics_boundary(const dem_model *model, const model_load *load, const boundary *b,
-                                       const double *x, const double *v)
+dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary *b, const double *x,
+                                       const double *v)
 {
     dem_boundary_load out;
     vec2 force = {0.0, 0.0}, way = {0.0, 0.0};
@@ -146,13 +146,14 @@ static double largest_force(const springs *s, const double *x)
     return largest;
 }
 
-double diagnostics_residual(const dem_model *model, double mass_damping, const path *p)
+double diagnostics_residual(const dem_model *model, double mass_damping, const double *x, const double *v,
+                            const double *a)
 {
     double largest = 0.0;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
-        const vec2 a = vec2_along(vec2_at(p->f1, p->n_nodes + i), mass_damping, vec2_at(p->y1, p->n_nodes + i));
-        if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(a));
+        const vec2 without_drag = vec2_along(vec2_at(a, i), mass_damping, vec2_at(v, i));
+        if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
     }
-    const double scale = largest_force(&model->springs, p->y1);
+    const double scale = largest_force(&model->springs, x);
     return largest > 0.0 ? largest / scale : 0.0;
 }

@@ -188,11 +188,11 @@ static void drift_ends(const kernel *k, int t, const sweep_leap *p)
 }
 
 /* One row by itself; what it adds to the sum. */
-static double accelerate_row(const kernel *k, const model_load *load, const kernel_state *y, dem_index i)
+static double accelerate_row(const kernel *k, const forces *load, const kernel_state *y, dem_index i)
 {
     const sweep_leap *p = y->leap;
     if (p != NULL) drift(k, p, i, i + 1);
-    const vec2 a = model_own_acceleration(k->model, load, i, y->x, y->v);
+    const vec2 a = forces_own_acceleration(k->model, load, i, y->x, y->v);
     vec2_put(y->a, i, a);
     if (p != NULL) k->bulk->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
     return a.x + a.y;
@@ -216,7 +216,7 @@ static dem_index next_guarded(const kernel *k, dem_index q)
 }
 
 /* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
-static double accelerate_rest(const kernel *k, const model_load *load, const kernel_state *y)
+static double accelerate_rest(const kernel *k, const forces *load, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     double sum = 0.0;
@@ -233,7 +233,7 @@ static double accelerate_rest(const kernel *k, const model_load *load, const ker
 }
 
 /* What comes from outside is asked for all nodes at once. */
-static double push(const kernel *k, const model_load *load, const kernel_state *y)
+static double push(const kernel *k, const forces *load, const kernel_state *y)
 {
     coupling *c = load->coupling;
     double sum = 0.0;
@@ -246,12 +246,12 @@ static double push(const kernel *k, const model_load *load, const kernel_state *
     return sum;
 }
 
-bool kernel_may_leap(const kernel *k, const model_load *load)
+bool kernel_may_leap(const kernel *k, const forces *load)
 {
-    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && !model_is_driven(load);
+    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && !forces_are_driven(load);
 }
 
-double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y)
+double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     const dem_index n = l->n_nodes;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The accelerations of all nodes at once, by the instructions that the machine has, in threads. Every kernel and every
- * number of threads gives the bits of model_acceleration(). */
+ * number of threads gives the bits of forces_acceleration(). */
 #ifndef DEM_KERNEL_H
 #define DEM_KERNEL_H
 
 #include <stdbool.h>
 
 #include "bulk.h"
-#include "model.h"
+#include "forces.h"
 #include "sweep.h"
 
 typedef struct kernel {
@@ -38,11 +38,11 @@ typedef struct kernel_state {
 } kernel_state;
 
 /** Whether accelerations depend on nothing but positions, so that there may be a leap. */
-bool kernel_may_leap(const kernel *k, const model_load *load);
+bool kernel_may_leap(const kernel *k, const forces *load);
 
 /** Fills u and a, and does the leap's step, to the bits that bulk's drift and kick give before and after.
  *  \return a sum over them that is not finite if one of them is not */
-double kernel_accelerate(kernel *k, const model_load *load, const kernel_state *y);
+double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y);
 
 /** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
  *  >= 1: omega_max^2 and what the guard adds to it at most. */

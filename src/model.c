@@ -58,7 +58,7 @@ static dem_status check_triangles(const dem_lattice *l)
 {
     for (dem_index k = 0; k < l->n_triangles; k++) {
         const dem_index *c = &l->triangles[3 * k];
-        const double area = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
         CHECK(area > 0.0, DEM_ERROR_MODEL, "triangle %lld (nodes %lld, %lld, %lld): area must be > 0, got %g m^2",
               (long long)k, (long long)c[0], (long long)c[1], (long long)c[2], area);
         CHECK(l->guard == NULL || (isfinite(l->guard[k]) && l->guard[k] >= 0.0), DEM_ERROR_MODEL,
@@ -180,12 +180,6 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     compile_scales(m);
     CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
     return check_bodies(m);
-}
-
-double model_node_energy(const dem_model *model, const double gravity[2], dem_index i, const double *x)
-{
-    const double weight = model->lattice.mass[i] * (gravity[0] * x[2 * i] + gravity[1] * x[2 * i + 1]);
-    return springs_node_energy(&model->springs, i, x) + triangles_node_energy(&model->triangles, i, x) - weight;
 }
 
 /* ---- public ---- */

@@ -99,9 +99,9 @@ static bool is_inside(const dem_index *corner, dem_index i, const double *x)
 {
     const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]), p = vec2_at(x, i);
     if (i == corner[0] || i == corner[1] || i == corner[2]) return false;
-    const double least = touching * triangles_area(a, b, c);
-    return least > 0.0 && triangles_area(a, b, p) > least && triangles_area(b, c, p) > least &&
-           triangles_area(c, a, p) > least;
+    const double least = touching * vec2_triangle_area(a, b, c);
+    return least > 0.0 && vec2_triangle_area(a, b, p) > least && vec2_triangle_area(b, c, p) > least &&
+           vec2_triangle_area(c, a, p) > least;
 }
 
 static void note(overlap *o, dem_index node, dem_index triangle, double t, const double *x)

@@ -114,7 +114,7 @@ static dem_status add_rate(patch *p, dem_index place, int stage, double sign, ve
 static bool has_powers(const patch *p)
 {
     const contact_scene *scene = &p->ball.sites->scene;
-    const model_load *load = &scene->rule.load;
+    const forces *load = &scene->rule.load;
     return p->rule.held != NULL || scene->model->springs.viscosity != NULL || load->mass_damping > 0.0 ||
            load->coupling != NULL;
 }
@@ -126,7 +126,7 @@ static vec2 node_powers(const patch *p, dem_index j, const double *x, const doub
     const dem_index i = p->ball.nodes[j].i;
     const contact_scene *scene = &p->ball.sites->scene;
     const dem_model *model = scene->model;
-    const model_load *load = &scene->rule.load;
+    const forces *load = &scene->rule.load;
     const vec2 vi = vec2_at(v, i);
     vec2 power = {model->inverse_mass[i] > 0.0 ? load->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi) : 0.0,
                   0.0};
@@ -136,7 +136,7 @@ static vec2 node_powers(const patch *p, dem_index j, const double *x, const doub
     if (load->coupling != NULL) power.y += vec2_dot(push, vi);
     const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
     if (held != 0) {
-        const vec2 a = vec2_along(model_own_acceleration(model, load, i, x, v), model->inverse_mass[i], push);
+        const vec2 a = vec2_along(forces_own_acceleration(model, load, i, x, v), model->inverse_mass[i], push);
         if (held & DEM_COMPONENT_X) power.y -= model->lattice.mass[i] * a.x * vi.x;
         if (held & DEM_COMPONENT_Y) power.y -= model->lattice.mass[i] * a.y * vi.y;
     }
@@ -183,7 +183,7 @@ static double stage_time(const patch *p, const path *step, int stage)
 static void put_time(const patch *p, const path *step, int stage, double *y)
 {
     const dem_index last = step->n_nodes - 1;
-    if (!model_is_driven(&p->ball.sites->scene.rule.load)) return;
+    if (!forces_are_driven(&p->ball.sites->scene.rule.load)) return;
     vec2_put(y, step->n_nodes + last, path_velocity(step, stage_time(p, step, stage), last));
 }
 

@@ -279,7 +279,7 @@ static void renew(const queue *q, dem_index i, const double *y)
     double *a = q->trail.f1 + scene_velocities(&c->scene);
     const bool grouped = sites_group_at(c, i) >= 0;
     const vec2 now =
-        grouped ? vec2_at(c->reactions.a, i) : model_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
+        grouped ? vec2_at(c->reactions.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
     if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
     if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
     if (held == 0) vec2_put(q->trail.f1, i, vec2_at(v, i));

@@ -325,7 +325,7 @@ static void set_free(reactions *r, dem_index node, const double *x, const double
 {
     if (r->first[node] == 0) return;
     r->first[node] = 0;
-    vec2_put(r->a, node, model_acceleration(r->scene->model, &r->scene->rule.load, node, x, v));
+    vec2_put(r->a, node, forces_acceleration(r->scene->model, &r->scene->rule.load, node, x, v));
 }
 
 void reactions_solve(reactions *r, dem_index group, const double *x, const double *v)

@@ -89,14 +89,14 @@ static inline const double *run_totals_of(const dem_simulation *s, const double 
 }
 
 /* What acts on nodes besides springs and triangles. */
-static inline model_load run_load(const dem_simulation *s)
+static inline forces run_load(const dem_simulation *s)
 {
     const dem_options *o = &s->options;
-    return (model_load){{o->gravity[0], o->gravity[1]},
-                        o->mass_damping,
-                        s->boundaries.first != NULL ? &s->boundaries : NULL,
-                        s->coupling,
-                        2 * (s->model->lattice.n_nodes + run_books(s->model)) - 1};
+    return (forces){{o->gravity[0], o->gravity[1]},
+                    o->mass_damping,
+                    s->boundaries.first != NULL ? &s->boundaries : NULL,
+                    s->coupling,
+                    2 * (s->model->lattice.n_nodes + run_books(s->model)) - 1};
 }
 
 static inline bool run_is_local(const dem_simulation *s)

@@ -215,7 +215,7 @@ void search_state(const reactions *r, dem_index group, const path *p, double t, 
         if (site->previous >= 0) put_node(p, t, site->previous, state);
         if (site->next >= 0) put_node(p, t, site->next, state);
     }
-    if (model_is_driven(&r->scene->rule.load)) put_node(p, t, p->n_nodes - 1, state); /* the time */
+    if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, p->n_nodes - 1, state); /* the time */
 }
 
 /* Forces and guards of a site in the state at t: the lowest of the guards, each in units of what it was at first. */

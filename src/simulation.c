@@ -70,7 +70,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
 static int leap(const motion_leap *step, void *context)
 {
     dem_simulation *s = context;
-    const model_load *load = &s->contact.sites.scene.rule.load;
+    const forces *load = &s->contact.sites.scene.rule.load;
     const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
     const sweep_leap nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};

@@ -133,7 +133,7 @@ int site_end_passed(const contact_scene *scene, const contact_site *site, int q,
     const bool rests = speed == 0.0;
     for (int p = 0; p < f.n && rests; p++) /* then it heads where it is driven */
         speed +=
-            f.weight[p] * vec2_dot(model_acceleration(scene->model, &scene->rule.load, f.node[p], x, v), f.tangent);
+            f.weight[p] * vec2_dot(forces_acceleration(scene->model, &scene->rule.load, f.node[p], x, v), f.tangent);
     const double heading = site_is_edge(site) ? -speed : speed; /* a vertex moves along the edge against the body */
     return end * heading > 0.0 ? end : 0;
 }

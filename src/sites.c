@@ -143,9 +143,9 @@ dem_status sites_open(contact_sites *c, dem_index k, int q)
 void sites_move(contact_sites *c, dem_index i, vec2 shift, double *x)
 {
     const double *gravity = c->scene.rule.load.gravity;
-    const double before = model_node_energy(c->scene.model, gravity, i, x);
+    const double before = forces_node_energy(c->scene.model, gravity, i, x);
     vec2_put(x, i, vec2_add(vec2_at(x, i), shift));
-    c->books.projection += model_node_energy(c->scene.model, gravity, i, x) - before;
+    c->books.projection += forces_node_energy(c->scene.model, gravity, i, x) - before;
 }
 
 void sites_store(contact_sites *c, dem_index k)

@@ -9,7 +9,7 @@
 
 #include "lattice.h"
 #include "status.h"
-#include "triangles.h"
+#include "vec2.h"
 
 /* ---- materials ---- */
 
@@ -107,7 +107,7 @@ static const dem_material *material_of(const draft *d, dem_index t)
 
 static double area_of(const dem_lattice *l, dem_index a, dem_index b, dem_index c)
 {
-    return triangles_area(vec2_at(l->x, a), vec2_at(l->x, b), vec2_at(l->x, c));
+    return vec2_triangle_area(vec2_at(l->x, a), vec2_at(l->x, b), vec2_at(l->x, c));
 }
 
 static double distance(const dem_lattice *l, dem_index i, dem_index j)

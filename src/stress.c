@@ -32,7 +32,7 @@ static double one_or(const double *array, dem_index k)
 static double volume_of(const dem_lattice *l, dem_index triangle)
 {
     const dem_index *c = &l->triangles[3 * triangle];
-    const double area = triangles_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+    const double area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
     return one_or(l->thickness, triangle) * area;
 }
 

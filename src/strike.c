@@ -77,7 +77,7 @@ static vec2 way_back(const contact_sites *c, contact_hit hit, vec2 x)
 static contact_hit lasting(const contact_sites *c, dem_index k, contact_hit hit, vec2 v, const contact_moment *now)
 {
     const dem_index i = c->list[k].node;
-    const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, i, now->x, now->v), at = vec2_at(now->x, i);
+    const vec2 a = forces_acceleration(c->scene.model, &c->scene.rule.load, i, now->x, now->v), at = vec2_at(now->x, i);
     const double speed = vec2_norm(v);
     impact_surface wall[2];
     double push[2], away[2];
@@ -286,8 +286,8 @@ static void judge(contact_sites *c, dem_index group, double tolerance, const con
             const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
             double back = f.turning;
             for (int e = 0; e < f.n; e++)
-                back -= f.weight[e] * vec2_dot(f.normal, model_acceleration(c->scene.model, &c->scene.rule.load,
-                                                                            f.node[e], now->x, now->v));
+                back -= f.weight[e] * vec2_dot(f.normal, forces_acceleration(c->scene.model, &c->scene.rule.load,
+                                                                             f.node[e], now->x, now->v));
             const impact_surface wall = surface_of(c, k, touch->feature, f.normal);
             const double rest = resting_speed(c, vec2_at(now->x, f.node[0]), back, &wall, shared);
             touch->opens = away > (touch->fresh ? rest : fmax(rest, tolerance));
@@ -468,7 +468,7 @@ bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const 
 {
     const contact_site *here = &c->list[edge], *there = &c->list[next];
     const dem_index node = here->node == there->other ? here->node : here->other, feature = here->closed[0].feature;
-    const vec2 a = model_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
+    const vec2 a = forces_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
     const impact_surface sides[2] = {surface_of(c, edge, feature, edge_normal(here, now->x)),
                                      surface_of(c, edge, feature, edge_normal(there, now->x))};
     double push_on[2];

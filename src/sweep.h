@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One pass over the blocks of a layout: the accelerations of their nodes, free of contact. The same arithmetic for
- * every instruction set, of IEEE's operations alone, so that all of them give the bits of model_acceleration(). */
+ * every instruction set, of IEEE's operations alone, so that all of them give the bits of forces_acceleration(). */
 #ifndef DEM_SWEEP_H
 #define DEM_SWEEP_H
 

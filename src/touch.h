@@ -4,7 +4,7 @@
 #ifndef DEM_TOUCH_H
 #define DEM_TOUCH_H
 
-#include "model.h"
+#include "forces.h"
 
 /** A closed contact of a site. */
 typedef struct contact_touch {
@@ -53,7 +53,7 @@ typedef struct contact_rule {
     bool vertices;         /* whether edges touch vertices */
     dem_index n_books;     /* places behind the nodes in a state, for what is integrated along */
     int n_threads;         /* that look at free sites at once; 0 counts as 1 */
-    model_load load;
+    forces load;
 } contact_rule;
 
 /** What does not change during a run. */

@@ -36,7 +36,7 @@ triangles_law triangles_guard_law(double area_ratio)
 
 static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
 {
-    return triangles_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
+    return vec2_triangle_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
 }
 
 /* dA/dx_i */

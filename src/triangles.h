@@ -48,12 +48,6 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x);
  *  of this times u_i^2. 0 where it does not act. */
 double triangles_guard_bound(const triangles *t, dem_index i, const double *x);
 
-/** Signed area of the triangle abc, m^2. */
-static inline double triangles_area(vec2 a, vec2 b, vec2 c)
-{
-    return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
-}
-
 /** A function of J = area / rest area and its derivatives. */
 typedef struct triangles_law {
     double energy, slope, curvature;

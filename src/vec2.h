@@ -58,6 +58,12 @@ static inline double vec2_norm(vec2 a)
     return sqrt(a.x * a.x + a.y * a.y);
 }
 
+/** Signed area of the triangle abc, m^2. */
+static inline double vec2_triangle_area(vec2 a, vec2 b, vec2 c)
+{
+    return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
+}
+
 /** A symmetric matrix. */
 typedef struct sym2 {
     double xx, xy, yy;

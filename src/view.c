@@ -135,14 +135,16 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 
 dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
 {
-    const model_load load = run_load(s);
+    const forces load = run_load(s);
     return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s), s->seen + run_unknowns(s->model));
 }
 
 double dem_simulation_residual(const dem_simulation *s)
 {
     const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
-    return known ? diagnostics_residual(s->model, s->options.mass_damping, &s->path) : (double)INFINITY;
+    const dem_index v = run_unknowns(s->model);
+    return known ? diagnostics_residual(s->model, s->options.mass_damping, s->path.y1, s->path.y1 + v, s->path.f1 + v)
+                 : (double)INFINITY;
 }
 
 const dem_record *dem_simulation_record(const dem_simulation *s)

@@ -63,7 +63,7 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
 {
     const dem_index n = model->lattice.n_nodes;
     const long rounds = (long)(2e7 / (double)model->lattice.n_springs) + 1;
-    const model_load load = {.gravity = {0.0, 0.0}};
+    const forces load = {.gravity = {0.0, 0.0}};
     double *state = aligned_zeros(2 * (size_t)n), *a = aligned_zeros(2 * (size_t)n), least = INFINITY;
     must(state != NULL && a != NULL, "out of memory");
     memcpy(state, model->lattice.position, 2 * (size_t)n * sizeof *state);

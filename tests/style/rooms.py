@@ -19,6 +19,7 @@ LAYERS = [
     {"layout"},
     {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
     {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file"},
+    {"forces"},
     {"touch", "options", "diagnostics", "film", "integrator", "verlet", "tangent", "kernel", "sweep_portable",
      "sweep_avx2", "sweep_avx512", "peaks_file"},
     {"reaction", "books", "engine", "spectrum", "constants", "reel"},

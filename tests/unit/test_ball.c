@@ -114,7 +114,7 @@ static void check_accelerations(rig *r)
     double *all = calloc(2 * (size_t)r->n, sizeof *all);
     assert_non_null(all);
     for (dem_index i = 0; i < r->n; i++)
-        vec2_put(all, i, model_acceleration(r->model, &r->c.sites.scene.rule.load, i, r->y, r->y + 2 * r->n));
+        vec2_put(all, i, forces_acceleration(r->model, &r->c.sites.scene.rule.load, i, r->y, r->y + 2 * r->n));
     reactions_hold(&r->c.sites.reactions, r->y, r->y + 2 * r->n, all);
     for (dem_index k = 0; k < 2 * r->b.end[2]; k++) assert_close(r->a[k], all[2 * r->b.nodes[k / 2].i + (k & 1)], 1e-9);
     free(all);

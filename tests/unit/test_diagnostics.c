@@ -322,7 +322,7 @@ static double power_of_damping_forces(const moving *m, double mass_damping)
 /* Relative rounding of sums of some hundred terms. */
 static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 {
-    const model_load loads[2] = {{.gravity = {0.5, -10.0}}, {.gravity = {0.5, -10.0}, .mass_damping = 40.0}};
+    const forces loads[2] = {{.gravity = {0.5, -10.0}}, {.gravity = {0.5, -10.0}, .mass_damping = 40.0}};
     (void)state;
     moving m = make_damped(1e-3);
     for (int k = 0; k < 2; k++) {
@@ -336,13 +336,13 @@ static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 /* It is also what the accelerations of damped and undamped motion differ by; fixed nodes have none, whatever v is. */
 static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
 {
-    const model_load load = {.gravity = {0.5, -10.0}, .mass_damping = 40.0}, free_of_it = {.gravity = {0.5, -10.0}};
+    const forces load = {.gravity = {0.5, -10.0}, .mass_damping = 40.0}, free_of_it = {.gravity = {0.5, -10.0}};
     double lacking = 0.0;
     (void)state;
     moving m = make_damped(1e-3), plain = make_damped(0.0);
     for (dem_index i = 0; i < m.model->lattice.n_nodes; i++) {
-        const vec2 damped = model_acceleration(m.model, &load, i, m.x, m.v);
-        const vec2 undamped = model_acceleration(plain.model, &free_of_it, i, m.x, m.v);
+        const vec2 damped = forces_acceleration(m.model, &load, i, m.x, m.v);
+        const vec2 undamped = forces_acceleration(plain.model, &free_of_it, i, m.x, m.v);
         lacking += m.model->lattice.mass[i] * vec2_dot(vec2_sub(undamped, damped), vec2_at(m.v, i));
     }
     const double power = diagnostics_damping_power(m.model, &load, m.x, m.v);
@@ -354,7 +354,7 @@ static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
 
 static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves(void **state)
 {
-    const model_load load = {.mass_damping = 3.0};
+    const forces load = {.mass_damping = 3.0};
     (void)state;
     moving m = make_damped(0.0);
     m.v[0] = 100.0; /* of a fixed node */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* kernel.c and the sweeps: every kernel with 1, 2 and 3 threads against model_acceleration(), which sums up row by row.
- * They are to be equal, so that no tolerance is needed: 0 and -0 count as equal. */
+/* kernel.c and the sweeps: every kernel with 1, 2 and 3 threads against forces_acceleration(), which sums up row by
+ * row. They are to be equal, so that no tolerance is needed: 0 and -0 count as equal. */
 #include "../verification/support.h"
 
 #include <gsl/gsl_rng.h>
@@ -55,7 +55,7 @@ static void free_scene(scene *s)
     free(s->u);
 }
 
-static void check_kernel(scene *s, const model_load *load, dem_kernel kind, int n_threads)
+static void check_kernel(scene *s, const forces *load, dem_kernel kind, int n_threads)
 {
     kernel k;
     assert_ok(kernel_create(&k, s->model, kind, n_threads));
@@ -66,7 +66,7 @@ static void check_kernel(scene *s, const model_load *load, dem_kernel kind, int 
         assert_true(isfinite(kernel_accelerate(&k, load, &y)));
         if (round) assert_memory_equal(s->u, s->v, 2 * (size_t)n * sizeof *s->v);
         for (dem_index i = 0; i < n; i++) {
-            const vec2 a = model_acceleration(s->model, load, i, s->x, s->v);
+            const vec2 a = forces_acceleration(s->model, load, i, s->x, s->v);
             if (a.x != s->a[2 * i] || a.y != s->a[2 * i + 1])
                 fail_msg("%s, %d threads, node %lld of %lld: (%.17g, %.17g) instead of (%.17g, %.17g)",
                          dem_kernel_name(kind), n_threads, (long long)i, (long long)n, s->a[2 * i], s->a[2 * i + 1],
@@ -77,7 +77,7 @@ static void check_kernel(scene *s, const model_load *load, dem_kernel kind, int 
 }
 
 /* v' = v0 + h/2 a0, x1 = x0 + h v', v1 = (v' + h/2 a0) + h/2 (a1 - a0), number by number. */
-static void check_leap(scene *s, const model_load *load, dem_kernel kind, int n_threads)
+static void check_leap(scene *s, const forces *load, dem_kernel kind, int n_threads)
 {
     const dem_index n = 2 * s->model->lattice.n_nodes;
     const double h = 0.1 * dem_model_spacing(s->model) / 10.0;
@@ -93,7 +93,7 @@ static void check_leap(scene *s, const model_load *load, dem_kernel kind, int n_
     assert_true(isfinite(kernel_accelerate(&k, load, &y)));
     for (dem_index c = 0; c < n; c++) assert_close(x1[c], s->x[c] + h * (s->v[c] + 0.5 * h * a0[c]), 0.0);
     for (dem_index c = 0; c < n; c++) {
-        const vec2 a = model_acceleration(s->model, load, c / 2, x1, s->v);
+        const vec2 a = forces_acceleration(s->model, load, c / 2, x1, s->v);
         const double a1 = c % 2 ? a.y : a.x, half = s->v[c] + 0.5 * h * a0[c];
         assert_close(s->a[c], a1, 0.0);
         assert_close(v1[c], half + 0.5 * h * a0[c] + 0.5 * h * (a1 - a0[c]), 0.0);
@@ -104,7 +104,7 @@ static void check_leap(scene *s, const model_load *load, dem_kernel kind, int n_
     free(v1);
 }
 
-static bool may_leap(const scene *s, const model_load *load)
+static bool may_leap(const scene *s, const forces *load)
 {
     kernel k;
     assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
@@ -131,7 +131,7 @@ static void check_stiffening(scene *s, dem_kernel kind, int n_threads)
     kernel_destroy(&k);
 }
 
-static void check_load(scene *s, const model_load *load)
+static void check_load(scene *s, const forces *load)
 {
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++)
         for (int n_threads = 1; n_threads <= 3; n_threads++)
@@ -144,7 +144,7 @@ static void check_load(scene *s, const model_load *load)
 
 static void check_lattice(const dem_lattice *lattice, double share)
 {
-    const model_load plain = {.gravity = {0.5, -9.81}}, drag = {.gravity = {0.0, -9.81}, .mass_damping = 3.0};
+    const forces plain = {.gravity = {0.5, -9.81}}, drag = {.gravity = {0.0, -9.81}, .mass_damping = 3.0};
     scene s = make_scene(lattice, share);
     check_load(&s, &plain);
     check_load(&s, &drag);
@@ -370,7 +370,7 @@ static void fixed_and_pushed_nodes_agree(void **state)
     for (dem_index i = 0; i < lattice.n_nodes; i += 7) lattice.flags[i] = DEM_NODE_FIXED;
     scene s = make_scene(&lattice, 0.1);
     assert_ok(boundaries_compile(&pushes, list, 2, &s.model->lattice, 0));
-    const model_load load = {
+    const forces load = {
         .gravity = {0.0, -9.81}, .mass_damping = 1.0, .boundaries = &pushes, .clock = lattice.n_nodes - 1};
     check_load(&s, &load);
     boundaries_free(&pushes);
@@ -381,7 +381,7 @@ static void fixed_and_pushed_nodes_agree(void **state)
 /* Springs along rows only, triangles between rows: these reach further. */
 static void triangles_may_reach_further_than_springs(void **state)
 {
-    const model_load load = {.gravity = {0.5, -9.81}};
+    const forces load = {.gravity = {0.5, -9.81}};
     dem_material material = rubber;
     (void)state;
     material.poissons_ratio = 0.2;
@@ -407,7 +407,7 @@ static void triangles_may_reach_further_than_springs(void **state)
 static void what_depends_on_more_than_positions_does_not_leap(void **state)
 {
     const boundaries pushes = {0};
-    const model_load plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
+    const forces plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
     (void)state;
     for (int k = 0; k < 3; k++) {
         dem_material material = rubber;
@@ -427,7 +427,7 @@ static void what_depends_on_more_than_positions_does_not_leap(void **state)
 
 static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
 {
-    const model_load load = {.gravity = {0.0, -9.81}};
+    const forces load = {.gravity = {0.0, -9.81}};
     dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     scene s = make_scene(&lattice, 0.1);
     (void)state;

@@ -40,12 +40,12 @@ typedef struct step {
 /* Derivative of a state, of nodes and books. */
 static void derive(const step *s, contact *c, double t, const double *y, double *f)
 {
-    const model_load *load = &c->sites.scene.rule.load;
+    const forces *load = &c->sites.scene.rule.load;
     const dem_index n = 2 * s->n_all, n_obstacles = s->model->obstacles.n;
     const double *v = y + n;
     double *a = f + n, *rate = a + 2 * s->n;
     memcpy(f, v, (size_t)n * sizeof *f);
-    for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, model_acceleration(s->model, load, i, y, v));
+    for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
     contact_constrain(c, y, a);
     const double work = boundaries_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 0; k < 4 * n_obstacles + 4; k++) rate[k] = 0.0;

@@ -437,12 +437,12 @@ static bool mix_solve(mix *w, double *solution)
     return ratio < worst_ratio;
 }
 
-static void check_forces(const mix *w, const reactions *r, const double *forces)
+static void check_forces(const mix *w, const reactions *r, const double *expected)
 {
     for (int c = 0; c < w->n_links; c++) {
         const reaction f = r->force[w->list[c].site][w->list[c].q];
-        assert_close(f.normal, forces[2 * c], dense_tolerance);
-        assert_close(f.tangent, forces[2 * c + 1], dense_tolerance);
+        assert_close(f.normal, expected[2 * c], dense_tolerance);
+        assert_close(f.tangent, expected[2 * c + 1], dense_tolerance);
     }
 }
 
@@ -490,7 +490,7 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
         double solution[MOST_UNKNOWNS];
         reactions r;
         mix_next(&w);
-        w.b.scene.rule.load = (model_load){.gravity = {3.0, -7.0}, .mass_damping = 0.5};
+        w.b.scene.rule.load = (forces){.gravity = {3.0, -7.0}, .mass_damping = 0.5};
         for (dem_index i = 0; i < w.b.model.lattice.n_nodes; i++) {
             const bool moves = w.b.inverse_mass[i] != 0.0;
             const vec2 vi = vec2_at(w.b.v, i);

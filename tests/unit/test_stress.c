@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model.h"
+#include "forces.h"
 #include "solids.h"
 
 static double *copy_positions(const dem_model *model)
@@ -172,7 +172,7 @@ static void the_sum_over_nodes_is_minus_that_of_places_times_forces(void **state
     for (int trial = 0; trial < 5; trial++) {
         double *x = stir(model, 0.2, 0.3, rng), total[3], expected[4] = {0.0, 0.0, 0.0, 0.0}, size = 0.0;
         for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
-            const vec2 f = model_force(model, i, x, v), at = vec2_at(x, i);
+            const vec2 f = forces_of_elements(model, i, x, v), at = vec2_at(x, i);
             expected[0] -= at.x * f.x;
             expected[1] -= at.y * f.y;
             expected[2] -= at.x * f.y;

@@ -8,6 +8,7 @@
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_rng.h>
 
+#include "forces.h"
 #include "tangent.h"
 
 static const double spacing = 0.01;
@@ -54,8 +55,8 @@ static double *squeezed(const dem_model *model, unsigned long seed)
     return x;
 }
 
-/* Central differences of model_force() over 1e-7 spacings along a motion: rounding 1e-16 * 1e5 N/1e-7 against forces of
- * 1e7 N/m times unit displacements, truncation smaller. */
+/* Central differences of forces_of_elements() over 1e-7 spacings along a motion: rounding 1e-16 * 1e5 N/1e-7 against
+ * forces of 1e7 N/m times unit displacements, truncation smaller. */
 static void it_is_the_derivative_of_the_forces_about_any_state(void **state)
 {
     (void)state;
@@ -72,7 +73,8 @@ static void it_is_the_derivative_of_the_forces_about_any_state(void **state)
         assert_true(dem_model_sizes(model).n_triangles > 0);
         tangent_apply(model, x, u, out);
         for (dem_index i = 0; i < n; i++) {
-            const vec2 change = vec2_sub(model_force(model, i, below, still), model_force(model, i, above, still));
+            const vec2 change =
+                vec2_sub(forces_of_elements(model, i, below, still), forces_of_elements(model, i, above, still));
             assert_close(out[2 * i], change.x / (2.0 * step), 1e-6 * 1e7);
             assert_close(out[2 * i + 1], change.y / (2.0 * step), 1e-6 * 1e7);
         }

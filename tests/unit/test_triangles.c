@@ -407,9 +407,9 @@ static void area_is_positive_counter_clockwise(void **state)
 {
     const vec2 a = {1.0, 1.0}, b = {4.0, 1.0}, c = {2.0, 3.0};
     (void)state;
-    assert_close(triangles_area(a, b, c), 3.0, 0.0);
-    assert_close(triangles_area(b, c, a), 3.0, 0.0);
-    assert_close(triangles_area(a, c, b), -3.0, 0.0);
+    assert_close(vec2_triangle_area(a, b, c), 3.0, 0.0);
+    assert_close(vec2_triangle_area(b, c, a), 3.0, 0.0);
+    assert_close(vec2_triangle_area(a, c, b), -3.0, 0.0);
 }
 
 int main(void)

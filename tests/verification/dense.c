@@ -8,7 +8,7 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sort_vector.h>
 
-#include "model.h"
+#include "forces.h"
 
 gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step)
 {
@@ -20,9 +20,9 @@ gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step
     for (size_t q = 0; q < n; q++) {
         for (size_t i = 0; i < n / 2; i++) {
             at[q] = x[q] + step;
-            const vec2 above = model_force(model, (dem_index)i, at, still);
+            const vec2 above = forces_of_elements(model, (dem_index)i, at, still);
             at[q] = x[q] - step;
-            const vec2 below = model_force(model, (dem_index)i, at, still);
+            const vec2 below = forces_of_elements(model, (dem_index)i, at, still);
             gsl_matrix_set(stiffness, 2 * i, q, (below.x - above.x) / (2.0 * step));
             gsl_matrix_set(stiffness, 2 * i + 1, q, (below.y - above.y) / (2.0 * step));
         }

@@ -77,7 +77,7 @@ static int derive(double t, const double y[], double f[], void *context)
     memset(f, 0, 4 * (size_t)p->n_all * sizeof *f);
     memcpy(f, v, 2 * (size_t)p->n * sizeof *f);
     for (dem_index i = 0; i < p->n; i++)
-        vec2_put(f, p->n_all + i, model_acceleration(p->model, &p->rule.load, i, y, v));
+        vec2_put(f, p->n_all + i, forces_acceleration(p->model, &p->rule.load, i, y, v));
     return GSL_SUCCESS;
 }
 
