@@ -32,17 +32,16 @@ static const double shared_skins = 8.0;
 
 /* Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
  * position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
- * the skin keep up; or it would be shorter than twice the window. Nothing is at rest
- * (-1) that does not return. */
+ * the skin keep up; or it would be shorter than twice the window. A rest speed that is given adds to that and replaces
+ * none of it: a smaller one would leave bounces that never end. Nothing is at rest (-1) that does not return. */
 static double resting_speed(const contact_sites *c, vec2 x, double back, const impact_surface *on, bool shared)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
-    if (rule->rest_speed > 0.0) return rule->rest_speed;
     const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
     const double skins = fmax(shared ? shared_skins : 0.0, 2.0 * impact_kept_up(on));
     const double height = fmax(fmax(rule->position_error, rounding), skins * rule->skin);
-    return fmax(sqrt(2.0 * back * height), back * rule->window);
+    return fmax(rule->rest_speed, fmax(sqrt(2.0 * back * height), back * rule->window));
 }
 
 static void book_impulse(contact_sites *c, dem_index obstacle, vec2 impulse, vec2 normal)

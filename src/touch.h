@@ -45,7 +45,7 @@ typedef struct contact_site {
 typedef struct contact_rule {
     double skin;           /* m, depth at which an impact is taken */
     double position_error; /* m, tolerance of positions: hops below it are rest */
-    double rest_speed;     /* m/s, 0: by the rule */
+    double rest_speed;     /* m/s, rebounds up to this are rest whatever else the rule says */
     double window;         /* s, impacts nearer than this are taken together */
     double max_step;       /* s, longest step: with t it sets how exactly an event is located */
     double storm_time;     /* s */

@@ -208,7 +208,8 @@ static const schema_key contact_keys[] = {
     {"skin", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
      "Depth at which an impact is taken; default: 1e-6 of the spacing.", "1e-8"},
     {"rest_speed", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
-     "A rebound slower than this becomes a lasting contact; default: by the rule of docs/method.md.", "1e-3"},
+     "A rebound not faster than this becomes a lasting contact, beside those that do by the rule of docs/method.md.",
+     "1e-3"},
     {"max_impacts", SCHEMA_INTEGER, 1, 1, "-", "10000", ">= 1", NULL, false,
      "Impacts of one node within 1/omega_max at which the run is given up.", NULL},
 };

@@ -208,8 +208,8 @@ typedef struct dem_options {
                                adaptive takes max_step, which then is by default stable/(8 omega_max) */
     double skin;        /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
                                by skin/|v_n|, and the node put back on the surface */
-    double rest_speed;  /**< m/s, default 0: by the rule of docs/method.md; a rebound slower than this
-                               becomes a lasting contact */
+    double rest_speed;  /**< m/s, default 0: a rebound not faster than this becomes a lasting contact, beside those that
+                               do by the rule of docs/method.md. What is below the rule's speed has no effect */
     dem_index max_impacts; /**< default 10000: changes of the contacts of one node or edge within
                                1/omega_max that count as a storm */
     double window;         /**< s, default < 0: see docs/method.md. At an impact, what would arrive within this time

@@ -28,6 +28,39 @@ static void the_preview_tells_what_is_about_to_run(void **state)
     drop_logged(l);
 }
 
+/* Under a g of 5 m/s^2 a skin of 1e-5 m keeps up hops of 1e-2 m/s. */
+static void the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up(void **state)
+{
+    static const double rest_speed[3] = {0.0, 9.9e-3, 1.01e-2};
+    const double x[2] = {0.0, 1.0}, one = 1.0;
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dem_options options = dem_options_default();
+        dem_lattice node;
+        logged *l = calloc(1, sizeof *l);
+        assert_non_null(l);
+        options.spacing = options.v_scale = 1.0;
+        options.max_step = 0.01;
+        options.gravity[0] = 3.0;
+        options.gravity[1] = -4.0;
+        options.skin = 1e-5;
+        options.rest_speed = rest_speed[k];
+        support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
+        support_open(&l->run, &node, NULL, 0, &options);
+        dem_lattice_free(&node);
+        follow(l, false, d.t_end);
+        preview_print(l->file, &d, l->run.simulation, NULL);
+        read_log(l);
+        const char *told =
+            strstr(l->text, "\nwarning    'rest_speed' 0.0099 m/s is below sqrt(2 g skin) = 0.01 m/s: where ");
+        assert_int_equal(told != NULL, k == 1);
+        assert_int_equal(strstr(l->text, "warning") != NULL, k == 1);
+        drop_logged(l);
+    }
+}
+
 static void the_preview_tells_what_is_probed_and_where(void **state)
 {
     (void)state;
@@ -271,6 +304,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_preview_tells_what_is_about_to_run),
+        cmocka_unit_test(the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up),
         cmocka_unit_test(the_preview_tells_what_is_probed_and_where),
         cmocka_unit_test(the_preview_tells_what_was_measured_of_each_body),
         cmocka_unit_test(the_preview_tells_the_constants_of_a_slice),

@@ -248,6 +248,47 @@ static void a_node_at_rest_in_a_corner_stays(void **unused)
     }
 }
 
+/* A block of 2 cm that falls into a valley with a hump, with (10), which lets lasting contacts slide. */
+static void open_block(support_run *run, double restitution, double rest_speed)
+{
+    static const double points[] = {-1.0, 0.2, 0.0, 0.0, 0.004, 0.001, 0.008, 0.0, 1.0, 0.2};
+    const dem_obstacle valley = {.n_points = 5,
+                                 .points = points,
+                                 .restitution = restitution,
+                                 .friction = 0.3,
+                                 .friction_law = DEM_FRICTION_PAPER};
+    const dem_material soft = {.youngs_modulus = 1e5, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 0.01};
+    const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
+    dem_options options = support_options();
+    dem_lattice lattice;
+    options.rest_speed = rest_speed;
+    assert_ok(dem_lattice_rectangle(&lattice, 0.02, 0.02, 0.01));
+    assert_ok(dem_lattice_assemble(&lattice, &soft));
+    dem_lattice_move(&lattice, 0.0, lift);
+    assert_ok(dem_lattice_launch(&lattice, velocity));
+    support_open(run, &lattice, &valley, 1, &options);
+    dem_lattice_free(&lattice);
+}
+
+/* Whatever its contacts keep up: plastic ones by the corner, others by their rebounds. */
+static void a_rest_speed_below_the_rule_changes_no_bit(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 3; k++) {
+        support_run ruled, slow;
+        open_block(&ruled, 0.3 * k, 0.0);
+        open_block(&slow, 0.3 * k, 1e-9);
+        const dem_state a = support_at(&ruled, 0.1), b = support_at(&slow, 0.1);
+        const size_t size = 2 * (size_t)dem_model_sizes(ruled.model).n_nodes * sizeof *a.x;
+        assert_true(ruled.n_impacts >= 5); /* its lower nodes land, some again */
+        assert_int_equal(slow.n_impacts, ruled.n_impacts);
+        assert_memory_equal(a.x, b.x, size);
+        assert_memory_equal(a.v, b.v, size);
+        support_close(&ruled);
+        support_close(&slow);
+    }
+}
+
 /* Floor and wall are two obstacles, the wall stands on the floor or leans over it: at any tilt nothing slips through
  * the joint. */
 static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
@@ -294,6 +335,7 @@ int main(void)
         cmocka_unit_test(a_wall_of_another_obstacle_stops_a_sliding_node),
         cmocka_unit_test(a_node_coming_from_behind_passes_and_then_lands_on_the_front),
         cmocka_unit_test(a_node_at_rest_in_a_corner_stays),
+        cmocka_unit_test(a_rest_speed_below_the_rule_changes_no_bit),
         cmocka_unit_test(a_wall_that_stands_on_another_obstacle_leaves_no_gap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
