@@ -17,7 +17,7 @@ static const char usage[] =
     "       dem_batch --version | --help\n"
     "decks: files, or @LIST for those in a file, one a line, relative to its folder; '#' begins a comment\n"
     "options:\n"
-    "  --outdir FOLDER        where to write (default: here)\n"
+    "  --outdir FOLDER        where to write; made where it is missing (default: here)\n"
     "  --set GROUP.KEY=VALUE  give a key, spelt as in a deck; GROUP(K).KEY in the K-th such group; any number of "
     "times\n"
     "  --index N              take only the N-th deck, from 1: for job arrays\n"

@@ -23,7 +23,7 @@ typedef enum command_action {
 /** Texts are those of argv. */
 typedef struct command {
     command_action action;
-    const char *outdir;
+    const char *outdir; /* made when the first output is to be written */
     bool overwrite, resume_anyway;
     limits most;                          /* disk infinite: what is free */
     double checkpoint_interval, max_wall; /* s on the wall */

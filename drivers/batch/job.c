@@ -331,6 +331,15 @@ static dem_status build(job *j)
     return dem_simulation_create(&j->simulation, j->model, &j->options);
 }
 
+/* Only now: what is refused leaves no folder behind. */
+static bool make_folder(job *j)
+{
+    char path[OUTPUT_PATH], why[OUTPUT_REASON];
+    const bool good = output_make_folder(j->command->outdir, path, why);
+    if (!good) outcome_fail(&j->outcome, EXIT_IO, path, "%s", why);
+    return good;
+}
+
 static bool take_lock(job *j)
 {
     char path[OUTPUT_PATH], why[512];
@@ -429,7 +438,7 @@ static void claim_and_run(job *j)
         outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
         return;
     }
-    if (!passes(j, build(j), j->deck.path) || !ends(j) || !take_lock(j)) return;
+    if (!passes(j, build(j), j->deck.path) || !ends(j) || !make_folder(j) || !take_lock(j)) return;
     j->claimed = claim(j);
     if (j->claimed && begin_or_resume(j)) run(j);
 }

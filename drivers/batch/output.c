@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <dem/trajectory.h>
@@ -28,6 +29,38 @@ bool output_path(char *path, size_t size, const char *folder, const char *name)
 void output_beside(char out[OUTPUT_PATH], const char *path, const char *end)
 {
     (void)snprintf(out, OUTPUT_PATH, "%.*s%s", (int)(strlen(path) - strlen(suffix)), path, end);
+}
+
+/* ---- the folder ---- */
+
+/* Where it is none, errno says why. */
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    if (stat(path, &found) != 0) return false;
+    errno = ENOTDIR;
+    return S_ISDIR(found.st_mode);
+}
+
+/* Another process may make it at the same time, and a system may refuse for another reason what is there already. */
+static bool make_one(const char *path)
+{
+    if (is_folder(path)) return true;
+    return mkdir(path, 0777) == 0 || (errno == EEXIST && is_folder(path));
+}
+
+bool output_make_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON])
+{
+    bool good = true;
+    const char *end = folder;
+    while (good && *end != '\0') {
+        end += strspn(end, "/");
+        end += strcspn(end, "/");
+        (void)snprintf(path, OUTPUT_PATH, "%.*s", (int)(end - folder), folder);
+        good = make_one(path);
+    }
+    if (!good) (void)snprintf(reason, OUTPUT_REASON, "the folder cannot be made (%s)", strerror(errno));
+    return good;
 }
 
 /* ---- what is there ---- */

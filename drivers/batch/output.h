@@ -29,6 +29,10 @@ void output_print_hash(char text[OUTPUT_HASH], uint64_t hash);
 /** Folder and name to the path of NAME.vtkhdf; false if it does not fit. */
 bool output_path(char *path, size_t size, const char *folder, const char *name);
 
+/** Makes a folder where it is missing, and those above it. Where that fails `path` is the one that cannot be made, and
+ *  `reason` says why. */
+bool output_make_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON]);
+
 /** The path of a file beside it: with another end than ".vtkhdf". */
 void output_beside(char out[OUTPUT_PATH], const char *path, const char *end);
 

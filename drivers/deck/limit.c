@@ -70,11 +70,27 @@ static bool has_begun(const char *folder, const char *name)
     return found;
 }
 
+/* Cuts a path down to what there is of it. */
+static void go_up(char *path)
+{
+    while (access(path, F_OK) != 0) {
+        char *slash = strrchr(path, '/');
+        if (slash == NULL || slash == path) {
+            (void)strcpy(path, slash == NULL ? "." : "/");
+            return;
+        }
+        *slash = '\0';
+    }
+}
+
 bool limit_see_disk(limits *most, const char *folder, const char *name)
 {
+    char path[4096];
     struct statvfs system;
-    if (access(folder, F_OK) != 0 || has_begun(folder, name)) return true; /* no folder: writing will tell */
-    if (statvfs(folder, &system) != 0 || system.f_blocks == 0) return false;
+    const int n = snprintf(path, sizeof path, "%s", folder);
+    if (n < 0 || (size_t)n >= sizeof path || has_begun(folder, name)) return true; /* too long: it is refused */
+    go_up(path);
+    if (statvfs(path, &system) != 0 || system.f_blocks == 0) return false;
     most->disk = (double)system.f_bavail * (double)system.f_frsize;
     return true;
 }

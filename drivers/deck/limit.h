@@ -17,8 +17,8 @@ limits limit_default(void);
 /** Sets a limit from the text of a number > 0, times `unit`. False if it is none, or NULL. */
 bool limit_set(double *limit, const char *text, double unit);
 
-/** Sets the limit of the disk to what is free in a folder, unless a run of this name has left files there, which then
- *  goes on. False where the file system does not tell. */
+/** Sets the limit of the disk to what is free in a folder, or where it would be made, unless a run of this name has
+ *  left files there, which then goes on. False where the file system does not tell. */
 bool limit_see_disk(limits *most, const char *folder, const char *name);
 
 /** The least limit of a hierarchy of control groups, version 2, bytes; infinite without one.

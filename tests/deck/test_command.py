@@ -10,6 +10,7 @@ import os
 import pathlib
 import pty
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -674,14 +675,46 @@ class Run(Case):
     def test_outdir_too_long(self):
         self.call(3, "--outdir", "x" * 4090, "deck.nml", stderr="deck.nml: error: the path of the output is too long\n")
 
-    def test_outdir_missing(self):
-        self.call(5, "--outdir", "no", "deck.nml", stderr="no/rectangle.lock: error: cannot be created (No such file or directory)\n")
-        self.assertEqual(self.files(), set())
+    def test_a_missing_outdir_is_made(self):
+        for folder in ("one", "two/deep/", "./two//deeper", str(self.folder / "three" / "deep")):
+            with self.subTest(folder):
+                self.call(0, "--outdir", folder, "deck.nml")
+                self.assertEqual({path.name for path in (self.folder / folder).iterdir()}, OUTPUT)
+                self.assertIn("done already", self.call(0, "--outdir", folder, "deck.nml"))
+        self.assertEqual(self.files(), {"one", "two", "three"})
+
+    def test_a_missing_outdir_is_made_by_the_first_case_that_runs(self):
+        self.put(coarse().replace("restitution = 0", "restitution = 2"), "bad.nml")
+        self.put("bad.nml\ndeck.nml\n", "list")
+        given = self.files()
+        fault = r"bad\.nml:\d+:\d+: error: 'restitution' in &obstacle must be in \[0, 1\], got 2\n"
+        short = ("--set", "run.t_end=1e-4", "--outdir", "a/b")
+        for arguments, code, made in ((["bad.nml"], 3, set()), (["@list", "--index", "1"], 3, set()),
+                                      (["@list", "--index", "2"], 0, {"a"}), (["@list"], 3, {"a"}),
+                                      (["bad.nml", "deck.nml"], 3, {"a"})):
+            with self.subTest(arguments):
+                done = run(*short, *arguments, cwd=self.folder)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertRegex(done.stderr, f"^{fault if code else ''}$")
+                self.assertEqual(self.files() - given, made)
+                if made:
+                    self.assertEqual({path.name for path in (self.folder / "a" / "b").iterdir()}, OUTPUT)
+                    shutil.rmtree(self.folder / "a")
+
+    def test_what_writes_nothing_makes_no_outdir(self):
+        steps = float(re.search(r"at least (\d+) steps", self.call(0, "--check", "deck.nml"))[1])  # with the lattice there
+        for code, arguments in ((0, ["--check"]), (0, ["--echo"]), (3, ["--set", "run.t_end=-1"]),
+                                (6, ["--max-steps", "1"]), (6, ["--max-steps", str(steps - 2)]),
+                                (5, ["--max-disk", "1e-9"]), (3, ["--set", "body.clearance=-1"])):
+            with self.subTest(arguments):
+                self.assertEqual(run("--outdir", "no/where", *arguments, "deck.nml", cwd=self.folder).returncode, code)
+                self.assertEqual(self.files(), set())
 
     def test_outdir_is_a_file(self):
-        self.call(5, "--outdir", "deck.nml", "deck.nml",
-                  stderr="deck.nml/rectangle.lock: error: cannot be created (Not a directory)\n")
-        self.assertEqual(self.files(), set())
+        for folder in ("deck.nml", "deck.nml/deep"):
+            self.call(5, "--outdir", folder, "deck.nml",
+                      stderr="deck.nml: error: the folder cannot be made (Not a directory)\n")
+            self.assertEqual(self.files(), set())
 
     def test_outdir_is_read_only(self):
         out = self.folder / "out"
@@ -689,6 +722,7 @@ class Run(Case):
         out.chmod(0o555)
         if os.geteuid() != 0:  # root writes everywhere
             self.call(5, "--outdir", "out", "deck.nml", stderr="out/rectangle.lock: error: cannot be created (Permission denied)\n")
+            self.call(5, "--outdir", "out/a/b", "deck.nml", stderr="out/a: error: the folder cannot be made (Permission denied)\n")
         self.assertEqual(list(out.iterdir()), [])
         out.chmod(0o755)
 

@@ -87,9 +87,17 @@ static void the_disk_has_what_is_free_but_for_a_run_that_goes_on(void **state)
     put("run.part.vtkhdf", "begun\n");
     assert_true(limit_see_disk(&most, folder, "run"));
     assert_true(isinf(most.disk));
-    assert_true(limit_see_disk(&most, at("none"), "run"));
-    assert_false(limit_see_disk(&most, "/proc", "run")); /* a file system without blocks */
+    /* a file system without blocks, and missing folders on it */
+    static const char *const without[] = {"/proc", "/proc/none", "/proc/none//deep/"};
+    for (size_t k = 0; k < sizeof without / sizeof *without; k++)
+        assert_false(limit_see_disk(&most, without[k], "run"));
     assert_true(isinf(most.disk));
+    const char *const missing[] = {at("none/deep/"), "none", "none/deep", "/none-of-these", "//none-of-these/deep"};
+    for (size_t k = 0; k < sizeof missing / sizeof *missing; k++) {
+        most.disk = INFINITY;
+        assert_true(limit_see_disk(&most, missing[k], "run"));
+        assert_true(most.disk > 0.0 && isfinite(most.disk));
+    }
     static const char *const made[] = {"runner.vtkhdf", "run.json", "run.part.vtkhdf"};
     for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(unlink(at(made[k])), 0);
 }

@@ -214,6 +214,40 @@ static void the_result_counts_more_than_a_part(void **state)
     expect_claim(OUTPUT_DONE);
 }
 
+static void folders_are_made_down_to_the_last(void **state)
+{
+    char deep[80], deeper[96], at[OUTPUT_PATH], reason[OUTPUT_REASON];
+    struct stat found;
+    (void)state;
+    (void)snprintf(deep, sizeof deep, "%s/x", folder);
+    (void)snprintf(deeper, sizeof deeper, "%s//y/", deep);
+    assert_true(output_make_folder(".", at, reason));
+    assert_true(output_make_folder("/", at, reason));
+    for (int k = 0; k < 2; k++) { /* the second time they are there */
+        assert_true(output_make_folder(deeper, at, reason));
+        assert_int_equal(stat(deeper, &found), 0);
+        assert_true(S_ISDIR(found.st_mode));
+    }
+    assert_int_equal(rmdir(deeper), 0);
+    assert_int_equal(rmdir(deep), 0);
+}
+
+static void what_is_in_the_way_of_a_folder_is_named(void **state)
+{
+    char below[80], at[OUTPUT_PATH], reason[OUTPUT_REASON];
+    (void)state;
+    leave_text(path);
+    (void)snprintf(below, sizeof below, "%s/x", path);
+    assert_false(output_make_folder(below, at, reason));
+    assert_string_equal(at, path);
+    assert_string_equal(reason, "the folder cannot be made (Not a directory)");
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(symlink("nowhere", path), 0);
+    assert_false(output_make_folder(path, at, reason));
+    assert_string_equal(at, path);
+    assert_string_equal(reason, "the folder cannot be made (No such file or directory)");
+}
+
 #define CASE(name) cmocka_unit_test_teardown(name, sweep)
 
 int main(void)
@@ -231,6 +265,8 @@ int main(void)
         CASE(a_part_of_another_problem_is_not_replaced),
         CASE(a_part_cut_off_at_its_beginning_may_be_replaced),
         CASE(the_result_counts_more_than_a_part),
+        CASE(folders_are_made_down_to_the_last),
+        CASE(what_is_in_the_way_of_a_folder_is_named),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
