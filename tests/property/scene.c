@@ -158,10 +158,12 @@ static void random_solid_body(gsl_rng *rng, scene *sc)
                                  .guard = 0.02,
                                  .damping_time = chance(rng, 0.25) ? uniform(rng, 1e-6, 3e-5) : 0.0};
     sc->spacing = uniform(rng, 8e-3, 15e-3);
-    if (chance(rng, 0.3))
+    if (chance(rng, 0.3)) {
         assert_ok(dem_lattice_disc(&sc->body, uniform(rng, 0.02, 0.04), sc->spacing));
-    else
-        assert_ok(dem_lattice_rectangle(&sc->body, uniform(rng, 0.02, 0.07), uniform(rng, 0.02, 0.07), sc->spacing));
+    } else { /* one by one: compilers evaluate arguments in different orders */
+        const double height = uniform(rng, 0.02, 0.07), width = uniform(rng, 0.02, 0.07);
+        assert_ok(dem_lattice_rectangle(&sc->body, width, height, sc->spacing));
+    }
     assert_ok(dem_lattice_assemble(&sc->body, &rubber));
 }
 
