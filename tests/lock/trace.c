@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Only bytes of numbers and of names are hashed, never of a structure that may have gaps: those which are added whole
+ * have members of 8 bytes only. */
+#include "trace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <dem/film.h>
+
+#include "../verification/support.h"
+#include "digest.h"
+
+static void add(trace *t, const void *bytes, size_t size)
+{
+    t->hash = digest_add(t->hash, bytes, size);
+}
+
+static void add_reals(trace *t, const double *x, dem_index n)
+{
+    add(t, x, (size_t)n * sizeof *x);
+}
+
+static void add_integer(trace *t, int64_t number)
+{
+    add(t, &number, sizeof number);
+}
+
+static void add_text(trace *t, const char *text)
+{
+    add(t, text, strlen(text) + 1);
+}
+
+trace trace_begin(void)
+{
+    return (trace){.hash = DIGEST_BEGIN};
+}
+
+/* ---- a simulation ---- */
+
+static void add_contact(trace *t, const dem_contact *c)
+{
+    add_integer(t, c->state);
+    for (int k = 0; k < c->n_nodes; k++) add_integer(t, c->nodes[k]);
+    add_reals(t, c->weights, c->n_nodes);
+    add_integer(t, c->obstacle);
+    add_integer(t, c->segment);
+    add_reals(t, c->x, 2);
+    add_reals(t, c->normal, 2);
+    add_reals(t, (const double[]){c->force, c->friction}, 2);
+}
+
+static void add_motion(trace *t, const dem_simulation *simulation)
+{
+    const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
+    dem_state s;
+    dem_simulation_state(simulation, &s);
+    add_reals(t, (const double[]){s.t, s.step}, 2);
+    add_reals(t, s.x, 2 * n);
+    add_reals(t, s.v, 2 * n);
+    add(t, &s.energy, sizeof s.energy);
+    add_integer(t, s.n_contacts);
+    for (dem_index k = 0; k < s.n_contacts; k++) add_contact(t, &s.contacts[k]);
+}
+
+/* What obstacles have given and boundaries give, and how bodies move. */
+static void add_loads(trace *t, const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_index n_boundaries = dem_simulation_options(simulation).n_boundaries;
+    for (dem_index k = 0; k < size.n_obstacles; k++) {
+        const dem_obstacle_load load = dem_simulation_obstacle(simulation, k);
+        add(t, &load, sizeof load);
+    }
+    for (dem_index k = 0; k < n_boundaries; k++) {
+        const dem_boundary_load load = dem_simulation_boundary(simulation, k);
+        add(t, &load, sizeof load);
+    }
+    for (dem_index k = 0; k < size.n_bodies; k++) {
+        const dem_body_motion motion = dem_simulation_body(simulation, k);
+        add(t, &motion, sizeof motion);
+    }
+}
+
+static void add_strains(trace *t, const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_strain strain = dem_simulation_strain(simulation);
+    double *values = malloc((size_t)(size.n_springs + 3 * size.n_nodes) * sizeof *values);
+    assert_non_null(values);
+    add(t, &strain, sizeof strain);
+    dem_simulation_strains(simulation, values);
+    add_reals(t, values, size.n_springs);
+    dem_simulation_forces(simulation, values);
+    add_reals(t, values, size.n_springs);
+    dem_simulation_stress(simulation, values);
+    add_reals(t, values, 3 * size.n_nodes);
+    free(values);
+}
+
+void trace_add_all(trace *t, const dem_simulation *simulation)
+{
+    const dem_counts counts = dem_simulation_counts(simulation);
+    const dem_overlap overlap = dem_simulation_overlap(simulation);
+    const double residual = dem_simulation_residual(simulation);
+    add_motion(t, simulation);
+    add_loads(t, simulation);
+    add_strains(t, simulation);
+    add(t, &counts, sizeof counts);
+    add(t, &overlap, sizeof overlap);
+    add_reals(t, &residual, 1);
+}
+
+/* ---- the observer ---- */
+
+static dem_status on_frame(void *context, const dem_simulation *simulation)
+{
+    trace_add_all(context, simulation);
+    return DEM_OK;
+}
+
+static dem_status on_step(void *context, const dem_simulation *simulation)
+{
+    dem_state s;
+    dem_simulation_state(simulation, &s);
+    add_reals(context, (const double[]){s.t, s.step}, 2);
+    return DEM_OK;
+}
+
+static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *e)
+{
+    trace *t = context;
+    (void)simulation;
+    t->n_events++;
+    add_integer(t, e->kind);
+    add_integer(t, e->state);
+    add_integer(t, e->node);
+    add_integer(t, e->other);
+    add_integer(t, e->obstacle);
+    add_integer(t, e->segment);
+    add_reals(t, (const double[]){e->t, e->weight, e->energy}, 3);
+    add_reals(t, e->x, 2);
+    add_reals(t, e->normal, 2);
+    add_reals(t, e->impulse, 2);
+    add_reals(t, e->before, 2);
+    add_reals(t, e->after, 2);
+    return DEM_OK;
+}
+
+dem_observer trace_observer(trace *t, double interval)
+{
+    return (dem_observer){.interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = t};
+}
+
+/* ---- a file ---- */
+
+static double *room(dem_index n)
+{
+    double *values = malloc(((size_t)n + 1) * sizeof *values);
+    assert_non_null(values);
+    return values;
+}
+
+static void add_frame(trace *t, const dem_film *film, dem_index frame)
+{
+    const dem_lattice *lattice = dem_film_lattice(film);
+    dem_index n;
+    const dem_film_array *arrays = dem_film_arrays(film, &n);
+    double *values = room(9 * (lattice->n_nodes + lattice->n_springs));
+    assert_ok(dem_film_positions(film, frame, values));
+    add_reals(t, values, 2 * lattice->n_nodes);
+    for (dem_index k = 0; k < n; k++) {
+        assert_ok(dem_film_read(film, &arrays[k], frame, values));
+        add_text(t, arrays[k].name);
+        add_reals(t, values, arrays[k].components * (arrays[k].of_springs ? lattice->n_springs : lattice->n_nodes));
+    }
+    free(values);
+}
+
+static void add_tables(trace *t, const dem_film *film)
+{
+    dem_index n;
+    const dem_film_column *columns = dem_film_columns(film, &n);
+    for (dem_index k = 0; k < n; k++) {
+        const dem_index size = columns[k].n_rows * columns[k].width;
+        double *values = room(size);
+        assert_ok(dem_film_read_column(film, &columns[k], values));
+        add_text(t, columns[k].table);
+        add_text(t, columns[k].name);
+        add_reals(t, values, size);
+        free(values);
+    }
+}
+
+void trace_add_film(trace *t, const char *path)
+{
+    dem_film *film;
+    dem_index n;
+    assert_ok(dem_film_open(&film, path));
+    const double *times = dem_film_times(film, &n);
+    const dem_lattice *lattice = dem_film_lattice(film);
+    add_reals(t, lattice->x, 2 * lattice->n_nodes);
+    add_reals(t, lattice->mass, lattice->n_nodes);
+    add_reals(t, lattice->stiffness, lattice->n_springs);
+    add_reals(t, times, n);
+    for (dem_index k = 0; k < n; k++) add_frame(t, film, k);
+    add_tables(t, film);
+    dem_film_close(film);
+}
