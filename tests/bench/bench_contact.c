@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "queue.h"
+#include "events/event_queue.h"
 
 enum { most = 100000 };
 

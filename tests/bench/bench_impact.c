@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "events/event_queue.h"
 #include "plate.h"
-#include "queue.h"
 
 static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
 static const double least_time = 0.5; /* s */

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "aligned.h"
-#include "kernel.h"
+#include "base/aligned.h"
+#include "forces/kernel.h"
 #include "plate.h"
 
 static const double spacing = 5e-3, peak_strain = 0.03;

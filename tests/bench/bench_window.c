@@ -9,7 +9,7 @@
 #include <time.h>
 
 #include "../../drivers/deck.h"
-#include "../../src/vec2.h"
+#include "base/vec2.h"
 
 enum { path_size = 4096 };
 

@@ -336,7 +336,7 @@ class Refusals(Case):
 
 
 def with_checksum(text):
-    """src/record.c: the checksum, of the file with 0 in its place, is behind magic, byte order, format, size and number."""
+    """src/base/record.c: the checksum, of the file with 0 in its place, is behind magic, byte order, format, size and number."""
     blank = text[:32] + bytes(8) + text[40:]
     return text[:32] + zlib.crc32(blank).to_bytes(8, sys.byteorder) + text[40:]
 

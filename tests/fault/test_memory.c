@@ -14,7 +14,7 @@
 #include "../unit/close.h"
 
 #include "allocations.h"
-#include "random.h"
+#include "base/random.h"
 
 static int left_half(void *context, const double x[2])
 {

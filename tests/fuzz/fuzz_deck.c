@@ -6,8 +6,8 @@
 #include <math.h>
 
 #include "bytes.h"
-#include "scratch.h"
 #include "schema.h"
+#include "scratch.h"
 
 static const double most_nodes = 2000.0, most_segments = 2000.0, most_pores = 50.0;
 

@@ -5,12 +5,12 @@
 
 #include <dem/trajectory.h>
 
-#include "../verification/support.h"
 #include "cases.h"
 #include "deck.h"
 #include "kernels.h"
 #include "store.h"
 #include "trace.h"
+#include "verification/support.h"
 
 enum { NAME = 64, PATH = 4096 };
 

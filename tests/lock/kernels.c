@@ -2,8 +2,8 @@
 /* See kernels.h. */
 #include "kernels.h"
 
-#include "../unit/close.h"
 #include "store.h"
+#include "unit/close.h"
 
 void kernels_check(const char *name, uint64_t (*run)(const void *what, dem_kernel kernel), const void *what)
 {

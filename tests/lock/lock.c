@@ -3,10 +3,10 @@
  * [update]`: the folder of the decks, and the file, which `update` writes anew. */
 #include <string.h>
 
-#include "../unit/close.h"
 #include "cases.h"
 #include "kernels.h"
 #include "store.h"
+#include "unit/close.h"
 
 static const char *inputs;
 

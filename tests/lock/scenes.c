@@ -2,11 +2,11 @@
 /* Random scenes, with boundaries and forces from outside in some, and resumed half-way. */
 #include <stdio.h>
 
-#include "../property/field.h"
-#include "../property/scene.h"
 #include "cases.h"
 #include "digest.h"
 #include "kernels.h"
+#include "property/field.h"
+#include "property/scene.h"
 #include "store.h"
 #include "trace.h"
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../unit/close.h"
+#include "unit/close.h"
 
 enum { MOST = 512, NAME = 64 };
 

@@ -8,8 +8,8 @@
 
 #include <dem/film.h>
 
-#include "../verification/support.h"
 #include "digest.h"
+#include "verification/support.h"
 
 static void add(trace *t, const void *bytes, size_t size)
 {

@@ -1,62 +1,48 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does every line stand where docs/contributing.md says? `rooms.py SOURCE_ROOT`."""
+"""Does every line stand where docs/architecture.md says? `rooms.py SOURCE_ROOT`."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 
-# In src, what stands on what, from below; a file includes only files of lower rows, or of its own noun.
-LAYERS = [
-    {"vec2", "status", "random", "aligned", "grow", "threads", "units"},
-    {"trail", "audience", "publish"},
-    {"record"},
-    {"boundary", "coupling", "lattice", "sides", "springs", "triangles", "box_tree", "path", "arkode", "method",
-     "bulk", "pool", "hdf5_file"},
-    {"motion", "vector", "lattice_mesh", "solid", "surface", "obstacle", "overlap", "impact", "stress", "order",
-     "grid", "table", "foreign", "notes"},
-    {"layout"},
-    {"sweep", "lanes_portable", "lanes_avx2", "lanes_avx512"},
-    {"model", "sweep_body", "peaks", "events", "frames", "history", "probe", "lattice_file", "obstacle_file"},
-    {"forces"},
-    {"touch", "options", "diagnostics", "film", "integrator", "verlet", "tangent", "kernel", "sweep_portable",
-     "sweep_avx2", "sweep_avx512", "peaks_file"},
-    {"reaction", "books", "engine", "spectrum", "constants", "reel"},
-    {"site", "segments"},
-    {"sites", "search"},
-    {"strike", "watch", "ball"},
-    {"patch"},
-    {"contact", "trajectory"},
-    {"queue"},
-    {"run"},
-    {"view", "recall"},
-    {"simulation", "replace"},
-]
-# Folders of the drivers: what each may include from besides itself, where nothing goes in circles.
-FOLDERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
+# Folders of src: what each may include from besides itself. Within a folder nothing goes in circles.
+SRC = {
+    "base": set(),
+    "lattice": {"base"},
+    "elastic": {"base"},
+    "obstacle": {"base"},
+    "time": {"base"},
+    "model": {"base", "lattice", "elastic", "obstacle"},
+    "forces": {"base", "elastic", "model"},
+    "contact": {"base", "obstacle", "time", "model", "forces"},
+    "events": {"base", "time", "forces", "contact"},
+    "simulation": {"base", "time", "model", "forces", "contact", "events"},
+    "output": {"base", "lattice", "elastic"},
+}
+# The same of the drivers.
+DRIVERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
            "batch": {"common", "namelist", "body", "deck"}, "plot": {"common"}, "export": {"common", "namelist"}}
-# Within a layer: who may include whom all the same.
-BESIDE = {("lattice", "sides"), ("lattice_mesh", "lattice")}
 ROOMS = [  # pattern, files that may have it
-    (r'#include [<"](arkode|nvector|sundials)/', {"src/arkode.h", "src/integrator.c", "src/method.c", "src/vector.c",
-                                                 "src/vector.h"}),
-    (r"#include <immintrin", {"src/lanes_avx2.h", "src/lanes_avx512.h"}),
-    (r"_Pragma|#pragma|_OPENMP", {"src/threads.h"}),
-    (r'#include [<"]hdf5\.h', {"src/hdf5_file.c", "src/hdf5_file.h"}),
+    (r'#include [<"](arkode|nvector|sundials)/', {"src/time/arkode_compat.h", "src/time/arkode_integrator.c", "src/time/butcher.c", "src/time/nvector.c",
+                                                 "src/time/nvector.h"}),
+    (r"#include <immintrin", {"src/elastic/lanes_avx2.h", "src/elastic/lanes_avx512.h"}),
+    (r"_Pragma|#pragma|_OPENMP", {"src/base/threads.h"}),
+    (r'#include [<"]hdf5\.h', {"src/output/hdf5_file.c", "src/output/hdf5_file.h"}),
     (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/pores.c", "drivers/deck/profile.c",
                           "drivers/batch/report.c", "drivers/batch/preview.c"}),
-    (r"#include [<\"]zlib", {"src/record.c"}),
+    (r"#include [<\"]zlib", {"src/base/record.c"}),
     (r"#include [<\"]cairo", {"drivers/body/png.c", "drivers/plot/paint.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
-    (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/impact.c"}),
-    (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/springs.c", "src/springs.h"}),
+    (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/contact/impact_law.c"}),
+    (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/elastic/springs.c", "src/elastic/springs.h"}),
     (r"\b(TODO|FIXME|XXX|HACK)\b", set()),
 ]
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 
 faults = []
-beside = {}  # of a noun of the drivers: the nouns of its folder that it includes
+beside = {}  # of a noun: the nouns of its folder that it includes
 
 
 def complain(path, line, text):
@@ -70,18 +56,24 @@ def without_comments(text):
     return re.sub(r'(?m)^(?!\s*#include)(.*)$', lambda m: re.sub(r'"(\\.|[^"\\])*"', blank, m.group(0)), text)
 
 
-def layer_of(noun):
-    return next((k for k, layer in enumerate(LAYERS) if noun in layer), None)
-
-
-def check_folders(path, lines):
+def check_edges(path, lines):
+    """Includes go to the same folder or along an allowed edge. In src an include names its folder."""
+    top, room = path.relative_to(ROOT).parts[:2]
+    edges = SRC if top == "src" else DRIVERS
+    if room not in edges:
+        complain(path, 1, f"'{room}' is no folder of {top}")
+        return
     for number, line in enumerate(lines, 1):
-        found = re.match(r'#include "(\w+)\.h"', line)
-        home = found and next((d for d in FOLDERS if (ROOT / "drivers" / d / f"{found.group(1)}.h").exists()), None)
-        if home == path.parent.name:
-            beside.setdefault(f"{home}/{path.stem}", set()).add(f"{home}/{found.group(1)}")
-        elif home and home not in FOLDERS[path.parent.name]:
-            complain(path, number, f"drivers/{path.parent.name} stands on drivers/{home}")
+        found = re.match(r'#include "(?:(\w+)/)?(\w+)\.h"', line)
+        if found is None:
+            continue
+        home = found.group(1) or next((d for d in edges if (ROOT / top / d / f"{found.group(2)}.h").exists()), None)
+        if top == "src" and found.group(1) is None:
+            complain(path, number, f"includes {found.group(2)}.h without its folder")
+        elif home == room:
+            beside.setdefault(f"{top}/{room}/{path.stem}", set()).add(f"{top}/{room}/{found.group(2)}")
+        elif home and home not in edges[room]:
+            complain(path, number, f"{top}/{room} must not include {top}/{home}")
 
 
 def check_circles():
@@ -90,21 +82,7 @@ def check_circles():
     while free := [noun for noun, others in left.items() if not others & left.keys()]:
         for noun in free:
             del left[noun]
-    faults.extend(f"drivers/{noun}.c: includes go in a circle" for noun in sorted(left))
-
-
-def check_includes(path, lines):
-    own = layer_of(path.stem)
-    if own is None:
-        complain(path, 1, f"'{path.stem}' has no layer")
-        return
-    for number, line in enumerate(lines, 1):
-        found = re.match(r'#include "([\w/]+)\.h"', line)
-        if found is None or found.group(1) == path.stem:
-            continue
-        other = layer_of(found.group(1))
-        if other is None or (other >= own and (path.stem, found.group(1)) not in BESIDE):
-            complain(path, number, f"includes {found.group(1)}.h, which does not stand below it")
+    faults.extend(f"{noun}.c: includes go in a circle" for noun in sorted(left))
 
 
 def check_rooms(path, lines):
@@ -129,7 +107,7 @@ def check_functions(path, lines):
         if line.startswith("}") and start is not None:
             if number - start >= MAX_FUNCTION:
                 complain(path, start, f"function of {number - start + 1} lines")
-            dictated = path.stem == "arkode"  # by SUNDIALS
+            dictated = path.stem == "arkode_compat"  # by SUNDIALS
             if path.relative_to(ROOT).parts[0] != "tests" and not dictated and head.count(",") >= MAX_PARAMETERS and "..." not in head and "(*" not in head:
                 complain(path, start, f"function of {head.count(',') + 1} parameters")
             start = None
@@ -149,11 +127,8 @@ for source in sources:
         complain(source, 1, f"{length} lines of code")
     check_functions(source, rows)
     top = source.relative_to(ROOT).parts[0]
-    if top == "src":
-        check_includes(source, rows)
-    if top == "drivers":
-        check_folders(source, rows)
     if top in ("src", "drivers"):
+        check_edges(source, rows)
         check_rooms(source, rows)
 check_circles()
 

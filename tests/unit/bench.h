@@ -4,9 +4,9 @@
 #ifndef DEM_TEST_BENCH_H
 #define DEM_TEST_BENCH_H
 
-#include "../verification/support.h"
+#include "verification/support.h"
 
-#include "touch.h"
+#include "contact/contact_point.h"
 
 enum { BENCH_NODES = 12, BENCH_SITES = 24, BENCH_FEATURES = 2 * BENCH_SITES, BENCH_OBSTACLES = 3 };
 

@@ -4,7 +4,7 @@
 #ifndef DEM_TEST_EXPORTED_H
 #define DEM_TEST_EXPORTED_H
 
-#include "../verification/support.h"
+#include "verification/support.h"
 
 #include <dirent.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #ifndef DEM_TEST_FILMED_H
 #define DEM_TEST_FILMED_H
 
-#include "close.h"
+#include "unit/close.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,9 +3,9 @@
 #ifndef DEM_TEST_FOUND_H
 #define DEM_TEST_FOUND_H
 
-#include "close.h"
+#include "unit/close.h"
 
-#include "hdf5_file.h"
+#include "output/hdf5_file.h"
 
 enum { FOUND_VALUES = 16 };
 

@@ -4,7 +4,7 @@
 #ifndef DEM_TEST_LOGGED_H
 #define DEM_TEST_LOGGED_H
 
-#include "../verification/support.h"
+#include "verification/support.h"
 
 #include <stdio.h>
 #include <stdlib.h>

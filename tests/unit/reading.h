@@ -3,7 +3,7 @@
 #ifndef DEM_TEST_READING_H
 #define DEM_TEST_READING_H
 
-#include "close.h"
+#include "unit/close.h"
 
 #include <stdio.h>
 #include <string.h>

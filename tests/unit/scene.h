@@ -3,12 +3,12 @@
 #ifndef DEM_TEST_SCENE_H
 #define DEM_TEST_SCENE_H
 
-#include "../verification/support.h"
+#include "verification/support.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "contact.h"
+#include "contact/automaton.h"
 
 enum { SCENE_NODES = 6, SCENE_EVENTS = 32 };
 

@@ -3,7 +3,7 @@
 #ifndef DEM_TEST_SOLIDS_H
 #define DEM_TEST_SOLIDS_H
 
-#include "close.h"
+#include "unit/close.h"
 
 #include <dem/dem.h>
 

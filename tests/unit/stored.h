@@ -3,14 +3,14 @@
 #ifndef DEM_TEST_STORED_H
 #define DEM_TEST_STORED_H
 
-#include "../verification/support.h"
+#include "verification/support.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "found.h"
-#include "hdf5_file.h"
+#include "output/hdf5_file.h"
+#include "unit/found.h"
 
 enum { STORED_VALUES = 4096 };
 

@@ -3,7 +3,7 @@
 #ifndef DEM_TEST_WITNESS_H
 #define DEM_TEST_WITNESS_H
 
-#include "close.h"
+#include "unit/close.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sort_vector.h>
 
-#include "forces.h"
+#include "forces/forces.h"
 
 gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step)
 {

@@ -8,7 +8,7 @@
 
 #include "support.h"
 
-#include "tangent.h"
+#include "model/tangent_stiffness.h"
 
 static const double spacing = 5e-3, modulus = 1e7, thickness = 0.5;
 static const double ratios[] = {0.0, 0.1, 0.2, 1.0 / 3.0, 0.45};

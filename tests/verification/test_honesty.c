@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "queue.h"
+#include "events/event_queue.h"
 #include "support.h"
 
 enum { most_steps = 400 };

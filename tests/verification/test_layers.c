@@ -8,7 +8,7 @@
 
 #include "support.h"
 
-#include "tangent.h"
+#include "model/tangent_stiffness.h"
 
 static const double spacing = 5e-3, thickness = 0.5;
 enum { columns = 9, rows = 10, n_below = 4 };

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Loops for the compiler to make vector instructions of. BULK is the name of the table, one for each set of them. */
+#include "base/array_ops.h"
+
+#include <math.h>
+#include <string.h>
+
+#define INLINE static inline __attribute__((always_inline))
+
+enum {
+    most_terms = 8, /* that are added up in one pass */
+    piece = 4096    /* of so many numbers partial sums are exact in a double */
+};
+
+/* ---- linear combinations ---- */
+
+/* `n` is a constant where this is called, so that the inner loop is none. */
+INLINE void add_up(double *restrict out, int n, const double *c, const double *const *in, dem_index size)
+{
+    for (dem_index k = 0; k < size; k++) {
+        double sum = c[0] * in[0][k];
+        for (int p = 1; p < n; p++) sum += c[p] * in[p][k];
+        out[k] = sum;
+    }
+}
+
+static void add_few(double *out, int n, const double *c, const double *const *in, dem_index size)
+{
+    switch (n) {
+    case 1:
+        add_up(out, 1, c, in, size);
+        break;
+    case 2:
+        add_up(out, 2, c, in, size);
+        break;
+    case 3:
+        add_up(out, 3, c, in, size);
+        break;
+    case 4:
+        add_up(out, 4, c, in, size);
+        break;
+    case 5:
+        add_up(out, 5, c, in, size);
+        break;
+    case 6:
+        add_up(out, 6, c, in, size);
+        break;
+    case 7:
+        add_up(out, 7, c, in, size);
+        break;
+    default:
+        add_up(out, 8, c, in, size);
+    }
+}
+
+/* More than `most_terms` in pieces that stay in the cache. */
+static void combine(double *out, int n, const double *c, const double *const *in, dem_index size)
+{
+    if (n <= most_terms) {
+        add_few(out, n, c, in, size);
+        return;
+    }
+    double part[piece];
+    for (dem_index k = 0; k < size; k += piece) {
+        const dem_index here = k + piece < size ? piece : size - k;
+        const double *at[most_terms];
+        for (int p = 0; p < most_terms; p++) at[p] = in[p] + k;
+        add_few(part, most_terms, c, at, here);
+        for (int p = most_terms; p < n; p++)
+            for (dem_index q = 0; q < here; q++) part[q] += c[p] * in[p][k + q];
+        for (dem_index q = 0; q < here; q++) out[k + q] = part[q];
+    }
+}
+
+/* ---- sums of squares ---- */
+
+typedef double eight __attribute__((vector_size(64)));
+typedef int64_t eight_bits __attribute__((vector_size(64)));
+
+/* p = h + l + rest, h a multiple of 2^-20 and l of 2^-60, |rest| <= 2^-61: adding and taking away 1.5 2^(52 - 20)
+ * rounds to the one, 1.5 2^(52 - 60) to the other. The sums of a piece are exact in any order: they have at most 53
+ * bits. Behind the end stand zeros. */
+static void square_piece(bulk_sum *sum, const double *x, const double *w, double scale, dem_index size)
+{
+    const double to_high = 0x1.8p32, to_low = 0x1.8p-8;
+    eight highs = {0.0}, lows = {0.0}, most = {0.0};
+    for (dem_index k = 0; k < size; k += 8) {
+        eight a = {0.0}, b = {0.0};
+        if (k + 8 <= size) {
+            memcpy(&a, x + k, sizeof a);
+            memcpy(&b, w + k, sizeof b);
+        } else {
+            memcpy(&a, x + k, (size_t)(size - k) * sizeof *x);
+            memcpy(&b, w + k, (size_t)(size - k) * sizeof *w);
+        }
+        const eight e = scale * a * b, p = e * e, h = (p + to_high) - to_high;
+        const eight_bits larger = p > most;
+        highs += h;
+        lows += ((p - h) + to_low) - to_low;
+        most = (eight)(((eight_bits)p & larger) | ((eight_bits)most & ~larger));
+    }
+    double high = 0.0, low = 0.0, largest = 0.0;
+    for (int q = 0; q < 8; q++) {
+        high += highs[q];
+        low += lows[q];
+        largest = most[q] > largest ? most[q] : largest;
+    }
+    bulk_sum here = {.largest = isnan(high) ? high : largest}; /* a square that is none shows in the sum */
+    if (here.largest <= BULK_LARGEST) {
+        here.high = (int64_t)(high * 0x1p20);
+        here.low = (int64_t)(low * 0x1p60);
+    }
+    bulk_add(sum, &here);
+}
+
+static void square(bulk_sum *sum, const double *x, const double *w, double scale, dem_index size)
+{
+    for (dem_index k = 0; k < size; k += piece)
+        square_piece(sum, x + k, w + k, scale, k + piece < size ? piece : size - k);
+}
+
+/* ---- Verlet's step ---- */
+
+static void drift(double *restrict x1, double *restrict v1, const double *const start[3], double h, dem_index size)
+{
+    const double *x0 = start[0], *v0 = start[1], *a0 = start[2];
+    for (dem_index k = 0; k < size; k++) {
+        const double half = v0[k] + 0.5 * h * a0[k];
+        x1[k] = x0[k] + h * half;
+        v1[k] = half + 0.5 * h * a0[k];
+    }
+}
+
+static void kick(double *restrict v1, const double *a0, const double *a1, double h, dem_index size)
+{
+    for (dem_index k = 0; k < size; k++) v1[k] += 0.5 * h * (a1[k] - a0[k]);
+}
+
+const bulk BULK = {combine, square, drift, kick};

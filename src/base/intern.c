@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A hash table of lists. */
+#include "base/intern.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/grow.h"
+#include "base/status.h"
+
+static uint64_t hash_of(const void *items, size_t bytes)
+{
+    uint64_t hash = bytes, word;
+    for (size_t k = 0; k < bytes; k += sizeof word) {
+        memcpy(&word, (const char *)items + k, sizeof word);
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+static bool is_list(const pool *p, int32_t list, const void *items, dem_index n)
+{
+    const pool_span s = p->lists[list];
+    return s.end - s.first == n &&
+           (n == 0 || memcmp((const char *)p->items + (size_t)s.first * p->unit, items, (size_t)n * p->unit) == 0);
+}
+
+/* That of the list, or a free one. */
+static int32_t *slot_of(const pool *p, const void *items, dem_index n)
+{
+    const uint64_t last = (uint64_t)(p->n_slots - 1);
+    uint64_t slot = hash_of(items, (size_t)n * p->unit) & last;
+    while (p->slots[slot] >= 0 && !is_list(p, p->slots[slot], items, n)) slot = (slot + 1) & last;
+    return &p->slots[slot];
+}
+
+static dem_status rehash(pool *p)
+{
+    const dem_index n_slots = p->n_slots > 0 ? 2 * p->n_slots : 64;
+    int32_t *slots = malloc((size_t)n_slots * sizeof *slots);
+    CHECK_MEMORY(slots);
+    free(p->slots);
+    p->slots = slots;
+    p->n_slots = n_slots;
+    for (dem_index k = 0; k < n_slots; k++) slots[k] = -1;
+    for (dem_index k = 0; k < p->n_lists; k++) {
+        const pool_span s = p->lists[k];
+        *slot_of(p, (const char *)p->items + (size_t)s.first * p->unit, s.end - s.first) = (int32_t)k;
+    }
+    return DEM_OK;
+}
+
+dem_status pool_find(pool *p, const void *items, dem_index n, pool_span *out)
+{
+    if (2 * p->n_lists >= p->n_slots) TRY(rehash(p));
+    int32_t *slot = slot_of(p, items, n);
+    if (*slot < 0) {
+        CHECK(p->n + n < INT32_MAX, DEM_ERROR_MODEL, "too many springs or triangles");
+        CHECK(grow_array(&p->items, &p->capacity, p->n + n, p->unit), DEM_ERROR_MEMORY, "out of memory");
+        CHECK(grow_array((void **)&p->lists, &p->list_capacity, p->n_lists + 1, sizeof *p->lists), DEM_ERROR_MEMORY,
+              "out of memory");
+        if (n > 0) memcpy((char *)p->items + (size_t)p->n * p->unit, items, (size_t)n * p->unit);
+        p->lists[p->n_lists] = (pool_span){(int32_t)p->n, (int32_t)(p->n + n)};
+        *slot = (int32_t)p->n_lists++;
+        p->n += n;
+    }
+    *out = p->lists[*slot];
+    return DEM_OK;
+}
+
+dem_status pool_settle(pool *p)
+{
+    const size_t size = (size_t)p->n * p->unit;
+    double *items = aligned_reals(size / sizeof *items);
+    CHECK_MEMORY(items);
+    if (size > 0) memcpy(items, p->items, size);
+    const pool settled = {.unit = p->unit, .items = items, .n = p->n, .capacity = p->n};
+    pool_free(p);
+    *p = settled;
+    return DEM_OK;
+}
+
+void pool_free(pool *p)
+{
+    free(p->items);
+    free(p->lists);
+    free(p->slots);
+    *p = (pool){0};
+}

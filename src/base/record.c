@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Entries one after another, in memory and in the file: a header of 64 bytes, then for each entry a head of 40 bytes
+ * and its bytes, filled up to a multiple of 8. The checksum is of the whole file, itself taken as 0. */
+#include "base/record.h"
+
+#include <errno.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <zlib.h>
+
+#include "base/grow.h"
+#include "base/publish.h"
+#include "base/status.h"
+
+enum { FORMAT = 1, NAME = 32, UNIT = 8 };
+
+static const char magic[8] = "demrec\r\n"; /* a transfer as text shows */
+static const uint32_t byte_order = 0x01020304;
+
+typedef struct entry {
+    char name[NAME];
+    size_t size, capacity; /* bytes */
+    unsigned char *data;
+} entry;
+
+struct dem_record {
+    dem_index n, capacity;
+    entry *entries;
+};
+
+typedef struct header {
+    char magic[8];
+    uint32_t byte_order, format;
+    uint64_t size; /* bytes of the file */
+    uint64_t n;    /* entries */
+    uint64_t checksum;
+    uint64_t unused[3];
+} header;
+
+typedef struct head {
+    char name[NAME];
+    uint64_t size; /* bytes */
+} head;
+
+/* ---- entries ---- */
+
+dem_status dem_record_create(dem_record **out)
+{
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_record_create: out is NULL");
+    dem_record *record = calloc(1, sizeof *record);
+    CHECK_MEMORY(record);
+    *out = record;
+    return DEM_OK;
+}
+
+void dem_record_destroy(dem_record *record)
+{
+    if (record == NULL) return;
+    for (dem_index k = 0; k < record->n; k++) free(record->entries[k].data);
+    free(record->entries);
+    free(record);
+}
+
+static entry *find(const dem_record *record, const char *name)
+{
+    for (dem_index k = 0; k < record->n; k++)
+        if (strcmp(record->entries[k].name, name) == 0) return &record->entries[k];
+    return NULL;
+}
+
+/* Room for `size` bytes in an entry, which keeps what it has if there is none. */
+static dem_status reserve(entry *e, size_t size)
+{
+    if (size < e->capacity) return DEM_OK;
+    unsigned char *data = realloc(e->data, size + 1);
+    CHECK(data != NULL, DEM_ERROR_MEMORY, "out of memory for %zu bytes of a record", size);
+    e->data = data;
+    e->capacity = size + 1;
+    return DEM_OK;
+}
+
+/* The entry of a name, which is made with room for `size` bytes. */
+static dem_status make(dem_record *record, const char *name, size_t size, entry **out)
+{
+    CHECK(grow_array((void **)&record->entries, &record->capacity, record->n + 1, sizeof *record->entries),
+          DEM_ERROR_MEMORY, "out of memory for a record");
+    entry *e = &record->entries[record->n];
+    *e = (entry){.size = 0};
+    memcpy(e->name, name, strlen(name));
+    TRY(reserve(e, size));
+    record->n++;
+    *out = e;
+    return DEM_OK;
+}
+
+dem_status dem_record_put(dem_record *record, const char *name, const void *data, size_t size)
+{
+    CHECK(record != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
+          "dem_record_put: an argument is NULL");
+    CHECK(*name != '\0' && strlen(name) < NAME, DEM_ERROR_ARGUMENT, "\"%s\" cannot name an entry: 1 to %d characters",
+          name, NAME - 1);
+    entry *e = find(record, name);
+    if (e == NULL)
+        TRY(make(record, name, size, &e));
+    else
+        TRY(reserve(e, size));
+    if (size > 0) memcpy(e->data, data, size);
+    e->size = size;
+    return DEM_OK;
+}
+
+const void *dem_record_find(const dem_record *record, const char *name, size_t *size)
+{
+    const entry *e = find(record, name);
+    *size = e != NULL ? e->size : 0;
+    return e != NULL ? e->data : NULL;
+}
+
+dem_status dem_record_get(const dem_record *record, const char *name, void *data, size_t size)
+{
+    CHECK(record != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
+          "dem_record_get: an argument is NULL");
+    const entry *e = find(record, name);
+    CHECK(e != NULL, DEM_ERROR_IO, "the record has no %s", name);
+    CHECK(e->size == size, DEM_ERROR_IO, "the record has %zu bytes of %s, %zu are expected", e->size, name, size);
+    if (size > 0) memcpy(data, e->data, size);
+    return DEM_OK;
+}
+
+dem_status record_copy(dem_record *into, const dem_record *from)
+{
+    for (dem_index k = 0; k < from->n; k++)
+        TRY(dem_record_put(into, from->entries[k].name, from->entries[k].data, from->entries[k].size));
+    return DEM_OK;
+}
+
+/* ---- the file ---- */
+
+static size_t padding(uint64_t size)
+{
+    return (size_t)((UNIT - size % UNIT) % UNIT);
+}
+
+/* A file that is written or read from its beginning to its end. */
+typedef struct stream {
+    FILE *file;
+    const char *path;
+    uint64_t left; /* bytes to come */
+    uLong checksum;
+} stream;
+
+static dem_status put(stream *s, const void *data, size_t size)
+{
+    CHECK(size == 0 || fwrite(data, 1, size, s->file) == size, DEM_ERROR_IO, "%s: cannot be written (%s)", s->path,
+          strerror(errno));
+    s->checksum = size > 0 ? crc32_z(s->checksum, data, size) : s->checksum;
+    return DEM_OK;
+}
+
+static dem_status get(stream *s, void *data, size_t size)
+{
+    CHECK(size <= s->left && (size == 0 || fread(data, 1, size, s->file) == size), DEM_ERROR_IO, "%s: is damaged",
+          s->path);
+    s->left -= size;
+    s->checksum = size > 0 ? crc32_z(s->checksum, data, size) : s->checksum;
+    return DEM_OK;
+}
+
+static header header_of(const dem_record *record)
+{
+    header h = {.byte_order = byte_order, .format = FORMAT, .size = sizeof h, .n = (uint64_t)record->n};
+    memcpy(h.magic, magic, sizeof magic);
+    for (dem_index k = 0; k < record->n; k++)
+        h.size += sizeof(head) + record->entries[k].size + padding(record->entries[k].size);
+    return h;
+}
+
+static dem_status put_entries(stream *s, const dem_record *record)
+{
+    static const unsigned char zeros[UNIT];
+    for (dem_index k = 0; k < record->n; k++) {
+        const entry *e = &record->entries[k];
+        head first = {.size = e->size};
+        memcpy(first.name, e->name, NAME);
+        TRY(put(s, &first, sizeof first));
+        TRY(put(s, e->data, e->size));
+        TRY(put(s, zeros, padding(e->size)));
+    }
+    return DEM_OK;
+}
+
+/* The header is written again when the checksum is known. */
+static dem_status put_file(stream *s, const dem_record *record)
+{
+    header h = header_of(record);
+    TRY(put(s, &h, sizeof h));
+    TRY(put_entries(s, record));
+    h.checksum = s->checksum;
+    CHECK(fseek(s->file, 0, SEEK_SET) == 0, DEM_ERROR_IO, "%s: cannot be written (%s)", s->path, strerror(errno));
+    return put(s, &h, sizeof h);
+}
+
+static dem_status get_header(stream *s, header *h)
+{
+    CHECK(s->left >= sizeof *h, DEM_ERROR_IO, "%s: is no checkpoint, or has been cut short", s->path);
+    TRY(get(s, h, sizeof *h));
+    CHECK(memcmp(h->magic, magic, sizeof magic) == 0, DEM_ERROR_IO, "%s: is no checkpoint", s->path);
+    CHECK(h->byte_order == byte_order, DEM_ERROR_IO, "%s: was written on a machine of another byte order", s->path);
+    CHECK(h->format == FORMAT, DEM_ERROR_IO, "%s: has format %u, this version reads %d", s->path, h->format, FORMAT);
+    CHECK(h->size == s->left + sizeof *h, DEM_ERROR_IO, "%s: has %llu bytes, %llu were written", s->path,
+          (unsigned long long)(s->left + sizeof *h), (unsigned long long)h->size);
+    header as_summed = *h;
+    as_summed.checksum = 0;
+    s->checksum = crc32_z(crc32_z(0, NULL, 0), (const void *)&as_summed, sizeof as_summed);
+    return DEM_OK;
+}
+
+static dem_status get_entry(stream *s, dem_record *record)
+{
+    unsigned char filling[UNIT];
+    head first;
+    entry *e;
+    TRY(get(s, &first, sizeof first));
+    const bool named = first.name[0] != '\0' && memchr(first.name, '\0', NAME) != NULL;
+    CHECK(named && first.size <= s->left && find(record, first.name) == NULL, DEM_ERROR_IO, "%s: is damaged", s->path);
+    TRY(make(record, first.name, (size_t)first.size, &e));
+    TRY(get(s, e->data, (size_t)first.size));
+    e->size = (size_t)first.size;
+    return get(s, filling, padding(first.size));
+}
+
+static dem_status get_file(stream *s, dem_record *record)
+{
+    header h;
+    TRY(get_header(s, &h));
+    for (uint64_t k = 0; k < h.n; k++) TRY(get_entry(s, record));
+    CHECK(s->left == 0 && s->checksum == h.checksum, DEM_ERROR_IO, "%s: is damaged", s->path);
+    return DEM_OK;
+}
+
+static dem_status open_stream(stream *out, const char *path)
+{
+    struct stat about;
+    FILE *file = fopen(path, "rbe");
+    CHECK(file != NULL, DEM_ERROR_IO, "%s: cannot be opened (%s)", path, strerror(errno));
+    if (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode)) {
+        (void)fclose(file);
+        return status_fail(DEM_ERROR_IO, "%s: is not a regular file", path);
+    }
+    *out = (stream){file, path, (uint64_t)about.st_size, crc32_z(0, NULL, 0)};
+    return DEM_OK;
+}
+
+dem_status dem_record_read(dem_record **out, const char *path)
+{
+    stream s;
+    dem_record *record;
+    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_record_read: %s is NULL", out == NULL ? "out" : "path");
+    TRY(dem_record_create(&record));
+    dem_status status = open_stream(&s, path);
+    if (status == DEM_OK) {
+        status = get_file(&s, record);
+        (void)fclose(s.file);
+    }
+    if (status == DEM_OK)
+        *out = record;
+    else
+        dem_record_destroy(record);
+    return status;
+}
+
+/* Whether a file holds the bytes that were written. A full disk may be found out by nothing else. */
+static dem_status read_back(const char *path, const header *h)
+{
+    unsigned char block[1 << 14];
+    stream s;
+    header stored;
+    TRY(open_stream(&s, path));
+    dem_status status = get_header(&s, &stored);
+    while (status == DEM_OK && s.left > 0) status = get(&s, block, s.left < sizeof block ? s.left : sizeof block);
+    if (status == DEM_OK && (stored.size != h->size || s.checksum != stored.checksum))
+        status = status_fail(DEM_ERROR_IO, "%s: does not read back as it was written", path);
+    (void)fclose(s.file);
+    return status;
+}
+
+static dem_status write_part(const dem_record *record, const char *part)
+{
+    const header h = header_of(record);
+    stream s = {fopen(part, "wbe"), part, 0, crc32_z(0, NULL, 0)};
+    CHECK(s.file != NULL, DEM_ERROR_IO, "%s: cannot be opened for writing (%s)", part, strerror(errno));
+    dem_status status = put_file(&s, record);
+    if (fclose(s.file) != 0 && status == DEM_OK)
+        status = status_fail(DEM_ERROR_IO, "%s: cannot be written (%s)", part, strerror(errno));
+    TRY(status);
+    TRY(publish_sync(part));
+    return read_back(part, &h);
+}
+
+dem_status dem_record_write(const dem_record *record, const char *path)
+{
+    CHECK(record != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_record_write: %s is NULL",
+          record == NULL ? "record" : "path");
+    const size_t size = strlen(path) + sizeof ".part";
+    char *part = malloc(2 * size);
+    CHECK_MEMORY(part);
+    char *previous = part + size;
+    (void)snprintf(part, size, "%s.part", path);
+    (void)snprintf(previous, size, "%s.prev", path);
+    dem_status status = write_part(record, part);
+    if (status == DEM_OK && access(path, F_OK) == 0) status = publish_rename(path, previous);
+    if (status == DEM_OK) status = publish_rename(part, path);
+    if (status != DEM_OK) (void)unlink(part);
+    free(part);
+    return status;
+}

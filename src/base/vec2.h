@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Two-component arithmetic. */
+#ifndef DEM_BASE_VEC2_H
+#define DEM_BASE_VEC2_H
+
+#include <math.h>
+
+#include <dem/dem.h>
+
+typedef struct vec2 {
+    double x, y;
+} vec2;
+
+static inline vec2 vec2_at(const double *array, dem_index i) /* array [n][2] */
+{
+    return (vec2){array[2 * i], array[2 * i + 1]};
+}
+
+static inline void vec2_put(double *array, dem_index i, vec2 a)
+{
+    array[2 * i] = a.x;
+    array[2 * i + 1] = a.y;
+}
+
+static inline vec2 vec2_add(vec2 a, vec2 b)
+{
+    return (vec2){a.x + b.x, a.y + b.y};
+}
+
+static inline vec2 vec2_sub(vec2 a, vec2 b)
+{
+    return (vec2){a.x - b.x, a.y - b.y};
+}
+
+static inline vec2 vec2_scale(double s, vec2 a)
+{
+    return (vec2){s * a.x, s * a.y};
+}
+
+/** a + s b */
+static inline vec2 vec2_along(vec2 a, double s, vec2 b)
+{
+    return (vec2){a.x + s * b.x, a.y + s * b.y};
+}
+
+static inline double vec2_dot(vec2 a, vec2 b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
+static inline double vec2_cross(vec2 a, vec2 b)
+{
+    return a.x * b.y - a.y * b.x;
+}
+
+static inline double vec2_norm(vec2 a)
+{
+    return sqrt(a.x * a.x + a.y * a.y);
+}
+
+/** Signed area of the triangle abc, m^2. */
+static inline double vec2_triangle_area(vec2 a, vec2 b, vec2 c)
+{
+    return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
+}
+
+/** A symmetric matrix. */
+typedef struct sym2 {
+    double xx, xy, yy;
+} sym2;
+
+/** A + s a a^T */
+static inline sym2 sym2_along(sym2 A, double s, vec2 a)
+{
+    return (sym2){A.xx + s * a.x * a.x, A.xy + s * a.x * a.y, A.yy + s * a.y * a.y};
+}
+
+static inline sym2 sym2_add(sym2 A, sym2 B)
+{
+    return (sym2){A.xx + B.xx, A.xy + B.xy, A.yy + B.yy};
+}
+
+/** The larger eigenvalue. */
+static inline double sym2_largest(sym2 A)
+{
+    return 0.5 * (A.xx + A.yy) + sqrt(0.25 * (A.xx - A.yy) * (A.xx - A.yy) + A.xy * A.xy);
+}
+
+/** The parts of a along two directions: a = p[0] n0 + p[1] n1; not finite where they are parallel. */
+static inline void vec2_parts(vec2 a, vec2 n0, vec2 n1, double p[2])
+{
+    const double d = vec2_cross(n0, n1);
+    p[0] = vec2_cross(a, n1) / d;
+    p[1] = vec2_cross(n0, a) / d;
+}
+
+#endif

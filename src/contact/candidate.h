@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a site can touch, and the guards that tell when its contacts change. Pure functions of (t, x, v) and of the
+ * forces that follow from them; nothing here changes a state. */
+#ifndef DEM_CONTACT_CANDIDATE_H
+#define DEM_CONTACT_CANDIDATE_H
+
+#include "contact/contact_forces.h"
+#include "time/dense_output.h"
+
+/** Guard functions per site; each is > 0 while nothing happens and falls through 0 when something does. */
+enum { SITE_GUARDS = 4 };
+
+/** Distance to what a site is not in contact with. */
+typedef struct contact_gap {
+    double distance;   /* m, > 0 in front; infinity: nothing there */
+    dem_index feature; /* segment, or vertex; -1: none, or the distance is a lower bound */
+    double place;      /* of a vertex on the edge, 0 to 1 */
+    vec2 normal;       /* unit, the way in which the distance grows */
+} contact_gap;
+
+/** Where the nodes of a site are: a, an edge's second b, and an edge's neighbours on the boundary. */
+typedef struct contact_spot {
+    vec2 a, b, previous, next;
+} contact_spot;
+
+contact_spot site_spot(const contact_site *site, const double *x);
+contact_spot site_spot_on(const contact_site *site, const path *p, double t);
+
+/** How far a site has moved since it was seen to be clear, m. */
+double site_moved(const contact_site *site, const contact_spot *spot);
+
+/** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it
+ *  is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
+ *  themselves; of an edge its vertex. */
+contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
+
+/** The nearest vertex within reach (m) of an edge, in front of it, behind it or beside it. */
+contact_gap site_around(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
+
+/** How far at least a site is from everything else that it can touch, m; < 0 inside.
+ *  \param[out] nearest  of a node, the nearest segment */
+double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
+                      dem_index *nearest);
+
+/** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */
+int site_end_passed(const contact_scene *scene, const contact_site *site, int q, const double *x, const double *v);
+
+/** Whether sliding contact q has turned back: it slides against its sign. Without friction that does not matter. */
+bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f, const double *v);
+
+/** How far the friction of contact q is below what the normal force and rounding allow, N; infinity unless it sticks by
+ *  friction. */
+double site_grip(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f,
+                 const reaction *force, const double *x);
+
+/** Values of the guards in a state, [SITE_GUARDS]: gap + skin; smallest normal force; distance to the nearer end +
+ *  skin of what slides, grip of what sticks; speed of sliding. What does not apply is 1.
+ *  \param force  of its closed contacts in that state */
+void site_guards(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
+                 const double *v, double *g);
+
+/** Whether a closed site's contacts have to change in a state. */
+bool site_due(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
+              const double *v);
+
+#endif

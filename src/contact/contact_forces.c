@@ -1,0 +1,414 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Groups of coupled contacts, and their banded systems. */
+#include "contact/contact_forces.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+
+/* Of a row's own mobility: what is left of it, below which the others hold the contact already. */
+static const double redundant = 1e-10;
+
+/* What the system is solved for. */
+typedef enum aim { FORCE, IMPULSE, SHIFT } aim;
+
+/* ---- groups ---- */
+
+/* Halves the way for the next one. */
+static dem_index root_of(reactions *r, dem_index node)
+{
+    for (; r->root[node] != node; node = r->root[node]) r->root[node] = r->root[r->root[node]];
+    return node;
+}
+
+static void join(reactions *r, dem_index a, dem_index b)
+{
+    const dem_index ra = root_of(r, a), rb = root_of(r, b);
+    if (ra < rb)
+        r->root[rb] = ra;
+    else
+        r->root[ra] = rb;
+}
+
+/* Every site in the order of the boundaries: a node before the edge that starts there. */
+static void sort_sites(reactions *r)
+{
+    const dem_model *model = r->scene->model;
+    const dem_index n_nodes = model->n_sites;
+    dem_index n = 0;
+    dem_index *site_of = r->root; /* of a node, -1: none or done */
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) site_of[i] = -1;
+    for (dem_index k = 0; k < n_nodes; k++) site_of[r->sites[k].node] = k;
+    for (dem_index k = n_nodes; k < r->n_sites; k++) {
+        const dem_index a = r->sites[k].node;
+        if (site_of[a] >= 0) r->order[n++] = site_of[a];
+        site_of[a] = -1;
+        r->order[n++] = k;
+    }
+    for (dem_index k = 0; k < n_nodes; k++)
+        if (site_of[r->sites[k].node] >= 0) r->order[n++] = k;
+}
+
+/* Joins the nodes of closed edges; a group has one root. */
+static void join_nodes(reactions *r)
+{
+    for (dem_index k = 0; k < r->n_sites; k++) {
+        const contact_site *s = &r->sites[k];
+        if (s->n_closed == 0) continue;
+        r->root[s->node] = s->node;
+        if (site_is_edge(s)) r->root[s->other] = s->other;
+    }
+    for (dem_index k = r->scene->model->n_sites; k < r->n_sites; k++)
+        if (r->sites[k].n_closed > 0) join(r, r->sites[k].node, r->sites[k].other);
+}
+
+/* Numbers the groups in the order in which their first members come; returns how many sites are closed. */
+static dem_index number_groups(reactions *r)
+{
+    dem_index n_closed = 0;
+    r->n_groups = 0;
+    for (dem_index k = 0; k < r->n_sites; k++)
+        if (r->sites[k].n_closed > 0) r->first[root_of(r, r->sites[k].node)] = -1;
+    for (dem_index p = 0; p < r->n_sites; p++) {
+        const dem_index k = r->order[p];
+        if (r->sites[k].n_closed == 0) continue;
+        dem_index *number = &r->first[root_of(r, r->sites[k].node)];
+        if (*number < 0) {
+            *number = r->n_groups;
+            r->row[r->n_groups++] = 0;
+        }
+        r->group[k] = *number;
+        r->row[*number]++;
+        n_closed++;
+    }
+    return n_closed;
+}
+
+/* How far from the diagonal rows share nodes, the rows being those of a group if all its contacts stuck. */
+static dem_index group_width(reactions *r, dem_index group, dem_index *n_rows)
+{
+    dem_index width = 0;
+    *n_rows = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+            const contact_site *s = &r->sites[r->members[p]];
+            const dem_index nodes[2] = {s->node, site_is_edge(s) ? s->other : s->node};
+            if (pass == 1) *n_rows += 2 * s->n_closed;
+            for (int e = 0; e < 2; e++) {
+                dem_index *first = &r->first[nodes[e]];
+                if (pass == 0)
+                    *first = -1;
+                else if (*first < 0)
+                    *first = *n_rows - 2 * s->n_closed;
+                if (pass == 1 && *n_rows - 1 - *first > width) width = *n_rows - 1 - *first;
+            }
+        }
+    return width;
+}
+
+/* Makes room for the largest band. */
+static dem_status reserve(reactions *r)
+{
+    size_t most = 0;
+    for (dem_index g = 0; g < r->n_groups; g++) {
+        dem_index n;
+        const dem_index width = group_width(r, g, &n);
+        const size_t size = (size_t)n * (2 * (size_t)width + 1);
+        if (size > most) most = size;
+    }
+    if (most <= r->capacity) return DEM_OK;
+    double *band = realloc(r->band, 2 * most * sizeof *band);
+    CHECK(band != NULL, DEM_ERROR_MEMORY, "out of memory for %zu coupled contact forces", most);
+    r->band = band;
+    r->capacity = 2 * most;
+    return DEM_OK;
+}
+
+dem_status reactions_regroup(reactions *r)
+{
+    join_nodes(r);
+    const dem_index n_closed = number_groups(r);
+    for (dem_index g = 1; g < r->n_groups; g++) r->row[g] += r->row[g - 1];
+    for (dem_index p = r->n_sites - 1; p >= 0; p--) {
+        const dem_index k = r->order[p];
+        if (r->sites[k].n_closed > 0) r->members[--r->row[r->group[k]]] = k;
+    }
+    r->row[r->n_groups] = n_closed;
+    return reserve(r);
+}
+
+/* ---- one contact by itself ---- */
+
+/* Whether a contact resists sliding with a force of its own. */
+static bool resists(const contact_site *site, int q)
+{
+    return site->closed[q].sign == 0 && !site->closed[q].held;
+}
+
+static double sliding_friction(const reactions *r, const contact_site *site, int q)
+{
+    if (site->closed[q].held) return 0.0;
+    return site->closed[q].sign * touch_friction(r->scene, site, site->closed[q].feature);
+}
+
+/* A node on one segment: what holds it is minus the force towards the segment, and friction on that. */
+static void hold_node(reactions *r, dem_index k, double *a)
+{
+    const contact_site *site = &r->sites[k];
+    const segment *s = scene_segment(r->scene, site->closed[0].feature);
+    const double m = r->scene->model->lattice.mass[site->node];
+    const vec2 free_a = vec2_at(a, site->node);
+    reaction *f = &r->force[k][0];
+    f->normal = -m * vec2_dot(free_a, s->normal);
+    if (site->closed[0].sign == 0) {
+        f->tangent = -m * vec2_dot(free_a, s->tangent);
+        vec2_put(a, site->node, (vec2){0.0, 0.0});
+        return;
+    }
+    f->tangent = -sliding_friction(r, site, 0) * f->normal;
+    const vec2 along = vec2_along(free_a, -vec2_dot(free_a, s->normal), s->normal);
+    vec2_put(a, site->node, vec2_along(along, f->tangent / m, s->tangent));
+}
+
+/* A node in a corner of two segments: at rest. */
+static void hold_corner(reactions *r, dem_index k, double *a)
+{
+    const contact_site *site = &r->sites[k];
+    double part[2];
+    const vec2 f = vec2_scale(-r->scene->model->lattice.mass[site->node], vec2_at(a, site->node));
+    vec2_parts(f, scene_segment(r->scene, site->closed[0].feature)->normal,
+               scene_segment(r->scene, site->closed[1].feature)->normal, part);
+    for (int q = 0; q < 2; q++) r->force[k][q] = (reaction){part[q], 0.0};
+    vec2_put(a, site->node, (vec2){0.0, 0.0});
+}
+
+/* ---- the banded system of a group ---- */
+
+static void add_row(reactions *r, dem_index *n, dem_index k, int q, const touch_frame *f, bool tangential)
+{
+    reaction_row *row = &r->rows[(*n)++];
+    *row = (reaction_row){.site = k, .q = q, .tangential = tangential, .n = f->n};
+    for (int p = 0; p < f->n; p++) {
+        row->node[p] = f->node[p];
+        row->weight[p] = f->weight[p];
+    }
+    row->direction = row->push = tangential ? f->tangent : f->normal;
+}
+
+/* The unknowns of a group and what they are asked for; u [n][2]: accelerations or velocities as they are. */
+static dem_index set_rows(reactions *r, dem_index group, aim to, const double *x, const double *v, const double *u)
+{
+    dem_index n = 0;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const dem_index k = r->members[p];
+        const contact_site *site = &r->sites[k];
+        for (int q = 0; q < site->n_closed; q++) {
+            const touch_frame f = touch_frame_at(r->scene, site, q, x, v);
+            add_row(r, &n, k, q, &f, false);
+            r->rows[n - 1].wanted = to == FORCE ? f.keep[0] : (to == SHIFT ? -f.gap : 0.0);
+            if (to == SHIFT) continue;
+            if (to == FORCE) r->rows[n - 1].push = vec2_along(f.normal, -sliding_friction(r, site, q), f.tangent);
+            if (!resists(site, q)) continue;
+            add_row(r, &n, k, q, &f, true);
+            r->rows[n - 1].wanted = to == FORCE ? f.keep[1] : 0.0;
+        }
+    }
+    for (dem_index j = 0; j < n && to != SHIFT; j++)
+        for (int p = 0; p < r->rows[j].n; p++)
+            r->rows[j].wanted -= r->rows[j].weight[p] * vec2_dot(vec2_at(u, r->rows[j].node[p]), r->rows[j].direction);
+    return n;
+}
+
+/* How far from the diagonal rows share nodes. */
+static dem_index band_width(reactions *r, dem_index n)
+{
+    dem_index width = 0;
+    for (dem_index j = 0; j < n; j++)
+        for (int p = 0; p < r->rows[j].n; p++) r->first[r->rows[j].node[p]] = -1;
+    for (dem_index j = 0; j < n; j++)
+        for (int p = 0; p < r->rows[j].n; p++) {
+            dem_index *first = &r->first[r->rows[j].node[p]];
+            if (*first < 0) *first = j;
+            if (j - *first > width) width = j - *first;
+        }
+    return width;
+}
+
+/* Motion along the direction of row j per unit of the force of row k. */
+static double entry(const reactions *r, const reaction_row *j, const reaction_row *k)
+{
+    double mobility = 0.0;
+    for (int p = 0; p < j->n; p++)
+        for (int q = 0; q < k->n; q++)
+            if (j->node[p] == k->node[q])
+                mobility += j->weight[p] * k->weight[q] * r->scene->model->inverse_mass[j->node[p]];
+    return mobility * vec2_dot(j->direction, k->push);
+}
+
+/* Elimination without exchange of rows, after which `wanted` holds the unknowns; one that the rest determine already
+ * is 0. */
+static void eliminate(reactions *r, dem_index n, dem_index width)
+{
+    const dem_index line = 2 * width + 1;
+    double *band = r->band;
+#define AT(j, k) band[(j)*line + (k) - (j) + width]
+    for (dem_index j = 0; j < n; j++)
+        for (dem_index k = j - width; k <= j + width; k++)
+            AT(j, k) = k >= 0 && k < n ? entry(r, &r->rows[j], &r->rows[k]) : 0.0;
+    for (dem_index j = 0; j < n; j++) {
+        const dem_index last = j + width < n ? j + width : n - 1;
+        const bool dead = fabs(AT(j, j)) <= redundant * entry(r, &r->rows[j], &r->rows[j]);
+        for (dem_index k = j + 1; k <= last; k++) {
+            const double factor = dead ? 0.0 : AT(k, j) / AT(j, j);
+            for (dem_index q = j + 1; q <= last && factor != 0.0; q++) AT(k, q) -= factor * AT(j, q);
+            r->rows[k].wanted -= factor * r->rows[j].wanted;
+        }
+        if (dead) AT(j, j) = 0.0;
+    }
+    for (dem_index j = n - 1; j >= 0; j--) {
+        double sum = r->rows[j].wanted;
+        for (dem_index k = j + 1; k <= j + width && k < n; k++) sum -= AT(j, k) * r->rows[k].wanted;
+        r->rows[j].wanted = AT(j, j) != 0.0 ? sum / AT(j, j) : 0.0;
+    }
+#undef AT
+}
+
+/* Solves for the unknowns of a group and adds what they do to u. */
+static void solve(reactions *r, dem_index group, aim to, const double *x, const double *v, double *u)
+{
+    const dem_index n = set_rows(r, group, to, x, v, u), width = band_width(r, n);
+    eliminate(r, n, width);
+    for (dem_index j = 0; j < n; j++) {
+        const reaction_row *row = &r->rows[j];
+        for (int p = 0; p < row->n; p++) {
+            const double step = row->weight[p] * r->scene->model->inverse_mass[row->node[p]] * row->wanted;
+            vec2_put(u, row->node[p], vec2_along(vec2_at(u, row->node[p]), step, row->push));
+        }
+    }
+    for (dem_index j = 0; j < n && to != SHIFT; j++) {
+        const reaction_row *row = &r->rows[j];
+        reaction *f = &r->force[row->site][row->q];
+        if (row->tangential)
+            f->tangent = row->wanted;
+        else
+            *f = (reaction){row->wanted,
+                            to == FORCE ? -sliding_friction(r, &r->sites[row->site], row->q) * row->wanted : 0.0};
+    }
+}
+
+/* Whether a group is one node. */
+static bool alone(const reactions *r, dem_index group)
+{
+    return r->row[group + 1] - r->row[group] == 1 && !site_is_edge(&r->sites[r->members[r->row[group]]]);
+}
+
+static void hold(reactions *r, dem_index group, const double *x, const double *v, double *a)
+{
+    const dem_index k = r->members[r->row[group]];
+    if (!alone(r, group))
+        solve(r, group, FORCE, x, v, a);
+    else if (r->sites[k].n_closed == 2)
+        hold_corner(r, k, a);
+    else
+        hold_node(r, k, a);
+}
+
+/* ---- public ---- */
+
+void reactions_hold(reactions *r, const double *x, const double *v, double *a)
+{
+    for (dem_index g = 0; g < r->n_groups; g++) hold(r, g, x, v, a);
+}
+
+/* The free acceleration of a node, once for all contacts that share it. */
+static void set_free(reactions *r, dem_index node, const double *x, const double *v)
+{
+    if (r->first[node] == 0) return;
+    r->first[node] = 0;
+    vec2_put(r->a, node, forces_acceleration(r->scene->model, &r->scene->rule.load, node, x, v));
+}
+
+void reactions_solve(reactions *r, dem_index group, const double *x, const double *v)
+{
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &r->sites[r->members[p]];
+        r->first[site->node] = -1;
+        if (site_is_edge(site)) r->first[site->other] = -1;
+    }
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &r->sites[r->members[p]];
+        set_free(r, site->node, x, v);
+        if (site_is_edge(site)) set_free(r, site->other, x, v);
+    }
+    hold(r, group, x, v, r->a);
+}
+
+/* A node by itself stops exactly. */
+static void stop_node(reactions *r, dem_index k, double *v)
+{
+    const contact_site *site = &r->sites[k];
+    const segment *s = scene_segment(r->scene, site->closed[0].feature);
+    const vec2 vi = vec2_at(v, site->node);
+    const bool rests = site->n_closed == 2 || site->closed[0].sign == 0;
+    const vec2 after = rests ? (vec2){0.0, 0.0} : vec2_along(vi, -vec2_dot(vi, s->normal), s->normal);
+    const vec2 impulse = vec2_scale(r->scene->model->lattice.mass[site->node], vec2_sub(after, vi));
+    r->force[k][0] = (reaction){vec2_dot(impulse, s->normal), vec2_dot(impulse, s->tangent)};
+    r->force[k][1] = (reaction){0.0, 0.0};
+    vec2_put(v, site->node, after);
+}
+
+void reactions_stop(reactions *r, dem_index group, const double *x, double *v)
+{
+    if (alone(r, group))
+        stop_node(r, r->members[r->row[group]], v);
+    else
+        solve(r, group, IMPULSE, x, v, v);
+}
+
+const double *reactions_shift(reactions *r, dem_index group, const double *x, const double *v)
+{
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_site *site = &r->sites[r->members[p]];
+        vec2_put(r->a, site->node, (vec2){0.0, 0.0});
+        if (site_is_edge(site)) vec2_put(r->a, site->other, (vec2){0.0, 0.0});
+    }
+    solve(r, group, SHIFT, x, v, r->a);
+    return r->a;
+}
+
+dem_status reactions_create(reactions *out, const contact_scene *scene, const contact_site *sites, dem_index n_sites)
+{
+    const size_t n = (size_t)n_sites + 1, n_nodes = (size_t)scene->model->lattice.n_nodes;
+    reactions r = {.scene = scene, .sites = sites, .n_sites = n_sites};
+    r.order = malloc(n * sizeof *r.order);
+    r.row = calloc(n + 1, sizeof *r.row);
+    r.members = malloc(n * sizeof *r.members);
+    r.group = malloc(n * sizeof *r.group);
+    r.force = calloc(n, sizeof *r.force);
+    r.root = malloc(n_nodes * sizeof *r.root);
+    r.first = malloc(n_nodes * sizeof *r.first);
+    r.a = calloc(2 * n_nodes, sizeof *r.a);
+    r.rows = malloc(4 * n * sizeof *r.rows);
+    if (!(r.order && r.row && r.members && r.group && r.force && r.root && r.first && r.a && r.rows)) {
+        reactions_destroy(&r);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_sites);
+    }
+    sort_sites(&r);
+    *out = r;
+    return DEM_OK;
+}
+
+void reactions_destroy(reactions *r)
+{
+    free(r->order);
+    free(r->row);
+    free(r->members);
+    free(r->group);
+    free(r->force);
+    free(r->root);
+    free(r->first);
+    free(r->a);
+    free(r->rows);
+    free(r->band);
+    *r = (reactions){0};
+}

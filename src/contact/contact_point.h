@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sites that may touch -- nodes, and edges of bodies -- and the contacts that they have closed: a node on a segment
+ * of an obstacle, an edge on a convex vertex of it. Kinematics of a closed contact as functions of the state. */
+#ifndef DEM_CONTACT_CONTACT_POINT_H
+#define DEM_CONTACT_CONTACT_POINT_H
+
+#include "forces/forces.h"
+
+/** A closed contact of a site. */
+typedef struct contact_touch {
+    dem_index feature;      /* the segment on which a node is, or the vertex on which an edge is */
+    int sign;               /* the body slides along the tangent: 1, against it: -1; sticks: 0 */
+    bool held;              /* one of two that hold a node at rest in a corner; there is no friction then */
+    double place;           /* of a vertex on the edge where it sticks or may come to: 0 at its start, 1 at its end */
+    double force, friction; /* N, along normal and tangent, at the last accepted step */
+    /* of the impact under way: */
+    bool fresh;    /* the contact was not closed before */
+    bool opens;    /* and will not be after */
+    bool struck;   /* it approached */
+    bool rests;    /* what it gets away is no more than a hop that counts as rest */
+    bool plastic;  /* it does not rebound, for it will last */
+    vec2 before;   /* m/s, of the point of the body */
+    vec2 impulse;  /* N s, given to the body */
+    vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
+    double energy; /* J, taken by it */
+} contact_touch;
+
+/** A node, or an edge from node to other, that may touch. */
+typedef struct contact_site {
+    dem_index node, other;    /* other: -1 for a node */
+    dem_index previous, next; /* of an edge, the nodes before and after it on the boundary, or -1 */
+    dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
+    int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
+    bool asleep;              /* it is far from all that it could touch besides, */
+    double wake;              /* m, until the bodies may have gone this far since the start */
+    vec2 clear_at[2];         /* m, where its nodes were when all that it could touch besides */
+    double clear;             /* m, was this far away */
+    contact_touch closed[2];
+    bool stirred;       /* it takes part in the impact under way */
+    int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
+    double storm_start; /* s */
+    dem_index storm;    /* changes of this site since then */
+} contact_site;
+
+typedef struct contact_rule {
+    double skin;           /* m, depth at which an impact is taken */
+    double position_error; /* m, tolerance of positions: hops below it are rest */
+    double rest_speed;     /* m/s, rebounds up to this are rest whatever else the rule says */
+    double window;         /* s, impacts nearer than this are taken together */
+    double max_step;       /* s, longest step: with t it sets how exactly an event is located */
+    double storm_time;     /* s */
+    dem_index max_impacts; /* within storm_time at one site */
+    bool vertices;         /* whether edges touch vertices */
+    dem_index n_books;     /* places behind the nodes in a state, for what is integrated along */
+    int n_threads;         /* that look at free sites at once; 0 counts as 1 */
+    forces load;
+} contact_rule;
+
+/** What does not change during a run. */
+typedef struct contact_scene {
+    const dem_model *model;
+    contact_rule rule;
+} contact_scene;
+
+/** A closed contact in a state: the point of the body that touches, and how it moves. */
+typedef struct touch_frame {
+    int n; /* nodes that carry the point: 1, or 2 */
+    dem_index node[2];
+    double weight[2];     /* sum 1 */
+    vec2 normal, tangent; /* unit; out of the obstacle; tangent = (normal.y, -normal.x) */
+    vec2 velocity;        /* m/s, of the point */
+    double gap;           /* m, along the normal */
+    double place;         /* m along a segment from its start; fraction of an edge from its start */
+    double turning;       /* m/s^2, acceleration of the point along the normal that keeps it touching: 2 omega v_t */
+    double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
+                             what the integrator's error has opened */
+    double mobility;      /* 1/kg, sum of weight^2/m */
+} touch_frame;
+
+static inline const segment *scene_segment(const contact_scene *scene, dem_index s)
+{
+    return &scene->model->obstacles.segments[s];
+}
+
+/** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
+static inline double scene_margin(const contact_scene *scene)
+{
+    return 10.0 * scene->rule.skin;
+}
+
+static inline bool site_is_edge(const contact_site *site)
+{
+    return site->other >= 0;
+}
+
+/** Where the velocities begin in a state y = (x, v). */
+static inline dem_index scene_velocities(const contact_scene *scene)
+{
+    return 2 * (scene->model->lattice.n_nodes + scene->rule.n_books);
+}
+
+/** Where the books begin among the nodes of a state: pairs for the impulses of the obstacles, for those of their
+ *  friction, then (energy that friction takes, that damping takes), (work from outside, time). */
+static inline dem_index scene_books(const contact_scene *scene)
+{
+    return scene->model->lattice.n_nodes + scene->rule.n_books - 2 * scene->model->obstacles.n - 2;
+}
+
+/** The segment that a contact is on, or that ends in the vertex it is on. */
+dem_index touch_segment(const contact_scene *scene, const contact_site *site, dem_index feature);
+
+/** The obstacle that it is on. */
+const dem_obstacle *touch_obstacle(const contact_scene *scene, const contact_site *site, dem_index feature);
+
+/** Coefficient of the sustained friction of Coulomb's law; 0 where there is none. */
+double touch_friction(const contact_scene *scene, const contact_site *site, dem_index feature);
+
+/** Frame of closed contact q of a site at positions x and velocities v [n][2]. */
+touch_frame touch_frame_at(const contact_scene *scene, const contact_site *site, int q, const double *x,
+                           const double *v);
+
+/** What rounding of the coordinates may make of the force of a contact, N. */
+double touch_slack(const contact_scene *scene, const touch_frame *f, const double *x);
+
+/** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node, whose velocity is set. */
+double touch_noise(const touch_frame *f, const double *v);
+
+/** What the library tells of it. */
+dem_contact touch_describe(const contact_scene *scene, const contact_site *site, int q, const double *x);
+
+#endif

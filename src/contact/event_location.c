@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bracketing, dips and roots along the path of a step. */
+#include "contact/event_location.h"
+
+#include <float.h>
+
+double search_resolution(const path *p)
+{
+    return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
+}
+
+/* A root between a time when a function is above 0 and one when it is not: secants in which the value at an end that
+ * stays is halved (Illinois), after most_secants of them the middle. */
+typedef struct bracket {
+    double before, after; /* s */
+    double above, below;  /* the values there, of which one may be halved */
+    int n, side;          /* trials; which end moved last */
+} bracket;
+
+static double bracket_trial(const bracket *b, double width)
+{
+    enum { most_secants = 24 };
+    const double secant = b->before + (b->after - b->before) * b->above / (b->above - b->below);
+    if (b->n >= most_secants || !(secant >= b->before && secant <= b->after)) return 0.5 * (b->before + b->after);
+    return fmin(fmax(secant, b->before + 0.5 * width), b->after - 0.5 * width);
+}
+
+static void bracket_close(bracket *b, double t, double value, bool beyond)
+{
+    const int side = beyond ? 1 : -1;
+    const bool again = side == b->side;
+    b->n++;
+    b->side = side;
+    if (beyond) {
+        b->after = t;
+        b->below = value;
+        if (again) b->above *= 0.5;
+    } else {
+        b->before = t;
+        b->above = value;
+        if (again) b->below *= 0.5;
+    }
+}
+
+/* The guard of a free site at one time, and how fast it grows. */
+typedef struct sample {
+    double t, guard, slope;
+} sample;
+
+static sample sample_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+{
+    const contact_spot spot = site_spot_on(site, p, t);
+    const contact_gap gap = site_gap(scene, site, &spot);
+    vec2 v = path_velocity(p, t, site->node);
+    if (site_is_edge(site))
+        v = vec2_add(vec2_scale(1.0 - gap.place, v), vec2_scale(gap.place, path_velocity(p, t, site->other)));
+    return (sample){t, fmin(gap.distance, 1.0) + scene->rule.skin, vec2_dot(gap.normal, v)};
+}
+
+static double guard_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+{
+    const contact_spot spot = site_spot_on(site, p, t);
+    return fmin(site_gap(scene, site, &spot).distance, 1.0) + scene->rule.skin;
+}
+
+/* Whether the guard is lower somewhere between two samples than at both; a vertex may be beside the edge at one. */
+static bool dips(const sample *s, const sample *next)
+{
+    return (s->slope < 0.0 || next->guard < s->guard) && (next->slope > 0.0 || s->guard < next->guard);
+}
+
+/* A time between two samples at which the guard is as low as it gets, by golden section; the first found at or below 0
+ * will do. Where nothing is near an edge its guard is level, and lower towards the lower sample. */
+static double lowest(const contact_scene *scene, const contact_site *site, const path *p, const sample *s,
+                     const sample *next)
+{
+    const double ratio = 0.6180339887498949;
+    double lo = s->t, hi = next->t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double ga = guard_at(scene, site, p, a), gb = guard_at(scene, site, p, b);
+    for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
+        if (ga < gb || (ga == gb && s->guard < next->guard)) {
+            hi = b;
+            b = a;
+            gb = ga;
+            a = hi - ratio * (hi - lo);
+            ga = guard_at(scene, site, p, a);
+        } else {
+            lo = a;
+            a = b;
+            ga = gb;
+            b = lo + ratio * (hi - lo);
+            gb = guard_at(scene, site, p, b);
+        }
+    }
+    return ga < gb ? a : b;
+}
+
+/* The zero of the guard between a time when it is above and one when it is not. */
+static double crossing(const contact_scene *scene, const contact_site *site, const path *p, sample clear, sample deep)
+{
+    const double width = search_resolution(p);
+    bracket b = {clear.t, deep.t, clear.guard, deep.guard, 0, 0};
+    while (b.after - b.before > width) {
+        const double t = bracket_trial(&b, width), guard = guard_at(scene, site, p, t);
+        bracket_close(&b, t, guard, guard <= 0.0);
+    }
+    return b.after;
+}
+
+static double fastest(const path *p, double t, const contact_site *site)
+{
+    const double v = vec2_norm(path_velocity(p, t, site->node));
+    return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
+}
+
+/* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
+ * its nodes there, four times what a constant one does, and its turn. */
+static double bend(const contact_site *site, const path *p)
+{
+    const double h = p->t1 - p->t0;
+    const dem_index a0 = p->n_nodes + site->node, b0 = p->n_nodes + site->other;
+    const double a = fmax(fmax(vec2_norm(vec2_at(p->f0, a0)), vec2_norm(vec2_at(p->f1, a0))),
+                          fmax(vec2_norm(vec2_at(p->f0, b0)), vec2_norm(vec2_at(p->f1, b0))));
+    const vec2 va = path_velocity(p, p->end, site->node), vb = path_velocity(p, p->end, site->other);
+    const double length =
+        vec2_norm(vec2_sub(path_position(p, p->end, site->other), path_position(p, p->end, site->node)));
+    const double turn = 2.0 * vec2_norm(vec2_sub(vb, va)) / length * fmax(vec2_norm(va), vec2_norm(vb));
+    return 0.5 * h * h * (a + turn);
+}
+
+/* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the
+ * nearest is further in front than the edge can have come from there. */
+static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const path *p, double from,
+                          double reach)
+{
+    const contact_spot spot = site_spot_on(site, p, p->end);
+    const contact_gap around = site_around(scene, site, &spot, reach + scene->rule.skin);
+    if (around.feature < 0) return true;
+    const double va = vec2_dot(path_velocity(p, p->end, site->node), around.normal),
+                 vb = vec2_dot(path_velocity(p, p->end, site->other), around.normal);
+    const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
+    return around.distance + scene->rule.skin > way + bend(site, p);
+}
+
+/* Whether a site ends the step so near to where it was clear that it was so all the way. */
+static bool stays_clear(const contact_site *site, const path *p, double reach)
+{
+    const contact_spot spot = site_spot_on(site, p, p->end);
+    return site_moved(site, &spot) + reach < site->clear;
+}
+
+/* The first crossing of a site whose gap is the true one. */
+static double crossing_within(const contact_scene *scene, const contact_site *site, const path *p, double from,
+                              double reach)
+{
+    enum { n = 8 };
+    const double h = p->end - from;
+    if (site_is_edge(site) && edge_is_clear(scene, site, p, from, reach)) return INFINITY;
+    const sample last = sample_at(scene, site, p, p->end);
+    sample s = sample_at(scene, site, p, from);
+    if (s.guard <= 0.0) return from;
+    const bool on_its_way = s.guard + last.guard <= reach; /* no gap of a node changes faster than that moves */
+    if (!site_is_edge(site) && !on_its_way) return INFINITY;
+    for (int k = 1; k <= n; k++) {
+        const sample next = k == n ? last : sample_at(scene, site, p, from + h * k / n);
+        if (next.guard <= 0.0) return crossing(scene, site, p, s, next);
+        if (dips(&s, &next) && fmin(s.guard, next.guard) < reach / n) {
+            const sample low = {.t = lowest(scene, site, p, &s, &next)};
+            const double guard = guard_at(scene, site, p, low.t);
+            if (guard <= 0.0) return crossing(scene, site, p, s, (sample){low.t, guard, 0.0});
+        }
+        s = next;
+    }
+    return INFINITY;
+}
+
+double search_crossing(const contact_scene *scene, const contact_site *site, const path *p, double from)
+{
+    const double h = p->end - from;
+    const double reach = 2.0 * h * fmax(fastest(p, from, site), fastest(p, p->end, site)); /* no site goes further */
+    if (stays_clear(site, p, reach)) return INFINITY;
+    contact_site near = *site;
+    near.clear = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
+    return crossing_within(scene, &near, p, from, reach);
+}
+
+/* ---- closed contacts ---- */
+
+static void put_node(const path *p, double t, dem_index i, double *state)
+{
+    vec2_put(state, i, path_position(p, t, i));
+    vec2_put(state, p->n_nodes + i, path_velocity(p, t, i));
+}
+
+/* A node and all whose positions its force depends on. */
+static void put_around(const dem_model *model, const path *p, double t, dem_index i, double *state)
+{
+    const springs *s = &model->springs;
+    const triangles *tri = &model->triangles;
+    put_node(p, t, i, state);
+    for (dem_index q = s->row[i]; q < s->row[i + 1]; q++) put_node(p, t, s->neighbour[q], state);
+    for (dem_index q = tri->row[i]; q < tri->row[i + 1]; q++) {
+        put_node(p, t, tri->next[q], state);
+        put_node(p, t, tri->last[q], state);
+    }
+}
+
+void search_state(const reactions *r, dem_index group, const path *p, double t, double *state)
+{
+    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
+        const contact_site *site = &r->sites[r->members[m]];
+        put_around(r->scene->model, p, t, site->node, state);
+        if (!site_is_edge(site)) continue;
+        put_around(r->scene->model, p, t, site->other, state);
+        if (site->previous >= 0) put_node(p, t, site->previous, state);
+        if (site->next >= 0) put_node(p, t, site->next, state);
+    }
+    if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, p->n_nodes - 1, state); /* the time */
+}
+
+/* Forces and guards of a site in the state at t: the lowest of the guards, each in units of what it was at first. */
+static double lowest_guard(reactions *r, dem_index k, const double *state, const double *scale)
+{
+    double guard[SITE_GUARDS], low = INFINITY;
+    site_guards(r->scene, &r->sites[k], r->force[k], state, state + scene_velocities(r->scene), guard);
+    for (int q = 0; q < SITE_GUARDS; q++)
+        if (scale[q] > 0.0) low = fmin(low, guard[q] / scale[q]);
+    return low;
+}
+
+double search_due(reactions *r, const contact_site *site, const path *p, double from, double *state)
+{
+    const dem_index k = site - r->sites, group = r->group[k];
+    const double *v = state + scene_velocities(r->scene);
+    const double width = search_resolution(p);
+    double scale[SITE_GUARDS];
+    search_state(r, group, p, from, state);
+    reactions_solve(r, group, state, v);
+    if (site_due(r->scene, site, r->force[k], state, v)) return from;
+    site_guards(r->scene, site, r->force[k], state, v, scale);
+    bracket b = {from, p->end, lowest_guard(r, k, state, scale), 0.0, 0, 0};
+    search_state(r, group, p, p->end, state);
+    reactions_solve(r, group, state, v);
+    b.below = lowest_guard(r, k, state, scale);
+    while (b.after - b.before > width) {
+        const double t = bracket_trial(&b, width);
+        search_state(r, group, p, t, state);
+        reactions_solve(r, group, state, v);
+        bracket_close(&b, t, lowest_guard(r, k, state, scale), site_due(r->scene, site, r->force[k], state, v));
+    }
+    return b.after;
+}

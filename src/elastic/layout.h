@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs and triangles in the order in which a sweep over all nodes takes them: eight nodes at a time, one to a lane.
+ * Each spring is evaluated once, by its lower node, and its force left in a ring of memory, from where both of its ends
+ * collect it in the order of their rows: so the sums have the bits of a sum over the row. */
+#ifndef DEM_ELASTIC_LAYOUT_H
+#define DEM_ELASTIC_LAYOUT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/intern.h"
+#include "elastic/springs.h"
+#include "elastic/triangles.h"
+
+enum { LAYOUT_LANES = 8 };
+
+/** The lane of coefficients that belongs to node q of a block: x0 y0 .. x3 y3 and x4 y4 .. x7 y7 interleave to this. */
+static inline int layout_lane(int q)
+{
+    return 2 * (q % 4) + q / 4;
+}
+
+typedef enum layout_kind {
+    LAYOUT_ADD,      /**< all lanes take part, their operands lie side by side */
+    LAYOUT_SUBTRACT, /**< of terms: as that, and all nodes are the upper ones of their springs */
+    LAYOUT_MASKED,   /**< operands lie side by side */
+    LAYOUT_GATHERED  /**< `at`, and `to` of corners, are lists of one operand for each lane */
+} layout_kind;
+
+/** What the lanes of a block do at the same time. Operands are places in arrays of pairs, in numbers: where they lie
+ *  side by side that of lane 0, counted from that of the block's first node, so that blocks which do the same have the
+ *  same entries; else numbers of lists, in which places are counted from the start. */
+typedef struct layout_entry {
+    int32_t at;    /* of springs: upper node; of terms: force in the ring; of corners: next node */
+    int32_t to;    /* of springs: force in the ring; of terms: mask of the upper nodes; of corners: last node */
+    int32_t set;   /* where its coefficients are */
+    uint16_t mask; /* two bits for each lane that takes part */
+    uint16_t kind;
+} layout_entry;
+
+/** Entries by block. */
+typedef struct layout_part {
+    pool_span *span; /* [n_blocks] */
+    pool entries;
+} layout_part;
+
+typedef struct layout {
+    dem_index n_nodes;
+    dem_index n_blocks;  /* of LAYOUT_LANES nodes; those that are left over are for the caller */
+    int32_t *order;      /* [n_nodes] the node at each place; NULL: that of the same number */
+    bool damped, stiff;  /* whether springs are damped, and whether there is an area term */
+    layout_part springs; /* what a block evaluates */
+    layout_part terms;   /* what its nodes sum up, in the order of their rows */
+    layout_part corners; /* its triangles */
+    dem_index n_lists, list_capacity;
+    int32_t *lists;        /* [n_lists][LAYOUT_LANES] operands */
+    pool bonds;            /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
+    pool areas;            /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
+    dem_index reach;       /* blocks: none collects from one that is further below */
+    dem_index ahead;       /* blocks: none reads positions that are further away */
+    dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */
+    dem_index ring_length; /* forces in the ring */
+} layout;
+
+/** Compiles. A body that does not lend itself to it (a node with springs to a great part of the others) has no blocks.
+ *  Free with layout_free(). */
+dem_status layout_compile(layout *out, const springs *s, const triangles *t);
+void layout_free(layout *l);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Breadth-first numbering from an end of each piece. */
+#include "elastic/renumber.h"
+
+dem_index order_span(const springs *s, const int32_t *place)
+{
+    dem_index span = 0;
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            const dem_index j = s->neighbour[p], way = place != NULL ? (dem_index)place[j] - place[i] : j - i;
+            if (way > span) span = way;
+        }
+    return span;
+}
+
+/* Puts the piece of `first` into the list from `n` on, ring by ring; nodes in it get their places. The new length. */
+static dem_index spread(const springs *s, dem_index first, dem_index n, int32_t *order, int32_t *place)
+{
+    dem_index seen = n;
+    place[first] = (int32_t)n;
+    order[n++] = (int32_t)first;
+    for (; seen < n; seen++)
+        for (dem_index p = s->row[order[seen]]; p < s->row[order[seen] + 1]; p++) {
+            const dem_index j = s->neighbour[p];
+            if (place[j] >= 0) continue;
+            place[j] = (int32_t)n;
+            order[n++] = (int32_t)j;
+        }
+    return n;
+}
+
+/* Begins again at the node found last, which is at an end of the piece. */
+void order_by_distance(const springs *s, int32_t *order, int32_t *place)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < s->n_nodes; i++) place[i] = -1;
+    for (dem_index i = 0; i < s->n_nodes; i++) {
+        if (place[i] >= 0) continue;
+        const dem_index end = spread(s, i, n, order, place), last = order[end - 1];
+        for (dem_index q = n; q < end; q++) place[order[q]] = -1;
+        n = spread(s, last, n, order, place);
+    }
+}

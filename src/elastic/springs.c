@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* CSR adjacency compiled from triplets; energies, strains and bounds of springs. The forces are inline in springs.h. */
+#include "elastic/springs.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+
+static void count_rows(springs *s, const dem_lattice *lattice)
+{
+    for (dem_index k = 0; k < 2 * lattice->n_springs; k++) s->row[lattice->ends[k] + 1]++;
+    for (dem_index i = 0; i < s->n_nodes; i++) s->row[i + 1] += s->row[i];
+}
+
+/* Neighbours come out ascending: the transpose of a list by rows is sorted, so entries go in by neighbour. */
+static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *by_node, dem_index *next)
+{
+    for (dem_index q = 0; q < 2 * lattice->n_springs; q++) {
+        const dem_index k = by_node[q] / 2, end = by_node[q] % 2;
+        const dem_index j = lattice->ends[2 * k + end], i = lattice->ends[2 * k + 1 - end], p = next[i]++;
+        s->neighbour[p] = j;
+        s->spring[p] = k;
+        s->stiffness[p] = lattice->stiffness[k];
+        s->rest_length[p] = lattice->rest_length[k];
+        if (s->viscosity != NULL) s->viscosity[p] = lattice->viscosity[k];
+    }
+}
+
+/* Spring ends (2k, 2k + 1) sorted by the node they are at: a counting sort, stable. */
+static void sort_ends(const springs *s, const dem_lattice *lattice, dem_index *by_node, dem_index *next)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
+    for (dem_index e = 0; e < 2 * lattice->n_springs; e++) by_node[next[lattice->ends[e]]++] = e;
+    for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
+}
+
+static dem_status refuse_duplicates(const springs *s)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i] + 1; p < s->row[i + 1]; p++)
+            CHECK(s->neighbour[p] != s->neighbour[p - 1], DEM_ERROR_MODEL,
+                  "springs %lld and %lld both join nodes %lld and %lld", (long long)s->spring[p - 1],
+                  (long long)s->spring[p], (long long)i, (long long)s->neighbour[p]);
+    return DEM_OK;
+}
+
+static dem_status allocate(springs *s, bool damped)
+{
+    const size_t n = (size_t)s->n_nodes, slots = 2 * (size_t)s->n_springs + 1;
+    s->row = calloc(n + 1, sizeof *s->row);
+    s->neighbour = malloc(slots * sizeof *s->neighbour);
+    s->spring = malloc(slots * sizeof *s->spring);
+    s->stiffness = malloc(slots * sizeof *s->stiffness);
+    s->rest_length = malloc(slots * sizeof *s->rest_length);
+    if (damped) s->viscosity = malloc(slots * sizeof *s->viscosity);
+    CHECK(s->row && s->neighbour && s->spring && s->stiffness && s->rest_length && (s->viscosity || !damped),
+          DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)s->n_springs);
+    return DEM_OK;
+}
+
+dem_status springs_compile(springs *out, const dem_lattice *lattice)
+{
+    springs s = {.n_nodes = lattice->n_nodes, .n_springs = lattice->n_springs};
+    dem_index *next = malloc((size_t)s.n_nodes * sizeof *next);
+    dem_index *by_node = malloc((2 * (size_t)s.n_springs + 1) * sizeof *by_node);
+    dem_status status = allocate(&s, lattice->viscosity != NULL);
+    if (status == DEM_OK && !(next && by_node)) status = status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status != DEM_OK) goto out;
+    count_rows(&s, lattice);
+    sort_ends(&s, lattice, by_node, next);
+    fill_rows(&s, lattice, by_node, next);
+    status = refuse_duplicates(&s);
+out:
+    free(next);
+    free(by_node);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        springs_free(&s);
+    return status;
+}
+
+void springs_free(springs *s)
+{
+    free(s->row);
+    free(s->neighbour);
+    free(s->spring);
+    free(s->stiffness);
+    free(s->rest_length);
+    free(s->viscosity);
+    *s = (springs){0};
+}
+
+vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u)
+{
+    vec2 out = {0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
+        const vec2 w = vec2_sub(vec2_at(u, s->neighbour[p]), vec2_at(u, i));
+        const double square = vec2_dot(d, d), length = sqrt(square), rest = s->rest_length[p];
+        const double pull = s->stiffness[p] * (length - rest) / (rest * length); /* tension over length */
+        const double along = (s->stiffness[p] / rest - pull) * vec2_dot(d, w) / square;
+        out = vec2_along(vec2_along(out, -pull, w), -along, d);
+    }
+    return out;
+}
+
+static double slot_energy(const springs *s, dem_index i, dem_index p, const double *x)
+{
+    const double strain = springs_strain(s, i, p, x);
+    return 0.5 * s->stiffness[p] * s->rest_length[p] * strain * strain;
+}
+
+double springs_node_energy(const springs *s, dem_index i, const double *x)
+{
+    double energy = 0.0;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) energy += slot_energy(s, i, p, x);
+    return energy;
+}
+
+double springs_energy(const springs *s, const double *x)
+{
+    double energy = 0.0;
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (s->neighbour[p] > i) energy += slot_energy(s, i, p, x);
+    return energy;
+}
+
+double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)
+{
+    const double length = vec2_norm(vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i)));
+    return (length - s->rest_length[p]) / s->rest_length[p];
+}
+
+void springs_strains(const springs *s, const double *x, double *strain)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (s->neighbour[p] > i) strain[s->spring[p]] = springs_strain(s, i, p, x);
+}
+
+void springs_forces(const springs *s, const double *x, double *force)
+{
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (s->neighbour[p] > i) force[s->spring[p]] = s->stiffness[p] * springs_strain(s, i, p, x);
+}
+
+/* Of the spring in slot p of row i, 1/s. */
+static double strain_rate(const springs *s, dem_index i, dem_index p, const double *x, const double *v)
+{
+    const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
+    const vec2 dv = vec2_sub(vec2_at(v, s->neighbour[p]), vec2_at(v, i));
+    return vec2_dot(d, dv) / (s->rest_length[p] * vec2_norm(d));
+}
+
+double springs_damping_power(const springs *s, const double *x, const double *v)
+{
+    double power = 0.0;
+    if (s->viscosity == NULL) return power;
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            if (s->neighbour[p] < i) continue;
+            const double rate = strain_rate(s, i, p, x, v);
+            power += s->viscosity[p] * rate * rate * s->rest_length[p];
+        }
+    return power;
+}
+
+sym2 springs_block(const springs *s, const double *strength, dem_index i, const double *x)
+{
+    sym2 block = {0.0, 0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
+        block = sym2_along(block, strength[p] / s->rest_length[p] / vec2_dot(d, d), d);
+    }
+    return block;
+}
+
+double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass)
+{
+    double bound = 0.0;
+    for (dem_index i = 0; s->viscosity != NULL && i < s->n_nodes; i++) {
+        const double own = 2.0 * sym2_largest(springs_block(s, s->viscosity, i, x)) * inverse_mass[i];
+        if (!isfinite(own)) return (double)INFINITY;
+        bound = fmax(bound, own);
+    }
+    return bound;
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs in CSR and the bond force (1). The only place that divides by a rest length. */
+#ifndef DEM_ELASTIC_SPRINGS_H
+#define DEM_ELASTIC_SPRINGS_H
+
+#include "base/vec2.h"
+
+typedef struct springs {
+    dem_index n_nodes, n_springs;
+    dem_index *row;       /* [n_nodes + 1] */
+    dem_index *neighbour; /* [2 n_springs] ascending within a row */
+    dem_index *spring;    /* [2 n_springs] index in the lattice */
+    double *stiffness;    /* [2 n_springs] E_ij, N */
+    double *rest_length;  /* [2 n_springs] d0_ij, m */
+    double *viscosity;    /* [2 n_springs] N s; NULL: undamped */
+} springs;
+
+/** Compiles triplets whose indices are known to be valid; names a pair of nodes joined twice. Free with
+ *  springs_free. */
+dem_status springs_compile(springs *out, const dem_lattice *lattice);
+void springs_free(springs *s);
+
+/** E_ij (d - d0)/d0 of a spring of length d, over d: times the vector between its ends it is its force, (1). */
+static inline double springs_pull(double stiffness, double rest_length, double length)
+{
+    return stiffness * (length - rest_length) / (rest_length * length);
+}
+
+/** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
+static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
+{
+    const vec2 xi = vec2_at(x, i);
+    vec2 force = {0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
+        force = vec2_along(force, springs_pull(s->stiffness[p], s->rest_length[p], vec2_norm(d)), d);
+    }
+    return force;
+}
+
+/** Kelvin-Voigt damping of node i, N: in every spring of its row the viscosity times the strain rate. */
+static inline vec2 springs_damping(const springs *s, dem_index i, const double *x, const double *v)
+{
+    const vec2 xi = vec2_at(x, i), vi = vec2_at(v, i);
+    vec2 force = {0.0, 0.0};
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi), dv = vec2_sub(vec2_at(v, s->neighbour[p]), vi);
+        force = vec2_along(force, s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
+    }
+    return force;
+}
+
+/** (d - d0)/d0 of spring k of a lattice. */
+static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, const double *x)
+{
+    const vec2 d = vec2_sub(vec2_at(x, lattice->ends[2 * k + 1]), vec2_at(x, lattice->ends[2 * k]));
+    return (vec2_norm(d) - lattice->rest_length[k]) / lattice->rest_length[k];
+}
+
+/** r x f of spring k of a lattice, N m: xx, yy, xy of E_ij (d - d0)/d0 d n n^T, symmetric; the damping left out. Not
+ *  finite where its ends coincide. */
+static inline void springs_virial(const dem_lattice *lattice, dem_index k, const double *x, double virial[3])
+{
+    const vec2 d = vec2_sub(vec2_at(x, lattice->ends[2 * k + 1]), vec2_at(x, lattice->ends[2 * k]));
+    const double length = vec2_norm(d), rest = lattice->rest_length[k];
+    const double tension = lattice->stiffness[k] * (length - rest) / (rest * length); /* N/m, as in springs_force() */
+    virial[0] = tension * d.x * d.x;
+    virial[1] = tension * d.y * d.y;
+    virial[2] = tension * d.x * d.y;
+}
+
+/** Minus the change of the force on node i, N, when the nodes move from x by u: the stiffness of the springs, that of
+ *  their turning under tension included. */
+vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
+
+/** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
+double springs_node_energy(const springs *s, dem_index i, const double *x);
+
+/** Energy of all springs, J. */
+double springs_energy(const springs *s, const double *x);
+
+/** (d - d0)/d0 of the spring in slot p of row i. */
+double springs_strain(const springs *s, dem_index i, dem_index p, const double *x);
+
+/** Strain of every spring, in the order of the lattice.  \param[out] strain  [n_springs] */
+void springs_strains(const springs *s, const double *x, double *strain);
+
+/** Force (1) along every spring, > 0 in tension.  \param[out] force  [n_springs] N */
+void springs_forces(const springs *s, const double *x, double *force);
+
+/** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
+double springs_damping_power(const springs *s, const double *x, const double *v);
+
+/** S_i = sum over the springs of node i of c/d0 n n^T, n their directions at x and c their `strength`: stiffness or
+ *  viscosity. The springs make the matrix A with u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i u_i. */
+sym2 springs_block(const springs *s, const double *strength, dem_index i, const double *x);
+
+/** Upper bound, 1/s, of the eigenvalues of M^-1 C about the shape x, C the damping matrix of the springs: the largest
+ *  2 |S_i|/m_i of the nodes that move; 0 undamped. An eigenvalue of the damped motion, of mass damping alpha too, is of
+ *  modulus at most max(omega_max, this + alpha). */
+double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One pass over the blocks of a layout: the accelerations of their nodes, free of contact. The same arithmetic for
+ * every instruction set, of IEEE's operations alone, so that all of them give the bits of forces_acceleration(). */
+#ifndef DEM_ELASTIC_SWEEP_H
+#define DEM_ELASTIC_SWEEP_H
+
+#include "elastic/layout.h"
+
+/** A step of Verlet from x0, v0 with accelerations a0, (5), [n_nodes][2]: where it leads. */
+typedef struct sweep_leap {
+    double h; /* s */
+    const double *x0, *v0, *a0;
+    double *x1, *v1;
+} sweep_leap;
+
+/** What a sweep reads and writes; nodes in the order of the layout. */
+typedef struct sweep {
+    const layout *layout;
+    const double *inverse_mass; /* [n_nodes] 1/kg; 0: fixed */
+    vec2 gravity;               /* m/s^2 */
+    double mass_damping;        /* 1/s */
+    const double *x, *v;        /* [n_nodes][2] */
+    double *a;                  /* [n_nodes][2] accelerations */
+    double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
+    uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
+                                   acceleration is without triangles */
+    const sweep_leap *leap;     /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
+                                   layout->ahead blocks at both ends; and its v1, after the accelerations */
+} sweep;
+
+/** Sweeps blocks first to last - 1.
+ *  \param ring  [layout->ring_length][2] scratch, of one thread
+ *  \return the sum of the accelerations, and of the velocities if wanted: not finite if one of them is not */
+typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
+
+sweep_function sweep_portable, sweep_avx2, sweep_avx512;
+
+/** Fills `guarded` alone. */
+typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index last);
+
+sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;
+
+#endif

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The sweep, in terms of `pairs`, the two components of eight nodes, and `lanes`, a number for each of them. A file for
+ * each instruction set defines these and SWEEP, SWEEP_GUARD, and includes this. */
+#ifndef DEM_ELASTIC_SWEEP_BODY_H
+#define DEM_ELASTIC_SWEEP_BODY_H
+
+#include "elastic/sweep.h"
+
+#define INLINE static inline __attribute__((always_inline)) /* so that `damped` is known where loops are compiled */
+
+/* `here` is where operands that lie side by side are counted from. */
+INLINE pairs fetch(const layout *l, const double *array, const double *here, int32_t at, bool gathered)
+{
+    return gathered ? pairs_gather(array, l->lists + at) : pairs_load(here + at);
+}
+
+/* The first eight places of a stream are repeated behind its end, so that any eight in a row can be read. */
+INLINE void repeat(const layout *l, pool_span span, double *ring)
+{
+    const layout_entry *entries = l->springs.entries.items;
+    for (int32_t p = span.first; p < span.end; p++) {
+        double *place = ring + entries[p].to;
+        pairs_store(place + 2 * l->ring_rows, pairs_load(place));
+    }
+}
+
+/* Forces of the springs of which the block has the lower nodes, (1), and behind them in the ring those of damping. */
+INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, double *ring)
+{
+    const layout *l = s->layout;
+    const pool_span span = l->springs.span[block];
+    const layout_entry *entries = l->springs.entries.items;
+    const double *sets = l->bonds.items;
+    const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
+    const double *positions = s->x + 2 * row, *velocities = damped ? s->v + 2 * row : NULL;
+    const pairs x = pairs_load(positions), v = damped ? pairs_load(velocities) : x;
+    double *out = ring + 2 * at_row, *damping = ring + 2 * l->ring_length;
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const double *set = sets + e->set;
+        const pairs d = pairs_sub(fetch(l, s->x, positions, e->at, gathered), x);
+        const lanes square = pairs_dot(d, d), length = lanes_sqrt(square), rest = lanes_load(set + LAYOUT_LANES);
+        const lanes stretch = lanes_mul(lanes_load(set), lanes_sub(length, rest));
+        pairs_store(out + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
+        if (!damped) continue;
+        const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
+        const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
+        pairs_store(damping + 2 * at_row + e->to, pairs_scale(lanes_div(rate, lanes_mul(rest, square)), d));
+    }
+    if (at_row != 0) return;
+    repeat(l, span, ring);
+    if (damped) repeat(l, span, damping);
+}
+
+/* Each node's sum over its row. */
+INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
+{
+    const pool_span span = l->terms.span[block];
+    const layout_entry *entries = l->terms.entries.items;
+    const double *here = ring + 2 * (LAYOUT_LANES * block & (l->ring_rows - 1));
+    pairs sum = pairs_both(0.0, 0.0);
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
+        if (e->kind == LAYOUT_SUBTRACT) {
+            sum = pairs_sub(sum, pairs_load(here + e->at));
+        } else if (e->kind == LAYOUT_ADD) {
+            sum = pairs_add(sum, pairs_load(here + e->at));
+        } else {
+            const pairs force = fetch(l, ring, here, e->at, e->kind == LAYOUT_GATHERED);
+            sum = pairs_add(sum, pairs_mask(pairs_negate(force, (unsigned)e->to), e->mask));
+        }
+    }
+    return sum;
+}
+
+/* A bit for each node whose lane is among these and takes part. */
+INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
+{
+    unsigned nodes = 0;
+    for (int q = 0; q < LAYOUT_LANES; q++) nodes |= (chosen >> layout_lane(q) & mask >> (2 * q) & 1u) << q;
+    return nodes;
+}
+
+/* Each node's sum over its triangles of the area term, and which nodes the guard acts on. */
+INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
+{
+    const layout *l = s->layout;
+    const pool_span span = l->corners.span[block];
+    const layout_entry *entries = l->corners.entries.items;
+    const double *sets = l->areas.items, *here = s->x + 2 * LAYOUT_LANES * block;
+    const pairs x = pairs_load(here), turn = pairs_both(-0.5, 0.5);
+    pairs sum = pairs_both(0.0, 0.0);
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const double *set = sets + e->set;
+        const pairs next = fetch(l, s->x, here, e->at, gathered), last = fetch(l, s->x, here, e->to, gathered);
+        const lanes twice = pairs_cross(pairs_sub(next, x), pairs_sub(last, x));
+        const lanes area = lanes_mul(lanes_all(0.5), twice), rest = lanes_load(set);
+        const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES));
+        if (below != 0) *guarded |= nodes_of(below, e->mask);
+        if (!l->stiff) continue;
+        const lanes stretch = lanes_sub(lanes_div(area, rest), lanes_all(1.0));
+        const lanes slope = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), stretch);
+        const pairs gradient = pairs_mul(turn, pairs_swap(pairs_sub(last, next)));
+        const pairs force = pairs_scale(lanes_mul(lanes_all(-1.0), slope), gradient);
+        sum = pairs_add(sum, pairs_mask(force, e->mask));
+    }
+    return sum;
+}
+
+/* m a = F + m g, less the drag. */
+INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const double *ring)
+{
+    const layout *l = s->layout;
+    const dem_index row = LAYOUT_LANES * block;
+    pairs force = sum_terms(l, block, ring);
+    if (damped) force = pairs_add(force, sum_terms(l, block, ring + 2 * l->ring_length));
+    unsigned guarded = 0;
+    if (l->corners.span[block].first < l->corners.span[block].end)
+        force = pairs_add(force, sum_corners(s, block, &guarded));
+    s->guarded[block] = (uint8_t)guarded;
+    const pairs inverse_mass = pairs_spread(s->inverse_mass + row);
+    pairs a = pairs_add(pairs_both(s->gravity.x, s->gravity.y), pairs_mul(inverse_mass, force));
+    if (s->mass_damping != 0.0)
+        a = pairs_add(a, pairs_mul(pairs_both(-s->mass_damping, -s->mass_damping), pairs_load(s->v + 2 * row)));
+    return pairs_unless_zero(inverse_mass, a);
+}
+
+/* x1 = x0 + h v',  v' = v0 + h/2 a0 */
+INLINE void drift(const sweep_leap *p, dem_index block)
+{
+    const dem_index at = 2 * LAYOUT_LANES * block;
+    const pairs h = pairs_both(p->h, p->h), half_h = pairs_both(0.5 * p->h, 0.5 * p->h);
+    const pairs half = pairs_add(pairs_load(p->v0 + at), pairs_mul(half_h, pairs_load(p->a0 + at)));
+    pairs_store(p->x1 + at, pairs_add(pairs_load(p->x0 + at), pairs_mul(h, half)));
+}
+
+/* v1 = (v' + h/2 a0) + h/2 (a1 - a0): in two parts, as where a1 needs v1 extrapolated. */
+INLINE void kick(const sweep_leap *p, dem_index block, pairs a1)
+{
+    const dem_index at = 2 * LAYOUT_LANES * block;
+    const pairs half_h = pairs_both(0.5 * p->h, 0.5 * p->h), a0 = pairs_load(p->a0 + at), push = pairs_mul(half_h, a0);
+    const pairs extrapolated = pairs_add(pairs_add(pairs_load(p->v0 + at), push), push);
+    pairs_store(p->v1 + at, pairs_add(extrapolated, pairs_mul(half_h, pairs_sub(a1, a0))));
+}
+
+/* Blocks below the first are evaluated only. Nodes collect a block behind, when what was left has reached the cache. */
+INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, bool leaps, double *ring)
+{
+    const dem_index reach = s->layout->reach, ahead = s->layout->ahead;
+    pairs sum = pairs_both(0.0, 0.0);
+    for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
+        if (leaps && block >= first && block + ahead < last - ahead) drift(s->leap, block + ahead);
+        if (block < last) evaluate_springs(s, block, damped, ring);
+        if (block <= first) continue;
+        const dem_index at = 2 * LAYOUT_LANES * (block - 1);
+        const pairs a = accelerate(s, block - 1, damped, ring);
+        pairs_store(s->a + at, a);
+        sum = pairs_add(sum, a);
+        if (leaps) kick(s->leap, block - 1, a);
+        if (s->u == NULL) continue;
+        const pairs v = pairs_load(s->v + at);
+        pairs_store(s->u + at, v);
+        sum = pairs_add(sum, v);
+    }
+    return pairs_total(sum);
+}
+
+void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
+{
+    for (dem_index block = first; block < last; block++) {
+        unsigned guarded = 0;
+        (void)sum_corners(s, block, &guarded);
+        s->guarded[block] = (uint8_t)guarded;
+    }
+}
+
+double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
+{
+    if (s->leap != NULL) return run(s, first, last, false, true, ring);
+    return s->layout->damped ? run(s, first, last, true, false, ring) : run(s, first, last, false, false, ring);
+}
+
+#endif

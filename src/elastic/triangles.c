@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Area term and folding guard: W = A0 (kappa/2 (J - 1)^2 + g w(J)), w = (-ln(J/Jc))^3, J = A/A0; forces gathered node
+ * by node in a fixed order. */
+#include "elastic/triangles.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+
+static const double taylor_below = 0.05;
+
+/* ln(r) for 0 < r <= 1, the same bits on every machine: r = m 2^-k, ln m = 2 artanh((m - 1)/(m + 1)). */
+static double natural_log(double r)
+{
+    const double ln2 = 0.693147180559945309417;
+    double m = r, halvings = 0.0;
+    while (m < 0.70710678118654752) {
+        m *= 2.0;
+        halvings += 1.0;
+    }
+    const double s = (m - 1.0) / (m + 1.0), s2 = s * s; /* |s| < 0.1716: the first term left out is below 1e-17 */
+    double series = 0.0;
+    for (int k = 21; k >= 1; k -= 2) series = series * s2 + 1.0 / k;
+    return 2.0 * s * series - halvings * ln2;
+}
+
+triangles_law triangles_guard_law(double area_ratio)
+{
+    if (area_ratio >= TRIANGLES_GUARD_ONSET) return (triangles_law){0.0, 0.0, 0.0};
+    const double J = fmax(area_ratio, taylor_below), beyond = area_ratio - J;
+    const double L = -natural_log(J / TRIANGLES_GUARD_ONSET);
+    const double w = L * L * L, w1 = -3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
+    return (triangles_law){w + beyond * (w1 + 0.5 * beyond * w2), w1 + beyond * w2, w2};
+}
+
+static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    return vec2_triangle_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
+}
+
+/* dA/dx_i */
+static vec2 gradient(const triangles *t, dem_index p, const double *x)
+{
+    const vec2 opposite = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, t->next[p]));
+    return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
+}
+
+/* w'(J) of area term and guard together, N/m */
+static double slope_at(const triangles *t, dem_index p, double A)
+{
+    const double A0 = t->rest_area[p];
+    double slope = t->area_stiffness != NULL ? t->area_stiffness[p] * (A / A0 - 1.0) : 0.0;
+    if (A < TRIANGLES_GUARD_ONSET * A0) slope += t->guard[p] * triangles_guard_law(A / A0).slope;
+    return slope;
+}
+
+static double curvature_at(const triangles *t, dem_index p, double A)
+{
+    const double curvature = t->guard[p] * triangles_guard_law(A / t->rest_area[p]).curvature;
+    return t->area_stiffness != NULL ? t->area_stiffness[p] + curvature : curvature;
+}
+
+vec2 triangles_force(const triangles *t, dem_index i, const double *x)
+{
+    vec2 force = {0.0, 0.0};
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double slope = slope_at(t, p, area_at(t, i, p, x));
+        if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
+    }
+    return force;
+}
+
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    const double A = area_at(t, i, p, x);
+    return A * slope_at(t, p, A);
+}
+
+/* dA/dx_i is linear in the positions, so that its change is itself, of u. */
+vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u)
+{
+    vec2 out = {0.0, 0.0};
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const vec2 b = vec2_sub(vec2_at(x, t->next[p]), vec2_at(x, i)),
+                   c = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, i));
+        const vec2 ub = vec2_sub(vec2_at(u, t->next[p]), vec2_at(u, i)),
+                   uc = vec2_sub(vec2_at(u, t->last[p]), vec2_at(u, i));
+        const double A = 0.5 * vec2_cross(b, c), change = 0.5 * (vec2_cross(ub, c) + vec2_cross(b, uc));
+        out = vec2_along(out, curvature_at(t, p, A) * change / t->rest_area[p], gradient(t, p, x));
+        out = vec2_along(out, slope_at(t, p, A), gradient(t, p, u));
+    }
+    return out;
+}
+
+static double slot_area_energy(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    if (t->area_stiffness == NULL) return 0.0;
+    const double beyond = area_at(t, i, p, x) / t->rest_area[p] - 1.0;
+    return 0.5 * t->rest_area[p] * t->area_stiffness[p] * beyond * beyond;
+}
+
+static double slot_guard_energy(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    return t->rest_area[p] * t->guard[p] * triangles_guard_law(area_at(t, i, p, x) / t->rest_area[p]).energy;
+}
+
+double triangles_node_energy(const triangles *t, dem_index i, const double *x)
+{
+    double energy = 0.0;
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
+        energy += slot_area_energy(t, i, p, x) + slot_guard_energy(t, i, p, x);
+    return energy;
+}
+
+void triangles_energy(const triangles *t, const double *x, double *area, double *guard)
+{
+    *area = 0.0;
+    *guard = 0.0;
+    for (dem_index i = 0; i < t->n_nodes; i++)
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+            if (t->next[p] < i || t->last[p] < i) continue;
+            *area += slot_area_energy(t, i, p, x);
+            *guard += slot_guard_energy(t, i, p, x);
+        }
+}
+
+sym2 triangles_block(const triangles *t, dem_index i, const double *x)
+{
+    sym2 block = {0.0, 0.0, 0.0};
+    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness != NULL; p++)
+        block = sym2_along(block, fmax(t->area_stiffness[p], 0.0) / t->rest_area[p], gradient(t, p, x));
+    return block;
+}
+
+/* Of A0 g w(A/A0):  g w'' (dA.u)^2/A0 + g w' u.A'' u,  where (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2, and A'' has the
+ * eigenvalues 0 and +-sqrt(3)/2. */
+double triangles_guard_bound(const triangles *t, dem_index i, const double *x)
+{
+    const double turn = 0.8660254037844386;
+    double bound = 0.0;
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
+        if (!(A < TRIANGLES_GUARD_ONSET * A0)) continue;
+        const triangles_law l = triangles_guard_law(A / A0);
+        const vec2 dA = gradient(t, p, x);
+        bound += t->guard[p] * (3.0 * l.curvature * vec2_dot(dA, dA) / A0 + turn * fabs(l.slope));
+    }
+    return bound;
+}
+
+/* ---- compilation ---- */
+
+static bool acts(const dem_lattice *lattice, dem_index k)
+{
+    return (lattice->guard != NULL && lattice->guard[k] > 0.0) ||
+           (lattice->area_stiffness != NULL && lattice->area_stiffness[k] != 0.0);
+}
+
+static dem_status allocate(triangles *t, dem_index slots, bool stiff)
+{
+    const size_t n = (size_t)slots + 1;
+    t->row = calloc((size_t)t->n_nodes + 1, sizeof *t->row);
+    t->next = malloc(n * sizeof *t->next);
+    t->last = malloc(n * sizeof *t->last);
+    t->rest_area = malloc(n * sizeof *t->rest_area);
+    t->guard = malloc(n * sizeof *t->guard);
+    if (stiff) t->area_stiffness = malloc(n * sizeof *t->area_stiffness);
+    CHECK(t->row && t->next && t->last && t->rest_area && t->guard && (t->area_stiffness || !stiff), DEM_ERROR_MEMORY,
+          "out of memory for %lld triangles", (long long)(slots / 3));
+    return DEM_OK;
+}
+
+static void fill(triangles *t, const dem_lattice *lattice)
+{
+    for (dem_index k = 0; k < lattice->n_triangles; k++)
+        for (int c = 0; c < 3 && acts(lattice, k); c++) t->row[lattice->triangles[3 * k + c] + 1]++;
+    for (dem_index i = 0; i < t->n_nodes; i++) t->row[i + 1] += t->row[i];
+    for (dem_index k = lattice->n_triangles - 1; k >= 0; k--) { /* backwards: row[i+1] counts down to the row's start */
+        const dem_index *corner = &lattice->triangles[3 * k];
+        for (int c = 0; c < 3 && acts(lattice, k); c++) {
+            const dem_index p = --t->row[corner[c] + 1];
+            t->next[p] = corner[(c + 1) % 3];
+            t->last[p] = corner[(c + 2) % 3];
+            t->rest_area[p] = area_at(t, corner[c], p, lattice->x); /* J is exactly 1 at rest, from every corner */
+            t->guard[p] = lattice->guard != NULL ? lattice->guard[k] : 0.0;
+            if (t->area_stiffness != NULL) t->area_stiffness[p] = lattice->area_stiffness[k];
+        }
+    }
+}
+
+/* After fill() row[i + 1] is the start of row i. */
+static void shift_rows(triangles *t, dem_index slots)
+{
+    for (dem_index i = 0; i < t->n_nodes; i++) t->row[i] = t->row[i + 1];
+    t->row[t->n_nodes] = slots;
+}
+
+dem_status triangles_compile(triangles *out, const dem_lattice *lattice)
+{
+    triangles t = {.n_nodes = lattice->n_nodes};
+    dem_index slots = 0;
+    for (dem_index k = 0; k < lattice->n_triangles; k++) slots += acts(lattice, k) ? 3 : 0;
+    const dem_status status = allocate(&t, slots, lattice->area_stiffness != NULL);
+    if (status != DEM_OK) {
+        triangles_free(&t);
+        return status;
+    }
+    fill(&t, lattice);
+    shift_rows(&t, slots);
+    *out = t;
+    return DEM_OK;
+}
+
+void triangles_free(triangles *t)
+{
+    free(t->row);
+    free(t->next);
+    free(t->last);
+    free(t->rest_area);
+    free(t->guard);
+    free(t->area_stiffness);
+    *t = (triangles){0};
+}

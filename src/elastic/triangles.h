@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on triangles: the area term, which sets Poisson's ratio, and the folding guard, which keeps a squeezed
+ * triangle from turning inside out. */
+#ifndef DEM_ELASTIC_TRIANGLES_H
+#define DEM_ELASTIC_TRIANGLES_H
+
+#include "base/vec2.h"
+
+/** The guard acts where J = area / rest area is below this. */
+#define TRIANGLES_GUARD_ONSET 0.4
+
+/** Triangles by node: slot p of row i is a triangle (i, next[p], last[p]), counter-clockwise. */
+typedef struct triangles {
+    dem_index n_nodes;
+    dem_index *row; /* [n_nodes + 1]; every row empty where no triangle has area stiffness or guard */
+    dem_index *next, *last;
+    double *rest_area;      /* m^2 */
+    double *guard;          /* strength g, N/m */
+    double *area_stiffness; /* kappa, N/m; NULL: none */
+} triangles;
+
+/** Compiles the triangles with area stiffness or guard of a lattice whose indices and areas are known to be valid. Free
+ *  with triangles_free. */
+dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
+void triangles_free(triangles *t);
+
+/** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
+vec2 triangles_force(const triangles *t, dem_index i, const double *x);
+
+/** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
+ *  unit tensor. */
+double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x);
+
+/** Minus the change of that force, N, when the nodes move from x by u: K u, K the second derivative of the energy. */
+vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
+
+/** Energy of the triangles at node i, J. */
+double triangles_node_energy(const triangles *t, dem_index i, const double *x);
+
+/** Energies of the area term and of the guard, J. */
+void triangles_energy(const triangles *t, const double *x, double *area, double *guard);
+
+/** Sum over the triangles at node i of max(kappa, 0)/A0 g g^T, g = dA/dx_i at x: the area term makes a matrix that is
+ *  at most three times the sum of these blocks. */
+sym2 triangles_block(const triangles *t, dem_index i, const double *x);
+
+/** What the guard adds at most to the stiffness at node i, N/m: no second variation of its energy at x exceeds the sum
+ *  of this times u_i^2. 0 where it does not act. */
+double triangles_guard_bound(const triangles *t, dem_index i, const double *x);
+
+/** A function of J = area / rest area and its derivatives. */
+typedef struct triangles_law {
+    double energy, slope, curvature;
+} triangles_law;
+
+/** w(J) = (-ln(J/Jc))^3 below the onset Jc = 0.4, twice continuously differentiable there; below J = 0.05 its Taylor
+ *  polynomial of second degree, so that it is finite for every J, inverted triangles included. */
+triangles_law triangles_guard_law(double area_ratio);
+
+#endif

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Who is next; what has changed. */
+#include "events/event_queue.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/grow.h"
+#include "base/status.h"
+#include "base/threads.h"
+#include "contact/impact_solve.h"
+
+/* ---- set-up ---- */
+
+static dem_status allocate(queue *q, const dem_model *model)
+{
+    const size_t n = (size_t)q->contact->sites.n + 1;
+    q->due = malloc(n * sizeof *q->due);
+    q->waiting = malloc(n * sizeof *q->waiting);
+    q->waits = calloc(n, sizeof *q->waits);
+    q->kept = calloc(n, sizeof *q->kept);
+    q->sites = malloc(n * sizeof *q->sites);
+    CHECK(q->due && q->waiting && q->waits && q->kept && q->sites, DEM_ERROR_MEMORY,
+          "out of memory for %lld contact sites", (long long)q->contact->sites.n);
+    TRY(trail_create(&q->trail, model->lattice.n_nodes + q->contact->sites.scene.rule.n_books));
+    return books_create(&q->books, model->obstacles.n);
+}
+
+dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool controlled)
+{
+    queue q = {.contact = c, .most = controlled ? 1.0 : (double)INFINITY};
+    dem_status status = allocate(&q, c->sites.scene.model);
+    if (status == DEM_OK) status = patch_create(&q.patch, &c->sites, rule);
+    if (status == DEM_OK)
+        *out = q;
+    else
+        queue_destroy(&q);
+    return status;
+}
+
+void queue_destroy(queue *q)
+{
+    patch_destroy(&q->patch);
+    trail_destroy(&q->trail);
+    books_destroy(&q->books);
+    free(q->due);
+    free(q->waiting);
+    free(q->waits);
+    free(q->kept);
+    free(q->sites);
+    free(q->events);
+    *q = (queue){0};
+}
+
+/* ---- who is next ---- */
+
+static void wait_until(queue *q, dem_index k, double due)
+{
+    q->due[k] = due;
+    if (q->waits[k] || !isfinite(due)) return;
+    q->waits[k] = true;
+    q->waiting[q->n_waiting++] = k;
+}
+
+/* The site that is due first, of those due at the same time that of the lowest number; -1: none. */
+static dem_index next_of(queue *q)
+{
+    dem_index next = -1, n = 0;
+    for (dem_index w = 0; w < q->n_waiting; w++) {
+        const dem_index k = q->waiting[w];
+        q->waits[k] = isfinite(q->due[k]);
+        if (!q->waits[k]) continue;
+        q->waiting[n++] = k;
+        if (next < 0 || q->due[k] < q->due[next] || (q->due[k] == q->due[next] && k < next)) next = k;
+    }
+    q->n_waiting = n;
+    return next;
+}
+
+enum { least_share = 32 }; /* free sites for which a thread is worth its while */
+
+static bool is_free(const queue *q, dem_index k)
+{
+    return q->contact->sites.list[k].n_closed == 0;
+}
+
+/* When the free ones of a share of the sites touch. */
+static void look_at_free(queue *q, int n_shares, int share)
+{
+    contact *c = q->contact;
+    const dem_index n = contact_watched(c), end = threads_share(n, n_shares, share + 1);
+    for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
+        const dem_index k = contact_at_watch(c, a);
+        if (is_free(q, k)) q->due[k] = contact_crossing(c, q->step, k, q->step->t0);
+    }
+}
+
+static void look_ahead(queue *q)
+{
+    contact *c = q->contact;
+    const path *step = q->step;
+    for (dem_index w = 0; w < q->n_waiting; w++) q->waits[q->waiting[w]] = false;
+    q->n_waiting = 0;
+    q->now = step->t0;
+    q->error = q->ahead = 0.0;
+    q->settled = false;
+    contact_expect(c, step, q->state);
+    const int most = c->sites.scene.rule.n_threads,
+              n_threads = contact_watched(c) >= least_share * most && most > 1 ? most : 1;
+    THREADS_RUN(n_threads, t, look_at_free(q, n_threads, t));
+    const dem_index *behind = &c->sites.books.counts.behind, were_behind = *behind;
+    for (dem_index a = 0; a < contact_watched(c); a++) {
+        const dem_index k = contact_at_watch(c, a);
+        const bool known =
+            is_free(q, k) && q->due[k] > step->t0 && *behind == were_behind; /* else others may know more */
+        wait_until(q, k, known ? q->due[k] : contact_next(c, step, k, step->t0, q->state));
+    }
+}
+
+void queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+{
+    for (dem_index s = 0; s < q->n_sites; s++) q->kept[q->sites[s].k] = false;
+    q->n_sites = q->n_events = q->n_stops = 0;
+    trail_start(&q->trail, step->t1, y1, f1);
+    step->trail = &q->trail;
+    q->step = step;
+    q->state = state;
+    q->idle = q->contact->idle;
+    q->quiet = false;
+    look_ahead(q);
+}
+
+/* ---- what has changed ---- */
+
+static void copy_books(const contact_books *from, contact_books *to, dem_index n_obstacles)
+{
+    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
+    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
+    *to = *from;
+    to->impulse = impulse;
+    to->friction_impulse = friction_impulse;
+}
+
+static void keep_site(queue *q, dem_index k)
+{
+    if (q->kept[k]) return;
+    q->kept[k] = true;
+    q->sites[q->n_sites++] = (queue_site){k, q->contact->sites.list[k]};
+}
+
+static dem_index n_moving(const queue *q)
+{
+    return q->patch.ball.end[q->patch.ball.n_rings - 1];
+}
+
+static bool moves(const queue *q, dem_index node)
+{
+    return ball_has(&q->patch.ball, node, q->patch.ball.n_rings - 1);
+}
+
+/* Does something to every site that has a node in the patch which moves. */
+static void each_site(queue *q, void (*act)(queue *q, dem_index k))
+{
+    const contact_sites *c = &q->contact->sites;
+    const surface *s = &c->scene.model->surface;
+    for (dem_index j = 0; j < n_moving(q); j++) {
+        const dem_index i = q->patch.ball.nodes[j].i;
+        if (c->of_node[i] >= 0) act(q, c->of_node[i]);
+        for (dem_index p = s->row[i]; p < s->row[i + 1] && c->n > c->scene.model->n_sites; p++) {
+            const dem_index k = sites_of_edge(c, s->at[p]);
+            if (c->list[k].node == i || !moves(q, c->list[k].node)) act(q, k); /* once */
+        }
+    }
+}
+
+void queue_undo(queue *q)
+{
+    contact *c = q->contact;
+    if (q->n_stops == 0) return;
+    for (dem_index s = 0; s < q->n_sites; s++) {
+        c->sites.list[q->sites[s].k] = q->sites[s].before;
+        q->kept[q->sites[s].k] = false;
+    }
+    copy_books(&q->books, &c->sites.books, c->sites.scene.model->obstacles.n);
+    (void)sites_regroup(&c->sites); /* groups that there were have room */
+    trail_undo(&q->trail);
+    c->idle = q->idle;
+    c->solved = NAN;
+    q->n_sites = q->n_events = q->n_stops = 0;
+}
+
+/* ---- events ---- */
+
+static dem_status hear(void *context, const dem_event *event)
+{
+    queue *q = context;
+    CHECK(grow_array((void **)&q->events, &q->capacity, q->n_events + 1, sizeof *q->events), DEM_ERROR_MEMORY,
+          "out of memory for the contact events of a step");
+    q->events[q->n_events++] = *event;
+    return DEM_OK;
+}
+
+static void look_again(queue *q, dem_index k)
+{
+    wait_until(q, k, contact_next(q->contact, q->step, k, q->now, q->state));
+}
+
+/* How far sites may go: some are faster now. */
+static double furthest(const queue *q)
+{
+    const path *step = q->step;
+    double way = q->contact->way;
+    for (dem_index j = 0; j < n_moving(q); j++) {
+        const dem_index i = q->patch.ball.nodes[j].i;
+        if (q->contact->sites.of_node[i] < 0) continue;
+        way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1, step->n_nodes + i)));
+    }
+    return way;
+}
+
+/* By what the square of a velocity's error grows in a step that is longer by the ratio. A step that begins a time tau
+ * after a jump estimates h^5 K^3 v (tau (1/104 - 1/120) - h/2080) for it, which vanishes for tau = 0.375 h; for
+ * tau < h/4 it is a sixth of the error or more. */
+static double growth(double ratio)
+{
+    const double third = ratio * ratio * ratio;
+    return ratio < 4.0 ? third * third * third * third : 0.0;
+}
+
+/* What errors have left closed contacts near the event of velocities that they do not allow goes first: it would be
+ * taken for sliding or for an approach. */
+static void calm(queue *q)
+{
+    contact_sites *c = &q->contact->sites;
+    contact_moment now = {q->now, q->state, q->state + scene_velocities(&c->scene), NULL, DEM_OK};
+    for (dem_index g = 0; g < q->patch.ball.n_groups; g++) strike_stop(c, q->patch.ball.groups[g].group, &now);
+}
+
+/* What is due at a site, and what follows from it. */
+static dem_status take(queue *q, dem_index k)
+{
+    const contact_listener listener = {hear, q};
+    contact *c = q->contact;
+    double error;
+    if (q->n_stops == 0) copy_books(&c->sites.books, &q->books, c->sites.scene.model->obstacles.n);
+    q->n_stops += q->n_stops == 0 || q->due[k] > q->now;
+    q->now = q->due[k];
+    TRY(patch_open(&q->patch, q->step, k, q->now, q->state));
+    each_site(q, keep_site);
+    calm(q);
+    TRY(contact_resolve_at(c, k, q->now, q->state, &listener));
+    TRY(patch_close(&q->patch, q->step, &q->trail, q->state, &error));
+    CHECK(isfinite(error), DEM_ERROR_INTEGRATOR,
+          "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->sites.list[k].node,
+          q->now);
+    q->error += error;
+    q->ahead += error * growth((q->step->t1 - q->step->t0) / q->patch.h);
+    c->way = furthest(q);
+    for (dem_index g = 0; g < q->patch.ball.n_groups; g++)
+        contact_weigh(c, q->step, q->patch.ball.groups[g].group, q->state);
+    each_site(q, look_again);
+    return DEM_OK;
+}
+
+static bool has_moved(const queue *q, dem_index group)
+{
+    const reactions *r = &q->contact->sites.reactions;
+    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++)
+        if (trail_has(&q->trail, r->sites[r->members[m]].node)) return true;
+    return false;
+}
+
+/* Accelerations at the end of the step depend on the new positions of nodes and neighbours. */
+static void renew(const queue *q, dem_index i, const double *y)
+{
+    const contact_sites *c = &q->contact->sites;
+    const unsigned held = q->patch.rule.held != NULL ? q->patch.rule.held[i] : 0;
+    const double *v = y + scene_velocities(&c->scene);
+    double *a = q->trail.f1 + scene_velocities(&c->scene);
+    const bool grouped = sites_group_at(c, i) >= 0;
+    const vec2 now =
+        grouped ? vec2_at(c->reactions.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
+    if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
+    if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
+    if (held == 0) vec2_put(q->trail.f1, i, vec2_at(v, i));
+}
+
+/* The rates of the books that contacts fill, from all of them. */
+static dem_status renew_books(queue *q)
+{
+    const contact_scene *scene = &q->contact->sites.scene;
+    const dem_index first = scene_books(scene), n_impulses = 2 * scene->model->obstacles.n;
+    double *rate = q->trail.f1 + scene_velocities(scene) + 2 * first;
+    for (dem_index b = 0; b <= n_impulses; b++) TRY(trail_keep(&q->trail, first + b));
+    for (dem_index k = 0; k <= 2 * n_impulses; k++) rate[k] = 0.0; /* the last is the power of friction */
+    contact_account(q->contact, q->trail.y1, rate);
+    return DEM_OK;
+}
+
+/* The same of a node whose motion has not changed. */
+static dem_status renew_beside(queue *q, dem_index i, const double *y)
+{
+    if (trail_has(&q->trail, i)) return DEM_OK;
+    TRY(trail_keep(&q->trail, i));
+    renew(q, i, y);
+    return DEM_OK;
+}
+
+/* Derivatives at the end of the step, for the change of nodes and contacts: they are those of the state to the bit, but
+ * for the power of damping and boundaries. */
+static dem_status renew_end(queue *q)
+{
+    contact_sites *c = &q->contact->sites;
+    const springs *s = &c->scene.model->springs;
+    const triangles *t = &c->scene.model->triangles;
+    const double *y1 = q->trail.y1;
+    for (dem_index g = 0; g < c->reactions.n_groups; g++)
+        reactions_solve(&c->reactions, g, y1, y1 + scene_velocities(&c->scene));
+    for (dem_index e = 0, n = q->trail.n; e < n; e++) {
+        const dem_index i = q->trail.list[e].node;
+        if (i >= c->scene.model->lattice.n_nodes) continue;
+        renew(q, i, y1);
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(renew_beside(q, s->neighbour[p], y1));
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+            TRY(renew_beside(q, t->next[p], y1));
+            TRY(renew_beside(q, t->last[p], y1));
+        }
+    }
+    return renew_books(q);
+}
+
+/* The error that the patches leave in closed contacts goes: they are put back on their surfaces and stopped there. */
+static dem_status settle_end(queue *q)
+{
+    contact_sites *c = &q->contact->sites;
+    double *y1 = q->trail.y1;
+    contact_moment now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
+    for (dem_index g = 0; g < c->reactions.n_groups; g++) {
+        if (!has_moved(q, g)) continue;
+        (void)strike_straighten(c, g, &now);
+        strike_stop(c, g, &now);
+    }
+    q->settled = true;
+    return renew_end(q);
+}
+
+double queue_error(const queue *q)
+{
+    return isfinite(q->most) ? sqrt(q->error / q->most) : 0.0;
+}
+
+double queue_reach(const queue *q)
+{
+    const double error = isfinite(q->most) ? sqrt(q->ahead / q->most) : 0.0;
+    return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
+}
+
+dem_status queue_show(queue *q, double t)
+{
+    const bool goes_back = t < q->now;
+    if (goes_back && q->quiet) return DEM_OK;
+    if (goes_back) {
+        queue_undo(q);
+        look_ahead(q);
+    }
+    for (dem_index k = next_of(q); k >= 0 && q->due[k] <= t && q->error <= q->most; k = next_of(q)) TRY(take(q, k));
+    q->now = t;
+    if (t < q->step->t1) return DEM_OK;
+    q->quiet = q->n_stops == 0;
+    return q->quiet || q->settled ? DEM_OK : settle_end(q);
+}

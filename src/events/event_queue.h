@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The contact events inside one accepted step, in the order of time. Each is taken where and when it happens, and what
+ * follows from it for the rest of the step is corrected on a patch, which may bring further events: the whole body is
+ * never stopped. Everything can be taken back. */
+#ifndef DEM_EVENTS_EVENT_QUEUE_H
+#define DEM_EVENTS_EVENT_QUEUE_H
+
+#include "contact/automaton.h"
+#include "events/local_correction.h"
+
+/** A site as it was before the step. */
+typedef struct queue_site {
+    dem_index k;
+    contact_site before;
+} queue_site;
+
+typedef struct queue {
+    contact *contact;
+    patch patch;
+    trail trail;
+    const path *step;   /* in hand */
+    double *state;      /* [4 n] scratch, the caller's */
+    double now;         /* s, everything until here is done */
+    bool settled;       /* and the end of the step is */
+    bool quiet;         /* nothing happens in the step */
+    double error;       /* of all patches, squared */
+    double ahead;       /* what it would be if the events had come right at the start of the step, squared */
+    double most;        /* of it; beyond it the step is to be rejected, and nothing more is done */
+    double *due;        /* [n sites] s, when something happens at a site; infinity: nothing */
+    dem_index *waiting; /* [n sites] sites that may be due */
+    dem_index n_waiting;
+    bool *waits, *kept; /* [n sites] whether a site is one of them; whether it is among `sites` */
+    dem_index n_sites;
+    queue_site *sites;   /* [n_sites] those that have changed */
+    contact_books books; /* before the step */
+    dem_index idle;
+    dem_index n_events, capacity;
+    dem_event *events; /* [n_events] */
+    dem_index n_stops; /* times at which something happened */
+} queue;
+
+/** Borrows the contact, and what the rule points at. `controlled`: a step is rejected for an error above 1. Free with
+ *  queue_destroy(). */
+dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool controlled);
+void queue_destroy(queue *q);
+
+/** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given
+ *  the trail; it must stay where it is.  \param state  [4 n] scratch */
+void queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+
+/** Makes the contacts, and the step up to there, what they are at t; the end is whole when t is not before it.
+ *  \return DEM_ERROR_CONTACT as contact_resolve(), DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
+ *  DEM_ERROR_MEMORY */
+dem_status queue_show(queue *q, double t);
+
+/** How far beyond what is allowed the error of the step is that comes from its events: 1 is just allowed. */
+double queue_error(const queue *q);
+
+/** How long the next step may be, s, for what the events have done; infinity if that sets no bound. Its own estimate
+ *  may not tell. */
+double queue_reach(const queue *q);
+
+/** Takes all back: contacts, books and the end of the step are as they were. */
+void queue_undo(queue *q);
+
+#endif

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rings, stages and the change. */
+#include "events/local_correction.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+
+enum { END = PATCH_STAGES }; /* the end of the step, behind the stages */
+
+dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule)
+{
+    const bool damped = sites->scene.model->springs.viscosity != NULL;
+    patch p = {.rule = *rule};
+    TRY(method_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
+    while (p.table.c[p.last] != 1.0) p.last++;
+    TRY(ball_create(&p.ball, sites, 1 + (damped ? p.table.stages : p.table.stages / 2)));
+    *out = p;
+    return DEM_OK;
+}
+
+void patch_destroy(patch *p)
+{
+    ball_destroy(&p->ball);
+    free(p->book);
+    free(p->motions);
+    free(p->block);
+    *p = (patch){0};
+}
+
+/* The last ring that moves. */
+static int last_ring(const patch *p)
+{
+    return p->ball.n_rings - 1;
+}
+
+static dem_index n_moving(const patch *p)
+{
+    return p->ball.end[last_ring(p)];
+}
+
+/* Rings on which accelerations change at a stage: one more for every two stages, the first because a node may be put
+ * back on its surface; damped springs one more for each. */
+static int reach(const patch *p, int stage)
+{
+    const int before = stage == END ? p->table.stages : stage;
+    const int rings = last_ring(p) == p->table.stages ? before + 1 : 1 + before / 2;
+    return rings < last_ring(p) ? rings : last_ring(p);
+}
+
+/* ---- memory ---- */
+
+enum { ARRAYS = 6 * PATCH_STAGES + 6, CHANGES = 3 * PATCH_STAGES }; /* CHANGES: the first of dx, dv, da */
+
+static double **array_of(patch *p, int k)
+{
+    double **const before[] = {p->x, p->v, p->a}, **const change[] = {p->dx, p->dv, p->da, p->changed};
+    if (k < CHANGES) return &before[k / PATCH_STAGES][k % PATCH_STAGES];
+    return &change[(k - CHANGES) / (PATCH_STAGES + 1)][(k - CHANGES) % (PATCH_STAGES + 1)];
+}
+
+/* Room for so many nodes and pairs of the books; what there is of `used` is kept. */
+static dem_status reserve(patch *p, dem_index n, dem_index used)
+{
+    if (n <= p->capacity) return DEM_OK;
+    const size_t more = 2 * (size_t)n + 64;
+    double *block = calloc(2 * more * ARRAYS, sizeof *block);
+    CHECK(block != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    for (int k = 0; k < ARRAYS; k++) {
+        double **array = array_of(p, k), *moved = block + 2 * more * (size_t)k;
+        if (used > 0) memcpy(moved, *array, 2 * (size_t)used * sizeof *moved);
+        *array = moved;
+    }
+    free(p->block);
+    p->block = block;
+    p->capacity = 0;
+    trail_motion *motions = realloc(p->motions, more * sizeof *motions);
+    if (motions != NULL) p->motions = motions;
+    dem_index *book = realloc(p->book, more * sizeof *book);
+    if (book != NULL) p->book = book;
+    CHECK(motions != NULL && book != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    p->capacity = (dem_index)more;
+    return DEM_OK;
+}
+
+/* ---- books ---- */
+
+/* The number of the pair of the books at a place; one that is new has not changed. */
+static dem_status find_book(patch *p, dem_index place, dem_index *out)
+{
+    const dem_index n = p->ball.n;
+    for (dem_index b = 0; b < p->n_books; b++) {
+        *out = n + b;
+        if (p->book[b] == place) return DEM_OK;
+    }
+    *out = n + p->n_books;
+    TRY(reserve(p, *out + 1, *out));
+    p->book[p->n_books++] = place;
+    for (int k = CHANGES; k < ARRAYS; k++) vec2_put(*array_of(p, k), *out, (vec2){0.0, 0.0});
+    return DEM_OK;
+}
+
+static dem_status add_rate(patch *p, dem_index place, int stage, double sign, vec2 rate)
+{
+    dem_index book;
+    if (rate.x == 0.0 && rate.y == 0.0) return DEM_OK;
+    TRY(find_book(p, place, &book));
+    vec2_put(p->da[stage], book, vec2_along(vec2_at(p->da[stage], book), sign, rate));
+    return DEM_OK;
+}
+
+/* Whether there is anything but contacts in the books. */
+static bool has_powers(const patch *p)
+{
+    const contact_scene *scene = &p->ball.sites->scene;
+    const forces *load = &scene->rule.load;
+    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || load->mass_damping > 0.0 ||
+           load->coupling != NULL;
+}
+
+/* What damping takes at node j of the ball, and what is put in from outside, W; of these what no event changes is left
+ * out. The forces from outside are those asked for last, at the same state. */
+static vec2 node_powers(const patch *p, dem_index j, const double *x, const double *v)
+{
+    const dem_index i = p->ball.nodes[j].i;
+    const contact_scene *scene = &p->ball.sites->scene;
+    const dem_model *model = scene->model;
+    const forces *load = &scene->rule.load;
+    const vec2 vi = vec2_at(v, i);
+    vec2 power = {model->inverse_mass[i] > 0.0 ? load->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi) : 0.0,
+                  0.0};
+    if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
+    if (load->boundaries != NULL) power.y += vec2_dot(boundaries_force(load->boundaries, i, v[load->clock]), vi);
+    const vec2 push = load->coupling != NULL ? vec2_at(load->coupling->answer, j) : (vec2){0.0, 0.0};
+    if (load->coupling != NULL) power.y += vec2_dot(push, vi);
+    const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
+    if (held != 0) {
+        const vec2 a = vec2_along(forces_own_acceleration(model, load, i, x, v), model->inverse_mass[i], push);
+        if (held & DEM_COMPONENT_X) power.y -= model->lattice.mass[i] * a.x * vi.x;
+        if (held & DEM_COMPONENT_Y) power.y -= model->lattice.mass[i] * a.y * vi.y;
+    }
+    return power;
+}
+
+/* Adds the rates of the books that come from the patch, in a state whose contact forces are known. */
+static dem_status add_rates(patch *p, int stage, double sign, const double *y)
+{
+    const contact_sites *c = p->ball.sites;
+    const reactions *r = &c->reactions;
+    const double *v = y + scene_velocities(&c->scene);
+    const dem_index first = scene_books(&c->scene), n_obstacles = c->scene.model->obstacles.n;
+    const int rings = reach(p, stage);
+    vec2 totals[2] = {{0.0, 0.0}, {0.0, 0.0}};
+    for (dem_index g = 0; g < p->ball.n_groups; g++) {
+        if (p->ball.groups[g].ring > rings) continue;
+        for (dem_index m = r->row[p->ball.groups[g].group]; m < r->row[p->ball.groups[g].group + 1]; m++)
+            for (int q = 0; q < c->list[r->members[m]].n_closed; q++) {
+                const sites_share of = sites_share_of(c, r->members[m], q, y, v);
+                TRY(add_rate(p, first + of.obstacle, stage, sign, of.force));
+                TRY(add_rate(p, first + n_obstacles + of.obstacle, stage, sign, of.friction));
+                totals[0].x += of.power;
+            }
+    }
+    if (has_powers(p))
+        for (dem_index j = 0; j < p->ball.end[rings]; j++) {
+            const vec2 powers = node_powers(p, j, y, v);
+            totals[0].y += powers.x;
+            totals[1].x += powers.y;
+        }
+    for (int k = 0; k < 2; k++) TRY(add_rate(p, first + 2 * n_obstacles + k, stage, sign, totals[k]));
+    return DEM_OK;
+}
+
+/* ---- stages ---- */
+
+static double stage_time(const patch *p, const path *step, int stage)
+{
+    return stage == p->last ? step->t1 : p->t + p->table.c[stage] * p->h;
+}
+
+/* Puts the time into a state, for those who are driven by it. */
+static void put_time(const patch *p, const path *step, int stage, double *y)
+{
+    const dem_index last = step->n_nodes - 1;
+    if (!forces_are_driven(&p->ball.sites->scene.rule.load)) return;
+    vec2_put(y, step->n_nodes + last, path_velocity(step, stage_time(p, step, stage), last));
+}
+
+/* How n nodes go on to a stage without the event. */
+static void fetch_stage(patch *p, int stage, dem_index n)
+{
+    const double s = p->table.c[stage];
+    for (dem_index j = 0; j < n; j++) {
+        double at[4];
+        trail_at(&p->motions[j], s, at);
+        vec2_put(p->x[stage], j, vec2_at(at, 0));
+        vec2_put(p->v[stage], j, vec2_at(at, 1));
+    }
+}
+
+/* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the books. */
+static bool needs_state(const patch *p)
+{
+    return !p->ball.plain || p->ball.n_groups > 0 || has_powers(p);
+}
+
+static dem_status open_stage(patch *p, const path *step, int stage, double *y)
+{
+    const ball_state s = {p->x[stage], p->v[stage], y};
+    const dem_index n = p->ball.end[reach(p, stage) + 1];
+    fetch_stage(p, stage, n);
+    if (needs_state(p)) ball_put(&p->ball, &s, n);
+    put_time(p, step, stage, y);
+    ball_accelerate(&p->ball, reach(p, stage), &s, p->a[stage]);
+    return add_rates(p, stage, -1.0, y);
+}
+
+/* At the end of the step that is known. */
+static dem_status open_end(patch *p, const path *step)
+{
+    for (dem_index j = 0; j < p->ball.n; j++) {
+        const dem_index i = p->ball.nodes[j].i;
+        vec2_put(p->x[p->last], j, vec2_at(step->y1, i));
+        vec2_put(p->v[p->last], j, vec2_at(step->y1, step->n_nodes + i));
+        vec2_put(p->a[p->last], j, vec2_at(step->f1, step->n_nodes + i));
+    }
+    ball_push(&p->ball, reach(p, END), step->y1[4 * step->n_nodes - 1], p->x[p->last], p->v[p->last]);
+    TRY(add_rates(p, END, -1.0, step->y1));
+    return add_rates(p, p->last, -1.0, step->y1);
+}
+
+/* The state at the event. What it is due by has the bits that it was found with. */
+static void open_start(patch *p, const path *step, double *y)
+{
+    const ball_state s = {p->x[0], p->v[0], y};
+    fetch_stage(p, 0, p->ball.n);
+    for (dem_index j = 0; j < p->ball.end[1]; j++) {
+        vec2_put(p->x[0], j, path_position(step, p->t, p->ball.nodes[j].i));
+        vec2_put(p->v[0], j, path_velocity(step, p->t, p->ball.nodes[j].i));
+    }
+    ball_put(&p->ball, &s, p->ball.n);
+    put_time(p, step, 0, y);
+}
+
+static trail_motion motion_of(const patch *p, const path *step, dem_index place)
+{
+    const bool turned = trail_has(step->trail, place);
+    const trail_motion motion = turned ? *trail_of(step->trail, place) : path_motion(step, place);
+    return trail_later(&motion, p->t, step->t1);
+}
+
+dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state)
+{
+    p->t = t;
+    p->h = step->t1 - t;
+    p->n_books = 0;
+    TRY(ball_gather(&p->ball, site));
+    TRY(reserve(p, p->ball.n, 0));
+    for (dem_index j = 0; j < p->ball.n; j++) p->motions[j] = motion_of(p, step, p->ball.nodes[j].i);
+    TRY(open_end(p, step));
+    for (int stage = 0; stage < p->table.stages; stage++)
+        if (stage != p->last) TRY(open_stage(p, step, stage, state));
+    open_start(p, step, state);
+    return DEM_OK;
+}
+
+/* ---- the change ---- */
+
+/* change[stage] = change[0] + h sum of weights rates over the stages before, of nodes first to last - 1. */
+static void combine(const patch *p, int stage, double *const rates[], double *const change[], dem_index first,
+                    dem_index last)
+{
+    const double *weights = stage == END ? p->table.b : p->table.a + stage * p->table.stages;
+    double *restrict to = change[stage];
+    memcpy(to + 2 * first, change[0] + 2 * first, 2 * (size_t)(last - first) * sizeof *to);
+    for (int q = 0; q < stage && q < p->table.stages; q++) {
+        const double *restrict rate = rates[q], weight = p->h * weights[q];
+        for (dem_index k = 2 * first; k < 2 * last && weight != 0.0; k++) to[k] += weight * rate[k];
+    }
+}
+
+static void advance(patch *p, int stage)
+{
+    const dem_index n = p->ball.n;
+    combine(p, stage, p->dv, p->dx, 0, n_moving(p));
+    combine(p, stage, p->da, p->dv, 0, n_moving(p));
+    if (p->n_books == 0) return;
+    combine(p, stage, p->dv, p->dx, n, n + p->n_books);
+    combine(p, stage, p->da, p->dv, n, n + p->n_books);
+}
+
+static void add_change(const double *before, const double *change, dem_index n, dem_index n_changed, double *to)
+{
+    for (dem_index k = 0; k < 2 * n_changed; k++) to[k] = before[k] + change[k];
+    memcpy(to + 2 * n_changed, before + 2 * n_changed, 2 * (size_t)(n - n_changed) * sizeof *to);
+}
+
+/* Rates of the change at a stage. */
+static dem_status change_stage(patch *p, const path *step, int stage, double *y)
+{
+    const int at = stage == END ? p->last : stage, rings = reach(p, stage);
+    const dem_index n = p->ball.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
+    const ball_state s = {p->changed[0], p->changed[1], y};
+    add_change(p->x[at], p->dx[stage], n, n_changed, p->changed[0]);
+    add_change(p->v[at], p->dv[stage], n, n_changed, p->changed[1]);
+    if (needs_state(p)) ball_put(&p->ball, &s, n);
+    put_time(p, step, at, y);
+    ball_accelerate(&p->ball, rings, &s, p->changed[2]);
+    for (dem_index k = 0; k < 2 * n_moving(p); k++)
+        p->da[stage][k] = k < 2 * p->ball.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
+    for (dem_index k = 0; k < 2 * n_moving(p) && p->rule.held != NULL; k++)
+        if (p->rule.held[p->ball.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
+    return add_rates(p, stage, 1.0, y);
+}
+
+static trail_jump jump_at(const patch *p, int stage, dem_index j)
+{
+    return (trail_jump){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
+}
+
+/* Makes the change of a node, or a pair of the books, one of the step. */
+static dem_status leave(const patch *p, trail *tr, dem_index j, dem_index place, trail_motion *motion)
+{
+    const trail_jump at = jump_at(p, 0, j), end = jump_at(p, END, j);
+    const trail_jump by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
+    trail_bend(motion, p->t + p->h, &at, &by);
+    TRY(trail_turn(tr, place, motion));
+    trail_move_end(tr, place, &end);
+    return DEM_OK;
+}
+
+static double squared_error(const patch *p)
+{
+    const dem_index n = p->ball.sites->scene.model->lattice.n_nodes;
+    double weights[PATCH_STAGES], x_sum = 0.0, v_sum = 0.0;
+    for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
+    for (dem_index k = 0; k < 2 * n_moving(p); k++) {
+        double x = 0.0, v = 0.0;
+        for (int q = 0; q < p->table.stages; q++) {
+            x += weights[q] * p->dv[q][k];
+            v += weights[q] * p->da[q][k];
+        }
+        x_sum += x * x;
+        v_sum += v * v;
+    }
+    const double x_scale = p->rule.position_error, v_scale = p->rule.velocity_error;
+    return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / (4.0 * (double)n);
+}
+
+dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error)
+{
+    TRY(ball_regroup(&p->ball));
+    for (dem_index j = 0; j < n_moving(p); j++) {
+        const dem_index i = p->ball.nodes[j].i;
+        vec2_put(p->dx[0], j, vec2_sub(vec2_at(state, i), vec2_at(p->x[0], j)));
+        vec2_put(p->dv[0], j, vec2_sub(vec2_at(state, step->n_nodes + i), vec2_at(p->v[0], j)));
+    }
+    for (int stage = 0; stage <= p->table.stages; stage++) {
+        const int at = stage < p->table.stages ? stage : END;
+        if (stage > 0) advance(p, at);
+        TRY(change_stage(p, step, at, state));
+    }
+    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->ball.nodes[j].i, &p->motions[j]));
+    for (dem_index b = 0; b < p->n_books; b++) {
+        trail_motion motion = motion_of(p, step, p->book[b]);
+        TRY(leave(p, tr, p->ball.n + b, p->book[b], &motion));
+    }
+    *error = squared_error(p);
+    return DEM_OK;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What an event inside a step does to the rest of the step: the change d of the motion that follows from it solves
+ *   d'' = a(x + d, contacts after) - a(x, contacts before)
+ * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
+ * damped). So it is integrated on a patch of 3 (6) rings round the event, by one step of Fehlberg's pair; outside it
+ * is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. */
+#ifndef DEM_EVENTS_LOCAL_CORRECTION_H
+#define DEM_EVENTS_LOCAL_CORRECTION_H
+
+#include "events/neighbourhood.h"
+#include "time/butcher.h"
+#include "time/dense_output.h"
+
+enum { PATCH_STAGES = 6 };
+
+/** How a change is integrated. */
+typedef struct patch_rule {
+    int order;                             /* of the method that the step is of */
+    double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
+    const unsigned char *held; /* [n_nodes] components that boundaries prescribe, as they have it; or NULL */
+} patch_rule;
+
+typedef struct patch {
+    ball ball; /* the change spreads over all its rings but the frame */
+    patch_rule rule;
+    method_table table;
+    int last;          /* stage at the end of the step */
+    double t, h;       /* s, of the event; from it to the end of the step */
+    dem_index n_books; /* pairs of the books that change, behind the nodes of the ball */
+    dem_index capacity;
+    dem_index *book;                                             /* [n_books] their places in a state */
+    trail_motion *motions;                                       /* of the nodes, without the event, from there on */
+    double *block;                                               /* those that follow, [n + n_books][2]: */
+    double *x[PATCH_STAGES], *v[PATCH_STAGES], *a[PATCH_STAGES]; /* at each stage, without the event: and x'' */
+    double *dx[PATCH_STAGES + 1], *dv[PATCH_STAGES + 1], *da[PATCH_STAGES + 1]; /* the change, and at the end */
+    double *changed[3];                                                         /* x, v, x'' with it at a stage */
+} patch;
+
+/** Borrows the sites, and what the rule points at. Free with patch_destroy(). */
+dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule);
+void patch_destroy(patch *p);
+
+/** Before an event at a site: gathers the patch and what moves it, and puts the state of its nodes at t into `state`
+ *  [4 n]. The forces of the closed contacts are to be those at the end of the step. */
+dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state);
+
+/** After the event has changed `state` and the contacts: integrates the change and makes it one of the step.
+ *  \param[out] error  squared, of all unknowns of the bodies together, in units of the tolerance */
+dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error);
+
+#endif

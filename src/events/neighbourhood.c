@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Breadth first; then springs by local numbers. */
+#include "events/neighbourhood.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/grow.h"
+#include "base/status.h"
+
+dem_status ball_create(ball *out, contact_sites *sites, int n_rings)
+{
+    const dem_model *model = sites->scene.model;
+    const dem_index n = model->lattice.n_nodes;
+    ball b = {.sites = sites, .n_rings = n_rings, .number = malloc((size_t)n * sizeof *b.number)};
+    CHECK(b.number != NULL, DEM_ERROR_MEMORY, "out of memory for the neighbours of %lld nodes", (long long)n);
+    for (dem_index i = 0; i < n; i++) b.number[i] = -1;
+    b.plain =
+        model->springs.viscosity == NULL && model->triangles.row[n] == 0 && sites->scene.rule.load.boundaries == NULL;
+    *out = b;
+    return DEM_OK;
+}
+
+void ball_destroy(ball *b)
+{
+    free(b->number);
+    free(b->nodes);
+    free(b->bonds);
+    free(b->stiffness);
+    free(b->groups);
+    *b = (ball){0};
+}
+
+/* ---- rings ---- */
+
+static dem_status add_node(ball *b, dem_index i)
+{
+    if (b->number[i] >= 0) return DEM_OK;
+    CHECK(grow_array((void **)&b->nodes, &b->capacity, b->n + 1, sizeof *b->nodes), DEM_ERROR_MEMORY,
+          "out of memory for what is near a contact");
+    b->number[i] = (int32_t)b->n;
+    b->nodes[b->n++] = (ball_node){.i = i};
+    return DEM_OK;
+}
+
+static dem_status add_neighbours(ball *b, dem_index i)
+{
+    const springs *s = &b->sites->scene.model->springs;
+    const triangles *t = &b->sites->scene.model->triangles;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(add_node(b, s->neighbour[p]));
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        TRY(add_node(b, t->next[p]));
+        TRY(add_node(b, t->last[p]));
+    }
+    return DEM_OK;
+}
+
+static dem_status note_group(ball *b, dem_index group, int ring, bool *is_new)
+{
+    *is_new = false;
+    for (dem_index g = 0; g < b->n_groups; g++)
+        if (b->groups[g].group == group) return DEM_OK;
+    CHECK(grow_array((void **)&b->groups, &b->group_capacity, b->n_groups + 1, sizeof *b->groups), DEM_ERROR_MEMORY,
+          "out of memory for what is near a contact");
+    b->groups[b->n_groups++] = (ball_group){group, ring};
+    *is_new = true;
+    return DEM_OK;
+}
+
+/* The group at a node, with all its nodes. */
+static dem_status add_group(ball *b, dem_index j, int ring)
+{
+    const reactions *r = &b->sites->reactions;
+    const dem_index group = sites_group_at(b->sites, b->nodes[j].i);
+    bool is_new;
+    b->nodes[j].grouped = group >= 0;
+    if (group < 0) return DEM_OK;
+    TRY(note_group(b, group, ring, &is_new));
+    for (dem_index m = r->row[group]; m < r->row[group + 1] && is_new; m++) {
+        const contact_site *site = &b->sites->list[r->members[m]];
+        TRY(add_node(b, site->node));
+        if (site_is_edge(site)) TRY(add_node(b, site->other));
+    }
+    return DEM_OK;
+}
+
+static dem_status close_ring(ball *b, int ring)
+{
+    for (dem_index j = ring > 0 ? b->end[ring - 1] : 0; j < b->n && ring < b->n_rings; j++) TRY(add_group(b, j, ring));
+    b->end[ring] = b->n;
+    return DEM_OK;
+}
+
+static dem_status add_seeds(ball *b, dem_index k)
+{
+    const contact_sites *c = b->sites;
+    const contact_site *site = &c->list[k];
+    const surface *s = &c->scene.model->surface;
+    const dem_index nodes[2] = {site->node, site_is_edge(site) ? site->other : site->node};
+    for (int e = 0; e < 2; e++) {
+        TRY(add_node(b, nodes[e]));
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_sites; p++)
+            for (int end = 0; end < 2; end++) TRY(add_node(b, s->ends[2 * s->at[p] + end]));
+    }
+    return close_ring(b, 0);
+}
+
+/* ---- springs ---- */
+
+static dem_status reserve_bonds(ball *b, dem_index n)
+{
+    if (n <= b->bond_capacity) return DEM_OK;
+    ball_bond *bonds = malloc(2 * (size_t)n * sizeof *bonds);
+    double *reals = malloc(10 * (size_t)n * sizeof *reals);
+    if (bonds == NULL || reals == NULL) {
+        free(bonds);
+        free(reals);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    }
+    free(b->bonds);
+    free(b->stiffness);
+    b->bond_capacity = 2 * n;
+    b->bonds = bonds;
+    b->stiffness = reals;
+    b->rest_length = reals + 2 * n;
+    b->dx = reals + 4 * n;
+    b->dy = reals + 6 * n;
+    b->pull = reals + 8 * n;
+    return DEM_OK;
+}
+
+/* The springs of a node, but those that were listed from their other end. */
+static void add_bonds(ball *b, dem_index j)
+{
+    const springs *s = &b->sites->scene.model->springs;
+    const dem_index i = b->nodes[j].i;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const int32_t other = b->number[s->neighbour[p]];
+        if (other < j) continue;
+        b->bonds[b->n_bonds] = (ball_bond){(int32_t)j, other};
+        b->stiffness[b->n_bonds] = s->stiffness[p];
+        b->rest_length[b->n_bonds++] = s->rest_length[p];
+    }
+}
+
+static dem_status list_bonds(ball *b)
+{
+    const springs *s = &b->sites->scene.model->springs;
+    dem_index most = 0;
+    for (dem_index j = 0; j < b->end[b->n_rings - 1]; j++) most += s->row[b->nodes[j].i + 1] - s->row[b->nodes[j].i];
+    TRY(reserve_bonds(b, most));
+    b->n_bonds = 0;
+    for (int ring = 0; ring < b->n_rings; ring++) {
+        for (dem_index j = ring > 0 ? b->end[ring - 1] : 0; j < b->end[ring]; j++) add_bonds(b, j);
+        b->bonds_end[ring] = b->n_bonds;
+    }
+    return DEM_OK;
+}
+
+dem_status ball_gather(ball *b, dem_index site)
+{
+    for (dem_index j = 0; j < b->n; j++) b->number[b->nodes[j].i] = -1;
+    b->n = b->n_groups = 0;
+    TRY(add_seeds(b, site));
+    for (int ring = 1; ring <= b->n_rings; ring++) {
+        const dem_index first = ring > 1 ? b->end[ring - 2] : 0, last = b->end[ring - 1];
+        for (dem_index j = first; j < last; j++) TRY(add_neighbours(b, b->nodes[j].i));
+        TRY(close_ring(b, ring));
+    }
+    return b->plain ? list_bonds(b) : DEM_OK;
+}
+
+dem_status ball_regroup(ball *b)
+{
+    bool is_new;
+    b->n_groups = 0;
+    for (int ring = 0; ring < b->n_rings; ring++)
+        for (dem_index j = ring > 0 ? b->end[ring - 1] : 0; j < b->end[ring]; j++) {
+            const dem_index group = sites_group_at(b->sites, b->nodes[j].i);
+            b->nodes[j].grouped = group >= 0;
+            if (group >= 0) TRY(note_group(b, group, ring, &is_new));
+        }
+    return DEM_OK;
+}
+
+/* ---- accelerations ---- */
+
+void ball_put(const ball *b, const ball_state *s, dem_index n)
+{
+    double *v = s->y + scene_velocities(&b->sites->scene);
+    for (dem_index j = 0; j < n; j++) {
+        vec2_put(s->y, b->nodes[j].i, vec2_at(s->x, j));
+        vec2_put(v, b->nodes[j].i, vec2_at(s->v, j));
+    }
+}
+
+/* Forces (1) of springs on the nodes of some rings; f [n][2] has room for more. The loop in the middle is for vector
+ * instructions. */
+static void pull(const ball *b, int rings, const double *x, double *f)
+{
+    const dem_index n = b->bonds_end[rings];
+    double *restrict dx = b->dx, *restrict dy = b->dy, *restrict factor = b->pull;
+    for (dem_index k = 0; k < n; k++) {
+        const vec2 d = vec2_sub(vec2_at(x, b->bonds[k].second), vec2_at(x, b->bonds[k].first));
+        dx[k] = d.x;
+        dy[k] = d.y;
+    }
+    for (dem_index k = 0; k < n; k++)
+        factor[k] = springs_pull(b->stiffness[k], b->rest_length[k], sqrt(dx[k] * dx[k] + dy[k] * dy[k]));
+    memset(f, 0, 2 * (size_t)b->end[rings + 1] * sizeof *f);
+    for (dem_index k = 0; k < n; k++) {
+        const ball_bond bond = b->bonds[k];
+        const vec2 force = {factor[k] * dx[k], factor[k] * dy[k]};
+        vec2_put(f, bond.first, vec2_add(vec2_at(f, bond.first), force));
+        vec2_put(f, bond.second, vec2_sub(vec2_at(f, bond.second), force));
+    }
+}
+
+static void accelerate_plain(const ball *b, int rings, const ball_state *s, double *a)
+{
+    const contact_scene *scene = &b->sites->scene;
+    const forces *load = &scene->rule.load;
+    pull(b, rings, s->x, a);
+    for (dem_index j = 0; j < b->end[rings]; j++) {
+        const double inverse_mass = scene->model->inverse_mass[b->nodes[j].i];
+        const vec2 weighed = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, vec2_at(a, j));
+        const vec2 damped = vec2_along(weighed, -load->mass_damping, vec2_at(s->v, j));
+        vec2_put(a, j, inverse_mass > 0.0 ? damped : (vec2){0.0, 0.0});
+    }
+}
+
+void ball_push(const ball *b, int rings, double t, const double *x, const double *v)
+{
+    coupling *c = b->sites->scene.rule.load.coupling;
+    if (c == NULL) return;
+    for (dem_index j = 0; j < b->end[rings]; j++) c->some[j] = b->nodes[j].i;
+    coupling_ask(c, &(dem_force_query){t, b->end[rings], c->some, x, v});
+}
+
+void ball_accelerate(ball *b, int rings, const ball_state *s, double *a)
+{
+    const contact_scene *scene = &b->sites->scene;
+    const forces *load = &scene->rule.load;
+    const double *v = s->y + scene_velocities(scene);
+    if (b->plain) accelerate_plain(b, rings, s, a);
+    for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
+        vec2_put(a, j, forces_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));
+    ball_push(b, rings, v[load->clock], s->x, s->v);
+    for (dem_index j = 0; j < b->end[rings] && load->coupling != NULL; j++)
+        vec2_put(
+            a, j,
+            vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(load->coupling->answer, j)));
+    for (dem_index g = 0; g < b->n_groups; g++)
+        if (b->groups[g].ring <= rings) reactions_solve(&b->sites->reactions, b->groups[g].group, s->y, v);
+    for (dem_index j = 0; j < b->end[rings] && b->n_groups > 0; j++)
+        if (b->nodes[j].grouped) vec2_put(a, j, vec2_at(b->sites->reactions.a, b->nodes[j].i));
+}

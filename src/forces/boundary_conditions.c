@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Prescribed motions and forces. */
+#include "forces/boundary_conditions.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+
+enum { BOTH = DEM_COMPONENT_X | DEM_COMPONENT_Y };
+
+/* ---- the ramp ---- */
+
+/* t/ramp, where the ramp goes on; beyond it its derivatives are 0. */
+static bool within(const boundary *b, double t, double *s)
+{
+    *s = b->ramp > 0.0 ? t / b->ramp : 1.0;
+    return *s > 0.0 && *s < 1.0;
+}
+
+double boundary_ramp(const boundary *b, double t)
+{
+    double s;
+    if (within(b, t, &s)) return s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    return s > 0.0 ? 1.0 : 0.0;
+}
+
+/* 1/s */
+static double ramp_slope(const boundary *b, double t)
+{
+    double s;
+    return within(b, t, &s) ? 30.0 * s * s * (1.0 - s) * (1.0 - s) / b->ramp : 0.0;
+}
+
+/* 1/s^2 */
+static double ramp_curvature(const boundary *b, double t)
+{
+    double s;
+    return within(b, t, &s) ? 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (b->ramp * b->ramp) : 0.0;
+}
+
+/* Integral of the ramp from 0 to t, s. */
+static double ramp_area(const boundary *b, double t)
+{
+    double s;
+    if (within(b, t, &s)) return b->ramp * s * s * s * s * (2.5 + s * (s - 3.0));
+    return s > 0.0 ? t - 0.5 * b->ramp : 0.0;
+}
+
+vec2 boundary_displacement(const boundary *b, double t)
+{
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_area(b, t) : boundary_ramp(b, t), b->value);
+}
+
+vec2 boundary_velocity(const boundary *b, double t)
+{
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? boundary_ramp(b, t) : ramp_slope(b, t), b->value);
+}
+
+vec2 boundary_acceleration(const boundary *b, double t)
+{
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_slope(b, t) : ramp_curvature(b, t), b->value);
+}
+
+/* ---- all of them, in a state ---- */
+
+vec2 boundaries_force(const boundaries *b, dem_index i, double t)
+{
+    vec2 force = {0.0, 0.0};
+    for (dem_index p = b->first != NULL ? b->first[i] : -1; p >= 0; p = b->pushes[p].next) {
+        const boundary *from = &b->list[b->pushes[p].boundary];
+        force = vec2_along(force, b->pushes[p].share * boundary_ramp(from, t), from->value);
+    }
+    return force;
+}
+
+/* Force times velocity, summed. */
+static double push_power(const boundary *b, double t, const double *v)
+{
+    vec2 sum = {0.0, 0.0};
+    for (dem_index k = 0; k < b->n_nodes; k++) sum = vec2_along(sum, b->share[k], vec2_at(v, b->nodes[k]));
+    return boundary_ramp(b, t) * vec2_dot(b->value, sum);
+}
+
+static void put_component(double *array, dem_index i, int c, vec2 value)
+{
+    array[2 * i + c] = c == 0 ? value.x : value.y;
+}
+
+/* m (a - what a would be without), times velocity, summed. */
+static double prescribe(const boundary *b, const double *mass, double t, double *f, double *a)
+{
+    const vec2 velocity = boundary_velocity(b, t), acceleration = boundary_acceleration(b, t);
+    double power = 0.0;
+    for (dem_index k = 0; k < b->n_nodes; k++)
+        for (int c = 0; c < 2; c++) {
+            const dem_index i = b->nodes[k];
+            if (!(b->components & (DEM_COMPONENT_X << c))) continue;
+            const double before = a[2 * i + c];
+            put_component(f, i, c, velocity);
+            put_component(a, i, c, acceleration);
+            power += mass[i] * (a[2 * i + c] - before) * f[2 * i + c];
+        }
+    return power;
+}
+
+double boundaries_prescribe(const boundaries *b, const double *mass, double t, const double *v, double *f, double *a)
+{
+    double power = 0.0;
+    for (dem_index k = 0; k < b->n; k++)
+        power += b->list[k].kind == DEM_BOUNDARY_FORCE ? push_power(&b->list[k], t, v)
+                                                       : prescribe(&b->list[k], mass, t, f, a);
+    return power;
+}
+
+void boundaries_begin(const boundaries *b, double *v)
+{
+    for (dem_index k = 0; k < b->n; k++)
+        for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].kind != DEM_BOUNDARY_FORCE; p++)
+            for (int c = 0; c < 2; c++)
+                if (b->list[k].components & (DEM_COMPONENT_X << c))
+                    put_component(v, b->list[k].nodes[p], c, boundary_velocity(&b->list[k], 0.0));
+}
+
+bool boundaries_move(const boundaries *b)
+{
+    for (dem_index k = 0; k < b->n; k++)
+        if (b->list[k].kind != DEM_BOUNDARY_FORCE) return true;
+    return false;
+}
+
+double boundaries_speed(const boundaries *b)
+{
+    double fastest = 0.0;
+    for (dem_index k = 0; k < b->n; k++) {
+        const boundary *one = &b->list[k];
+        const double size = vec2_norm(one->value);
+        if (one->kind == DEM_BOUNDARY_VELOCITY) fastest = fmax(fastest, size);
+        if (one->kind == DEM_BOUNDARY_DISPLACEMENT) fastest = fmax(fastest, 1.875 * size / one->ramp); /* its middle */
+    }
+    return fastest;
+}
+
+double boundaries_settled(const boundaries *b)
+{
+    double last = 0.0;
+    for (dem_index k = 0; k < b->n; k++) last = fmax(last, b->list[k].ramp);
+    return last;
+}
+
+/* ---- compilation ---- */
+
+static dem_status check_one(const dem_boundary *b, dem_index k)
+{
+    const long long number = (long long)k;
+    const int32_t wanted = b->kind == DEM_BOUNDARY_FORCE ? 0 : b->components;
+    CHECK(b->kind == DEM_BOUNDARY_VELOCITY || b->kind == DEM_BOUNDARY_DISPLACEMENT || b->kind == DEM_BOUNDARY_FORCE,
+          DEM_ERROR_ARGUMENT, "boundary %lld: unknown kind %d", number, (int)b->kind);
+    CHECK(b->n_nodes > 0 && b->nodes != NULL, DEM_ERROR_ARGUMENT, "boundary %lld has no nodes", number);
+    CHECK(b->kind == DEM_BOUNDARY_FORCE || (wanted > 0 && wanted <= BOTH), DEM_ERROR_ARGUMENT,
+          "boundary %lld: components must be DEM_COMPONENT_X, DEM_COMPONENT_Y or both, got %d", number, (int)wanted);
+    CHECK(isfinite(b->value[0]) && isfinite(b->value[1]), DEM_ERROR_ARGUMENT,
+          "boundary %lld: value (%g, %g) is not finite", number, b->value[0], b->value[1]);
+    CHECK(isfinite(b->ramp) && b->ramp >= 0.0, DEM_ERROR_ARGUMENT, "boundary %lld: ramp must be >= 0, got %g s", number,
+          b->ramp);
+    CHECK(b->kind != DEM_BOUNDARY_DISPLACEMENT || b->ramp > 0.0, DEM_ERROR_ARGUMENT,
+          "boundary %lld: a displacement needs a ramp > 0, in s", number);
+    return DEM_OK;
+}
+
+/* Whether the node may be driven by boundary k; `held` tells what others prescribe of it, and whether k names it. */
+static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, const dem_lattice *l, bool touches,
+                             unsigned char *held)
+{
+    enum { NAMED = 4 };
+    const long long number = (long long)k, node = (long long)b->nodes[p];
+    CHECK(node >= 0 && node < l->n_nodes, DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is not in 0 to %lld", number,
+          node, (long long)(l->n_nodes - 1));
+    CHECK(!(held[node] & NAMED), DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is named twice", number, node);
+    CHECK(b->share == NULL || isfinite(b->share[p]), DEM_ERROR_ARGUMENT,
+          "boundary %lld: the share of node %lld is not finite", number, node);
+    held[node] |= NAMED;
+    if (b->kind == DEM_BOUNDARY_FORCE) return DEM_OK;
+    CHECK(!(l->flags[node] & DEM_NODE_FIXED), DEM_ERROR_MODEL, "boundary %lld: node %lld is fixed already", number,
+          node);
+    CHECK(!(held[node] & b->components), DEM_ERROR_MODEL,
+          "boundary %lld: the motion of node %lld is prescribed by another one already", number, node);
+    CHECK(!touches || !(l->flags[node] & DEM_NODE_CONTACT), DEM_ERROR_MODEL,
+          "boundary %lld: node %lld may touch obstacles, so its motion cannot be prescribed; "
+          "dem_lattice_exclude() takes it from contact",
+          number, node);
+    held[node] |= (unsigned char)b->components;
+    return DEM_OK;
+}
+
+static dem_status check_all(const dem_boundary *list, dem_index n, const dem_lattice *l, bool touches,
+                            unsigned char *held)
+{
+    for (dem_index k = 0; k < n; k++) {
+        TRY(check_one(&list[k], k));
+        for (dem_index p = 0; p < list[k].n_nodes; p++) TRY(check_node(&list[k], k, p, l, touches, held));
+        for (dem_index p = 0; p < list[k].n_nodes; p++) held[list[k].nodes[p]] &= BOTH;
+    }
+    return DEM_OK;
+}
+
+static dem_status copy(boundary *out, const dem_boundary *from)
+{
+    const size_t n = (size_t)from->n_nodes;
+    *out = (boundary){.kind = from->kind,
+                      .components = from->components,
+                      .value = vec2_at(from->value, 0),
+                      .ramp = from->ramp,
+                      .n_nodes = from->n_nodes};
+    out->nodes = malloc(n * sizeof *out->nodes);
+    CHECK_MEMORY(out->nodes);
+    memcpy(out->nodes, from->nodes, n * sizeof *out->nodes);
+    if (from->kind != DEM_BOUNDARY_FORCE) return DEM_OK;
+    out->share = malloc(n * sizeof *out->share);
+    CHECK_MEMORY(out->share);
+    for (size_t p = 0; p < n; p++) out->share[p] = from->share != NULL ? from->share[p] : 1.0 / (double)n;
+    return DEM_OK;
+}
+
+static dem_status list_pushes(boundaries *b, dem_index n_nodes)
+{
+    size_t n = 0;
+    for (dem_index k = 0; k < b->n; k++) n += b->list[k].share != NULL ? (size_t)b->list[k].n_nodes : 0;
+    if (n == 0) return DEM_OK;
+    b->first = malloc((size_t)n_nodes * sizeof *b->first);
+    b->pushes = malloc(n * sizeof *b->pushes);
+    CHECK(b->first && b->pushes, DEM_ERROR_MEMORY, "out of memory for %zu forces on nodes", n);
+    for (dem_index i = 0; i < n_nodes; i++) b->first[i] = -1;
+    dem_index at = 0;
+    for (dem_index k = 0; k < b->n; k++)
+        for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].share != NULL; p++, at++) {
+            dem_index *first = &b->first[b->list[k].nodes[p]];
+            b->pushes[at] = (boundary_push){k, *first, b->list[k].share[p]};
+            *first = at;
+        }
+    return DEM_OK;
+}
+
+static dem_status compile(boundaries *b, const dem_boundary *list, dem_index n, dem_index n_nodes)
+{
+    b->list = calloc((size_t)n, sizeof *b->list);
+    CHECK_MEMORY(b->list);
+    while (b->n < n) {
+        b->n++;
+        TRY(copy(&b->list[b->n - 1], &list[b->n - 1]));
+    }
+    return list_pushes(b, n_nodes);
+}
+
+dem_status boundaries_compile(boundaries *out, const dem_boundary *list, dem_index n, const dem_lattice *lattice,
+                              dem_index n_obstacles)
+{
+    boundaries b = {0};
+    *out = b;
+    CHECK(n >= 0 && (n == 0 || list != NULL), DEM_ERROR_ARGUMENT, "%lld boundaries, the list is %s", (long long)n,
+          list != NULL ? "given" : "NULL");
+    if (n == 0) return DEM_OK;
+    b.held = calloc((size_t)lattice->n_nodes, sizeof *b.held);
+    CHECK_MEMORY(b.held);
+    dem_status status = check_all(list, n, lattice, n_obstacles > 0, b.held);
+    if (status == DEM_OK) status = compile(&b, list, n, lattice->n_nodes);
+    if (status == DEM_OK)
+        *out = b;
+    else
+        boundaries_free(&b);
+    return status;
+}
+
+void boundaries_free(boundaries *b)
+{
+    for (dem_index k = 0; b->list != NULL && k < b->n; k++) {
+        free(b->list[k].nodes);
+        free(b->list[k].share);
+    }
+    free(b->list);
+    free(b->first);
+    free(b->pushes);
+    free(b->held);
+    *b = (boundaries){0};
+}

@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Energies, mean motions and strains of a state. */
+#include "forces/diagnostics.h"
+
+dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v)
+{
+    dem_energy energy = {.elastic = springs_energy(&model->springs, x)};
+    triangles_energy(&model->triangles, x, &energy.area, &energy.guard);
+    const vec2 g = {gravity[0], gravity[1]};
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
+        const double m = model->lattice.mass[i];
+        const vec2 vi = vec2_at(v, i);
+        energy.kinetic += 0.5 * m * vec2_dot(vi, vi);
+        energy.gravity -= m * vec2_dot(g, vec2_at(x, i));
+    }
+    return energy;
+}
+
+double diagnostics_damping_power(const dem_model *model, const forces *load, const double *x, const double *v)
+{
+    double twice_kinetic = 0.0; /* of the nodes that move */
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
+        const vec2 vi = vec2_at(v, i);
+        if (model->inverse_mass[i] > 0.0) twice_kinetic += model->lattice.mass[i] * vec2_dot(vi, vi);
+    }
+    return springs_damping_power(&model->springs, x, v) + load->mass_damping * twice_kinetic;
+}
+
+dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
+{
+    const dem_lattice *l = &model->lattice;
+    double mass = 0.0, spin = 0.0;
+    vec2 centre = {0.0, 0.0}, momentum = {0.0, 0.0};
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (l->body[i] != body) continue;
+        mass += l->mass[i];
+        centre = vec2_along(centre, l->mass[i], vec2_at(x, i));
+        momentum = vec2_along(momentum, l->mass[i], vec2_at(v, i));
+    }
+    centre = vec2_scale(1.0 / mass, centre);
+    const vec2 velocity = vec2_scale(1.0 / mass, momentum);
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (l->body[i] == body)
+            spin += l->mass[i] * vec2_cross(vec2_sub(vec2_at(x, i), centre), vec2_sub(vec2_at(v, i), velocity));
+    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, spin};
+}
+
+static void measure_triangles(const dem_model *model, const double *x, dem_strain *strain)
+{
+    const dem_lattice *l = &model->lattice;
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *c = &l->triangles[3 * k];
+        const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double ratio = vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
+        strain->area_min = fmin(strain->area_min, ratio);
+        strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
+        strain->inverted += ratio <= 0.0;
+    }
+}
+
+dem_strain diagnostics_strain(const dem_model *model, const double *x)
+{
+    const springs *s = &model->springs;
+    dem_strain strain = {.spring_min = -1, .spring_max = -1, .area_min = 1.0};
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            if (s->neighbour[p] < i) continue;
+            const double here = springs_strain(s, i, p, x);
+            if (strain.spring_min < 0 || here < strain.min) {
+                strain.min = here;
+                strain.spring_min = s->spring[p];
+            }
+            if (strain.spring_max < 0 || here > strain.max) {
+                strain.max = here;
+                strain.spring_max = s->spring[p];
+            }
+        }
+    measure_triangles(model, x, &strain);
+    return strain;
+}
+
+/* Force of a contact on the body. */
+static vec2 contact_force(const dem_contact *c)
+{
+    const vec2 n = vec2_at(c->normal, 0), t = {n.y, -n.x};
+    return vec2_along(vec2_scale(c->force, n), c->friction, t);
+}
+
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle)
+{
+    dem_obstacle_load load = {0};
+    vec2 sum = {0.0, 0.0}, mean = {0.0, 0.0};
+    double weight = 0.0, moment = 0.0; /* about the mean place */
+    for (dem_index k = 0; k < n; k++) {
+        if (list[k].obstacle != obstacle) continue;
+        const double size = vec2_norm(contact_force(&list[k]));
+        load.contacts++;
+        sum = vec2_add(sum, contact_force(&list[k]));
+        mean = vec2_along(mean, size, vec2_at(list[k].x, 0));
+        weight += size;
+    }
+    if (weight > 0.0) mean = vec2_scale(1.0 / weight, mean);
+    for (dem_index k = 0; k < n; k++)
+        if (list[k].obstacle == obstacle)
+            moment += vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k]));
+    const double square = vec2_dot(sum, sum);
+    const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
+    vec2_put(load.reaction, 0, sum);
+    vec2_put(load.point, 0, vec2_add(mean, arm));
+    return load;
+}
+
+/* What a prescribed component of a node's motion takes, N. */
+static vec2 held_force(const dem_model *model, const forces *load, const boundary *b, dem_index i, const double *x,
+                       const double *v)
+{
+    const vec2 wanted = boundary_acceleration(b, v[load->clock]);
+    const vec2 force = vec2_scale(model->lattice.mass[i], vec2_sub(wanted, forces_acceleration(model, load, i, x, v)));
+    return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
+}
+
+dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary *b, const double *x,
+                                       const double *v)
+{
+    dem_boundary_load out;
+    vec2 force = {0.0, 0.0}, way = {0.0, 0.0};
+    for (dem_index k = 0; k < b->n_nodes; k++) {
+        const dem_index i = b->nodes[k];
+        way = vec2_add(way, vec2_sub(vec2_at(x, i), vec2_at(model->lattice.position, i)));
+        force = b->kind == DEM_BOUNDARY_FORCE
+                    ? vec2_along(force, b->share[k] * boundary_ramp(b, v[load->clock]), b->value)
+                    : vec2_add(force, held_force(model, load, b, i, x, v));
+    }
+    vec2_put(out.force, 0, force);
+    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)b->n_nodes, way));
+    return out;
+}
+
+/* Largest force of a spring, N. */
+static double largest_force(const springs *s, const double *x)
+{
+    double largest = 0.0;
+    for (dem_index i = 0; i < s->n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            largest = fmax(largest, s->stiffness[p] * fabs(springs_strain(s, i, p, x)));
+    return largest;
+}
+
+double diagnostics_residual(const dem_model *model, double mass_damping, const double *x, const double *v,
+                            const double *a)
+{
+    double largest = 0.0;
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
+        const vec2 without_drag = vec2_along(vec2_at(a, i), mass_damping, vec2_at(v, i));
+        if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
+    }
+    const double scale = largest_force(&model->springs, x);
+    return largest > 0.0 ? largest / scale : 0.0;
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on a node of one simulation, evaluated node by node. The sweep over all nodes (kernel.c) gives the same
+ * bits. */
+#ifndef DEM_FORCES_FORCES_H
+#define DEM_FORCES_FORCES_H
+
+#include "forces/boundary_conditions.h"
+#include "forces/external_force.h"
+#include "model/model.h"
+
+/** What acts on every node besides springs and triangles. */
+typedef struct forces {
+    double gravity[2];            /* m/s^2 */
+    double mass_damping;          /* 1/s */
+    const boundaries *boundaries; /* NULL: no forces on nodes */
+    coupling *coupling;           /* NULL: none from outside */
+    dem_index clock;              /* where the time stands among the velocities */
+} forces;
+
+/** Whether any of it depends on time. */
+static inline bool forces_are_driven(const forces *load)
+{
+    return load->boundaries != NULL || load->coupling != NULL;
+}
+
+/** Force of springs, area term and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
+static inline vec2 forces_of_elements(const dem_model *model, dem_index i, const double *x, const double *v)
+{
+    vec2 bonds = springs_force(&model->springs, i, x);
+    if (model->springs.viscosity != NULL) bonds = vec2_add(bonds, springs_damping(&model->springs, i, x, v));
+    if (model->triangles.row[i] == model->triangles.row[i + 1]) return bonds;
+    return vec2_add(bonds, triangles_force(&model->triangles, i, x));
+}
+
+/** Acceleration of node i, m/s^2, free of contact: (4), weight (2) included, without forces from outside. A fixed node
+ *  has none. */
+static inline vec2 forces_own_acceleration(const dem_model *model, const forces *load, dem_index i, const double *x,
+                                           const double *v)
+{
+    const double inverse_mass = model->inverse_mass[i];
+    if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
+    const vec2 drag = vec2_scale(-load->mass_damping, vec2_at(v, i));
+    vec2 force = forces_of_elements(model, i, x, v);
+    if (load->boundaries != NULL) force = vec2_add(force, boundaries_force(load->boundaries, i, v[load->clock]));
+    const vec2 a = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, force);
+    return vec2_add(a, drag);
+}
+
+/** All of it. */
+static inline vec2 forces_acceleration(const dem_model *model, const forces *load, dem_index i, const double *x,
+                                       const double *v)
+{
+    const vec2 a = forces_own_acceleration(model, load, i, x, v);
+    if (load->coupling == NULL) return a;
+    const vec2 force = coupling_force(load->coupling, v[load->clock], i, vec2_at(x, i), vec2_at(v, i));
+    return vec2_along(a, model->inverse_mass[i], force);
+}
+
+/** Energy that hangs on the position of node i, J: its springs, its triangles and its weight. */
+static inline double forces_node_energy(const dem_model *model, const double gravity[2], dem_index i, const double *x)
+{
+    const double weight = model->lattice.mass[i] * (gravity[0] * x[2 * i] + gravity[1] * x[2 * i + 1]);
+    return springs_node_energy(&model->springs, i, x) + triangles_node_energy(&model->triangles, i, x) - weight;
+}
+
+#endif

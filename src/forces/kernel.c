@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Shares the blocks of a layout among threads; what is not in blocks, and what is rare, goes row by row. */
+#include "forces/kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/status.h"
+#include "base/threads.h"
+
+/* ---- which there are ---- */
+
+#ifdef DEM_X86_KERNELS
+#define HAS(feature) (__builtin_cpu_supports(feature) != 0)
+#else
+#define HAS(feature)       false
+#define sweep_avx2         sweep_portable
+#define sweep_avx512       sweep_portable
+#define sweep_guard_avx2   sweep_guard_portable
+#define sweep_guard_avx512 sweep_guard_portable
+#define bulk_avx2          bulk_portable
+#define bulk_avx512        bulk_portable
+#endif
+
+typedef struct kernel_row {
+    const char *name;
+    sweep_function *sweep;
+    sweep_guard_function *sweep_guard;
+    const bulk *bulk;
+} kernel_row;
+
+static const kernel_row rows[] = {
+    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL},
+    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, &bulk_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, &bulk_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, &bulk_avx512},
+};
+enum { n_rows = sizeof rows / sizeof rows[0] };
+
+static bool runs_here(dem_kernel kind)
+{
+    if (kind == DEM_KERNEL_AVX2) return HAS("avx2");
+    if (kind == DEM_KERNEL_AVX512) return HAS("avx512f") && HAS("avx512dq") && HAS("avx512vl");
+    return kind == DEM_KERNEL_PORTABLE;
+}
+
+static dem_kernel fastest(void)
+{
+    dem_kernel kind = DEM_KERNEL_AVX512;
+    while (!runs_here(kind)) kind--;
+    return kind;
+}
+
+dem_status dem_kernel_find(dem_kernel *out, const char *name)
+{
+    CHECK(out != NULL && name != NULL, DEM_ERROR_ARGUMENT, "dem_kernel_find: %s is NULL", out == NULL ? "out" : "name");
+    for (int k = 0; k < n_rows; k++)
+        if (strcmp(rows[k].name, name) == 0) {
+            *out = (dem_kernel)k;
+            return DEM_OK;
+        }
+    return status_fail(DEM_ERROR_ARGUMENT, "no kernel is called '%s'", name);
+}
+
+const char *dem_kernel_name(dem_kernel kind)
+{
+    return (int)kind >= 0 && (int)kind < n_rows ? rows[kind].name : NULL;
+}
+
+dem_status dem_kernel_check(dem_kernel kind)
+{
+    CHECK(dem_kernel_name(kind) != NULL, DEM_ERROR_ARGUMENT, "unknown kernel %d", (int)kind);
+    CHECK(kind == DEM_KERNEL_AUTO || runs_here(kind), DEM_ERROR_ARGUMENT,
+          "this machine, or this build of the library, does not have the kernel '%s'", rows[kind].name);
+    return DEM_OK;
+}
+
+/* ---- set-up ---- */
+
+static dem_status allocate(kernel *k)
+{
+    const layout *l = &k->model->layout;
+    const size_t n = (size_t)l->n_nodes;
+    k->ring_size = 2 * (size_t)l->ring_length * (l->damped ? 2 : 1); /* a multiple of 16 */
+    k->rings = aligned_zeros((size_t)k->n_threads * k->ring_size);
+    k->guarded = calloc((size_t)l->n_blocks + 1, sizeof *k->guarded);
+    k->sums = calloc((size_t)k->n_threads, sizeof *k->sums);
+    if (l->order != NULL) k->packed = aligned_zeros(7 * n);
+    CHECK(k->rings && k->guarded && k->sums && (k->packed || l->order == NULL), DEM_ERROR_MEMORY,
+          "out of memory for the forces of %zu nodes", n);
+    for (size_t q = 0; q < n && k->packed != NULL; q++) k->packed[q] = k->model->inverse_mass[l->order[q]];
+    return DEM_OK;
+}
+
+dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads)
+{
+    TRY(dem_kernel_check(kind));
+    if (kind == DEM_KERNEL_AUTO) kind = fastest();
+    kernel k = {.model = model,
+                .kind = kind,
+                .n_threads = n_threads,
+                .sweep = rows[kind].sweep,
+                .sweep_guard = rows[kind].sweep_guard,
+                .bulk = rows[kind].bulk};
+    const dem_status status = allocate(&k);
+    if (status == DEM_OK)
+        *out = k;
+    else
+        kernel_destroy(&k);
+    return status;
+}
+
+void kernel_destroy(kernel *k)
+{
+    free(k->rings);
+    free(k->guarded);
+    free(k->sums);
+    free(k->packed);
+    *k = (kernel){0};
+}
+
+/* ---- evaluation ---- */
+
+/* Takes an array [n][2] into the layout's order. */
+static void pack_share(const kernel *k, int t, const double *from, double *to)
+{
+    const layout *l = &k->model->layout;
+    const dem_index end = threads_share(l->n_nodes, k->n_threads, t + 1);
+    for (dem_index q = threads_share(l->n_nodes, k->n_threads, t); q < end; q++)
+        vec2_put(to, q, vec2_at(from, l->order[q]));
+}
+
+static void pack(const kernel *k, const double *from, double *to)
+{
+    THREADS_RUN(k->n_threads, t, pack_share(k, t, from, to));
+}
+
+static void unpack_share(const kernel *k, int t, const double *from, double *to)
+{
+    const layout *l = &k->model->layout;
+    const dem_index end = threads_share(l->n_nodes, k->n_threads, t + 1);
+    for (dem_index q = threads_share(l->n_nodes, k->n_threads, t); q < end; q++)
+        vec2_put(to, l->order[q], vec2_at(from, q));
+}
+
+/* The blocks of a thread. */
+typedef struct share {
+    dem_index first, last;
+} share;
+
+static share share_of(const kernel *k, int t)
+{
+    const dem_index n = k->model->layout.n_blocks;
+    return (share){threads_share(n, k->n_threads, t), threads_share(n, k->n_threads, t + 1)};
+}
+
+static void sweep_share(kernel *k, int t, const sweep *s)
+{
+    const share b = share_of(k, t);
+    k->sums[t] = b.first < b.last ? k->sweep(s, b.first, b.last, k->rings + (size_t)t * k->ring_size) : 0.0;
+}
+
+static double sweep_blocks(kernel *k, const sweep *s)
+{
+    double sum = 0.0;
+    THREADS_RUN(k->n_threads, t, sweep_share(k, t, s));
+    for (int t = 0; t < k->n_threads; t++) sum += k->sums[t];
+    return sum;
+}
+
+static void drift(const kernel *k, const sweep_leap *p, dem_index first, dem_index last)
+{
+    const dem_index at = 2 * first;
+    const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
+    k->bulk->drift(p->x1 + at, p->v1 + at, start, p->h, 2 * (last - first));
+}
+
+/* What others than its own thread read of a share of blocks, and nodes in no block. */
+static void drift_ends(const kernel *k, int t, const sweep_leap *p)
+{
+    const layout *l = &k->model->layout;
+    const share b = share_of(k, t);
+    const dem_index low = b.first + l->ahead < b.last ? b.first + l->ahead : b.last;
+    const dem_index high = b.last - l->ahead > low ? b.last - l->ahead : low;
+    drift(k, p, LAYOUT_LANES * b.first, LAYOUT_LANES * low);
+    drift(k, p, LAYOUT_LANES * high, t + 1 < k->n_threads ? LAYOUT_LANES * b.last : l->n_nodes);
+}
+
+/* One row by itself; what it adds to the sum. */
+static double accelerate_row(const kernel *k, const forces *load, const kernel_state *y, dem_index i)
+{
+    const sweep_leap *p = y->leap;
+    if (p != NULL) drift(k, p, i, i + 1);
+    const vec2 a = forces_own_acceleration(k->model, load, i, y->x, y->v);
+    vec2_put(y->a, i, a);
+    if (p != NULL) k->bulk->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
+    return a.x + a.y;
+}
+
+static double copy_velocities(const kernel_state *y, dem_index first, dem_index last)
+{
+    double sum = 0.0;
+    for (dem_index i = 2 * first; i < 2 * last && y->u != NULL; i++) sum += y->u[i] = y->v[i];
+    return sum;
+}
+
+/* The first place from q on whose node the guard acts on; that of the first node in no block if there is none. */
+static dem_index next_guarded(const kernel *k, dem_index q)
+{
+    const dem_index end = LAYOUT_LANES * k->model->layout.n_blocks;
+    if (k->model->layout.corners.entries.n == 0) return end;
+    while (q < end && !(k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES & 1))
+        q += k->guarded[q / LAYOUT_LANES] >> q % LAYOUT_LANES ? 1 : LAYOUT_LANES - q % LAYOUT_LANES;
+    return q < end ? q : end;
+}
+
+/* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
+static double accelerate_rest(const kernel *k, const forces *load, const kernel_state *y)
+{
+    const layout *l = &k->model->layout;
+    double sum = 0.0;
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
+        sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
+        sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index p = 0; load->boundaries != NULL && p < load->boundaries->n; p++) {
+        const boundary *push = &load->boundaries->list[p];
+        for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
+            sum += accelerate_row(k, load, y, push->nodes[j]);
+    }
+    return sum;
+}
+
+/* What comes from outside is asked for all nodes at once. */
+static double push(const kernel *k, const forces *load, const kernel_state *y)
+{
+    coupling *c = load->coupling;
+    double sum = 0.0;
+    coupling_ask(c, &(dem_force_query){y->v[load->clock], c->n_nodes, c->all, y->x, y->v});
+    for (dem_index i = 0; i < c->n_nodes; i++) {
+        const vec2 a = vec2_along(vec2_at(y->a, i), k->model->inverse_mass[i], vec2_at(c->answer, i));
+        vec2_put(y->a, i, a);
+        sum += a.x + a.y;
+    }
+    return sum;
+}
+
+bool kernel_may_leap(const kernel *k, const forces *load)
+{
+    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && !forces_are_driven(load);
+}
+
+double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
+{
+    const layout *l = &k->model->layout;
+    const dem_index n = l->n_nodes;
+    sweep s = {.layout = l,
+               .inverse_mass = k->model->inverse_mass,
+               .gravity = {load->gravity[0], load->gravity[1]},
+               .mass_damping = load->mass_damping,
+               .x = y->x,
+               .v = y->v,
+               .u = y->u,
+               .a = y->a,
+               .guarded = k->guarded,
+               .leap = y->leap};
+    if (y->leap != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->leap));
+    if (k->packed != NULL) {
+        pack(k, y->x, k->packed + n);
+        if (l->damped || load->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);
+        s.inverse_mass = k->packed;
+        s.x = k->packed + n;
+        s.v = k->packed + 3 * n;
+        s.a = k->packed + 5 * n;
+        s.u = NULL;
+    }
+    double sum = sweep_blocks(k, &s);
+    if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
+    sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
+    sum += accelerate_rest(k, load, y);
+    return load->coupling != NULL ? sum + push(k, load, y) : sum;
+}
+
+static double guard_bound(const kernel *k, const double *x, dem_index q)
+{
+    const layout *l = &k->model->layout;
+    const dem_index i = l->order != NULL ? l->order[q] : q;
+    return triangles_guard_bound(&k->model->triangles, i, x) * k->model->inverse_mass[i];
+}
+
+double kernel_stiffening(kernel *k, const double *x)
+{
+    const layout *l = &k->model->layout;
+    const double omega = k->model->omega_max;
+    double added = 0.0;
+    if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
+    if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
+    const sweep s = {.layout = l, .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
+    THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
+    for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
+        added = fmax(added, guard_bound(k, x, q));
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, x, q));
+    return sqrt(1.0 + added / (omega * omega));
+}

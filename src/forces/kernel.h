@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The accelerations of all nodes at once, by the instructions that the machine has, in threads. Every kernel and every
+ * number of threads gives the bits of forces_acceleration(). */
+#ifndef DEM_FORCES_KERNEL_H
+#define DEM_FORCES_KERNEL_H
+
+#include <stdbool.h>
+
+#include "base/array_ops.h"
+#include "elastic/sweep.h"
+#include "forces/forces.h"
+
+typedef struct kernel {
+    const dem_model *model;
+    sweep_function *sweep;
+    sweep_guard_function *sweep_guard;
+    const bulk *bulk;
+    dem_kernel kind; /* not DEM_KERNEL_AUTO */
+    int n_threads;
+    double *rings;    /* [n_threads][ring_size] */
+    size_t ring_size; /* doubles */
+    uint8_t *guarded; /* [n_blocks] */
+    double *sums;     /* [n_threads] */
+    double *packed;   /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
+} kernel;
+
+/** Borrows the model.  \return DEM_ERROR_ARGUMENT for a kernel that this machine does not have; DEM_ERROR_MEMORY. Free
+ *  with kernel_destroy(). */
+dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads);
+void kernel_destroy(kernel *k);
+
+/** A state and its derivative, [n_nodes][2] each. */
+typedef struct kernel_state {
+    const double *x, *v;
+    double *u;              /* velocities, as v; NULL: not wanted */
+    double *a;              /* accelerations, free of contact */
+    const sweep_leap *leap; /* NULL: none. Else x and v are its x1 and v1, which are filled as well */
+} kernel_state;
+
+/** Whether accelerations depend on nothing but positions, so that there may be a leap. */
+bool kernel_may_leap(const kernel *k, const forces *load);
+
+/** Fills u and a, and does the leap's step, to the bits that bulk's drift and kick give before and after.
+ *  \return a sum over them that is not finite if one of them is not */
+double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y);
+
+/** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
+ *  >= 1: omega_max^2 and what the guard adds to it at most. */
+double kernel_stiffening(kernel *k, const double *x);
+
+#endif

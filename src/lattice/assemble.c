@@ -1,0 +1,422 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* From a triangulation, or cells of four nodes, to a solid: masses, springs, and what triangles have. Every triangle,
+ * or cell, gives shares of stiffness to pairs of its nodes; the shares of a pair add up to its spring. */
+#include <dem/dem.h>
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "base/vec2.h"
+#include "lattice/lattice.h"
+
+/* ---- materials ---- */
+
+static bool is_positive(double value)
+{
+    return isfinite(value) && value > 0.0;
+}
+
+static dem_status check_elasticity(const dem_material *m)
+{
+    const double nu = m->poissons_ratio, highest = m->plane == DEM_PLANE_STRAIN ? 0.5 : 1.0;
+    if (m->bond_stiffness != 0.0) {
+        CHECK(is_positive(m->bond_stiffness), DEM_ERROR_ARGUMENT, "the bond stiffness must be > 0: %g N",
+              m->bond_stiffness);
+        CHECK(m->youngs_modulus == 0.0, DEM_ERROR_ARGUMENT,
+              "a material has Young's modulus, %g Pa, or a bond stiffness, %g N, not both", m->youngs_modulus,
+              m->bond_stiffness);
+        return DEM_OK;
+    }
+    CHECK(is_positive(m->youngs_modulus), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: %g Pa", m->youngs_modulus);
+    CHECK(m->plane == DEM_PLANE_STRESS || m->plane == DEM_PLANE_STRAIN, DEM_ERROR_ARGUMENT,
+          "plane is %d, which is neither stress nor strain", (int)m->plane);
+    CHECK(nu > -1.0 && nu < highest, DEM_ERROR_ARGUMENT, "Poisson's ratio must be in (-1, %g) in plane %s: %g", highest,
+          m->plane == DEM_PLANE_STRAIN ? "strain" : "stress", nu);
+    return DEM_OK;
+}
+
+static dem_status check_material(const dem_material *m)
+{
+    CHECK(m != NULL, DEM_ERROR_ARGUMENT, "material is NULL");
+    TRY(check_elasticity(m));
+    CHECK(is_positive(m->density), DEM_ERROR_ARGUMENT, "density must be > 0: %g kg/m^3", m->density);
+    CHECK(is_positive(m->thickness), DEM_ERROR_ARGUMENT, "thickness must be > 0: %g m", m->thickness);
+    CHECK(isfinite(m->guard) && m->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g", m->guard);
+    CHECK(isfinite(m->damping_time) && m->damping_time >= 0.0, DEM_ERROR_ARGUMENT, "damping_time must be >= 0: %g s",
+          m->damping_time);
+    return DEM_OK;
+}
+
+/* The plate in plane stress that moves like the solid. */
+typedef struct plate {
+    double modulus, ratio; /* E h, N/m; nu */
+} plate;
+
+static plate plate_of(const dem_material *m)
+{
+    const double nu = m->poissons_ratio, modulus = m->youngs_modulus * m->thickness;
+    if (m->bond_stiffness > 0.0) return (plate){0.0, 0.0};
+    if (m->plane == DEM_PLANE_STRESS) return (plate){modulus, nu};
+    return (plate){modulus / (1.0 - nu * nu), nu / (1.0 - nu)};
+}
+
+/* (8/3) G h, which is E h at nu = 1/3, to the bit. */
+static double spring_modulus(plate p)
+{
+    return p.modulus * ((4.0 / 3.0) / (1.0 + p.ratio));
+}
+
+/* A cell warps when its corners move by turns along the same direction. Both diagonals keep their lengths; the sides,
+ * of half of k = E h/(1 + nu) each, resist alone. The area term of the two triangles, whose areas change by the same
+ * amount, one up, one down, takes that off if it is less than -k/2. Bodies whose cells are stable are stable. */
+static dem_status check_diagonal(plate p, double diagonal)
+{
+    const double limit = 0.5 * (1.0 + p.ratio) / (1.0 - p.ratio);
+    CHECK(
+        diagonal < limit, DEM_ERROR_ARGUMENT,
+        "the stiffness of a diagonal over a side's must be less than %g, or cells warp, at Poisson's ratio %g in plane "
+        "stress: %g",
+        limit, p.ratio, diagonal);
+    return DEM_OK;
+}
+
+/* ---- the rule ---- */
+
+/* What a triangle or a cell gives to the spring of two nodes, N. */
+typedef struct share {
+    dem_index lower, upper;
+    double stiffness, viscosity; /* N, N s */
+} share;
+
+typedef struct draft {
+    const dem_lattice *lattice;
+    const dem_material *materials;
+    const dem_index *of; /* [n_triangles] number of each triangle's material; NULL: the first */
+    bool cells;          /* of two triangles each, 2 k and 2 k + 1 */
+    double diagonal;     /* stiffness of a diagonal over a side's, both in N/m; 1/2 is isotropic, as triangles are */
+    share *shares;       /* [3 n_triangles] */
+    dem_lattice solid;
+} draft;
+
+static const dem_material *material_of(const draft *d, dem_index t)
+{
+    return &d->materials[d->of != NULL ? d->of[t] : 0];
+}
+
+static double area_of(const dem_lattice *l, dem_index a, dem_index b, dem_index c)
+{
+    return vec2_triangle_area(vec2_at(l->x, a), vec2_at(l->x, b), vec2_at(l->x, c));
+}
+
+static double distance(const dem_lattice *l, dem_index i, dem_index j)
+{
+    return vec2_norm(vec2_sub(vec2_at(l->x, j), vec2_at(l->x, i)));
+}
+
+/* Kelvin-Voigt: a strain rate e' acts like the strain damping_time e'. */
+static share share_of(dem_index i, dem_index j, double stiffness, const dem_material *m)
+{
+    return (share){i < j ? i : j, i < j ? j : i, stiffness, m->damping_time * stiffness};
+}
+
+static void give_mass(const draft *d, double weight, const dem_material *m, const dem_index corner[3])
+{
+    const double area = area_of(d->lattice, corner[0], corner[1], corner[2]);
+    const double mass = weight * m->density * m->thickness * area / 3.0;
+    for (int c = 0; c < 3; c++) d->solid.mass[corner[c]] += mass;
+}
+
+/* (8/3) G h A/|e| to each edge, a third of the mass to each corner. */
+static void share_triangle(const draft *d, dem_index t)
+{
+    const dem_index *corner = d->lattice->triangles + 3 * t;
+    const dem_material *m = material_of(d, t);
+    const double modulus = spring_modulus(plate_of(m)), area = area_of(d->lattice, corner[0], corner[1], corner[2]);
+    for (int c = 0; c < 3; c++) {
+        const dem_index i = corner[c], j = corner[(c + 1) % 3];
+        d->shares[3 * t + c] = share_of(i, j, modulus * area / distance(d->lattice, i, j), m);
+    }
+    give_mass(d, 1.0, m, corner);
+}
+
+/* The corners of cell k counter-clockwise, the first and third where its triangles do not meet.
+ * \return false where they do not share an edge */
+static bool find_corners(const dem_lattice *l, dem_index k, dem_index corner[4])
+{
+    const dem_index *s = l->triangles + 6 * k, *t = s + 3;
+    for (int c = 0; c < 9; c++) { /* where they do, the edge runs from a to b in one, from b to a in the other */
+        const int a = c % 3, b = c / 3;
+        if (s[a] != t[(b + 1) % 3] || s[(a + 1) % 3] != t[b]) continue;
+        corner[0] = s[(a + 2) % 3];
+        corner[1] = s[a];
+        corner[2] = t[(b + 2) % 3];
+        corner[3] = s[(a + 1) % 3];
+        return true;
+    }
+    return false;
+}
+
+/* Half of its stiffness, E h/(1 + nu), to each side, all of theirs to both diagonals; the mean of the masses by the two
+ * pairs of triangles that make up the cell, that is a quarter of it to each corner of a square. */
+static dem_status share_cell(const draft *d, dem_index k)
+{
+    const dem_lattice *l = d->lattice;
+    const dem_material *m = material_of(d, 2 * k);
+    const plate p = plate_of(m);
+    const double side = p.modulus / (1.0 + p.ratio), diagonal = d->diagonal * side;
+    dem_index q[4];
+    CHECK(m == material_of(d, 2 * k + 1), DEM_ERROR_MODEL, "triangles %lld and %lld, of a cell, have two materials",
+          (long long)(2 * k), (long long)(2 * k + 1));
+    CHECK(find_corners(l, k, q), DEM_ERROR_MODEL, "triangles %lld and %lld, which are to be a cell, share no edge",
+          (long long)(2 * k), (long long)(2 * k + 1));
+    for (int c = 0; c < 4; c++) {
+        const dem_index i = q[c], j = q[(c + 1) % 4], corner[3] = {i, j, q[(c + 2) % 4]};
+        CHECK(area_of(l, corner[0], corner[1], corner[2]) > 0.0, DEM_ERROR_MODEL,
+              "the cell of nodes %lld, %lld, %lld and %lld is not convex", (long long)q[0], (long long)q[1],
+              (long long)q[2], (long long)q[3]);
+        d->shares[6 * k + c] = share_of(i, j, 0.5 * side * distance(l, i, j), m);
+        give_mass(d, 0.5, m, corner);
+    }
+    for (int c = 0; c < 2; c++)
+        d->shares[6 * k + 4 + c] = share_of(q[c], q[c + 2], diagonal * distance(l, q[c], q[c + 2]), m);
+    return DEM_OK;
+}
+
+static dem_status share_all(const draft *d)
+{
+    const dem_lattice *l = d->lattice;
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        const dem_index *corner = l->triangles + 3 * t;
+        const double area = area_of(l, corner[0], corner[1], corner[2]);
+        CHECK(is_positive(area), DEM_ERROR_MODEL,
+              "triangle %lld (nodes %lld, %lld, %lld) has the area %g m^2; it must be > 0", (long long)t,
+              (long long)corner[0], (long long)corner[1], (long long)corner[2], area);
+        if (!d->cells) share_triangle(d, t);
+    }
+    for (dem_index k = 0; k < l->n_triangles / 2 && d->cells; k++) TRY(share_cell(d, k));
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        CHECK(d->solid.mass[i] > 0.0, DEM_ERROR_MODEL, "node %lld belongs to no triangle", (long long)i);
+    return DEM_OK;
+}
+
+/* ---- springs ---- */
+
+static bool is_of_one_spring(const share *a, const share *b)
+{
+    return a->lower == b->lower && a->upper == b->upper;
+}
+
+/* By lower, then upper node, shares of one spring in the order of the triangles: buckets, each short. */
+static dem_status sort_shares(draft *d)
+{
+    const dem_index n = d->lattice->n_nodes, m = 3 * d->lattice->n_triangles;
+    dem_index *row = lattice_zeros(n + 2, sizeof *row);
+    share *sorted = lattice_zeros(m, sizeof *sorted);
+    const bool complete = row != NULL && sorted != NULL;
+    for (dem_index k = 0; k < m && complete; k++) row[d->shares[k].lower + 2]++;
+    for (dem_index i = 0; i < n && complete; i++) row[i + 2] += row[i + 1];
+    for (dem_index k = 0; k < m && complete; k++) {
+        const share current = d->shares[k];
+        dem_index p = row[current.lower + 1]++;
+        for (; p > row[current.lower] && sorted[p - 1].lower == current.lower && sorted[p - 1].upper > current.upper;
+             p--)
+            sorted[p] = sorted[p - 1];
+        sorted[p] = current;
+    }
+    free(row);
+    if (complete) {
+        free(d->shares);
+        d->shares = sorted;
+    } else {
+        free(sorted);
+    }
+    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)m / 2);
+    return DEM_OK;
+}
+
+/* Of one stiffness, whatever their triangles gave. */
+static void make_equal(dem_lattice *solid, const dem_material *m)
+{
+    for (dem_index k = 0; k < solid->n_springs && m->bond_stiffness > 0.0; k++) {
+        solid->stiffness[k] = m->bond_stiffness;
+        solid->viscosity[k] = m->damping_time * m->bond_stiffness;
+    }
+}
+
+/* NULL instead of zeros: nothing is damped. */
+static void drop_zeros(double **array, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++)
+        if ((*array)[k] != 0.0) return;
+    free(*array);
+    *array = NULL;
+}
+
+static dem_status fill_springs(draft *d)
+{
+    const dem_index m = 3 * d->lattice->n_triangles;
+    dem_lattice *s = &d->solid;
+    TRY(sort_shares(d));
+    for (dem_index p = 0; p < m; p++) s->n_springs += p == 0 || !is_of_one_spring(&d->shares[p - 1], &d->shares[p]);
+    s->ends = lattice_zeros(s->n_springs, 2 * sizeof *s->ends);
+    s->rest_length = lattice_zeros(s->n_springs, sizeof *s->rest_length);
+    s->stiffness = lattice_zeros(s->n_springs, sizeof *s->stiffness);
+    s->viscosity = lattice_zeros(s->n_springs, sizeof *s->viscosity);
+    CHECK(s->ends && s->rest_length && s->stiffness && s->viscosity, DEM_ERROR_MEMORY, "out of memory for %lld springs",
+          (long long)s->n_springs);
+    for (dem_index p = 0, k = -1; p < m; p++) {
+        const share *here = &d->shares[p];
+        if (p == 0 || !is_of_one_spring(here - 1, here)) {
+            s->ends[2 * ++k] = here->lower;
+            s->ends[2 * k + 1] = here->upper;
+            s->rest_length[k] = distance(d->lattice, here->lower, here->upper);
+        }
+        s->stiffness[k] += here->stiffness;
+        s->viscosity[k] += here->viscosity;
+    }
+    make_equal(s, d->materials);
+    drop_zeros(&s->viscosity, s->n_springs);
+    return DEM_OK;
+}
+
+/* ---- triangles ---- */
+
+/* E h of a triangle inside a lattice of equal springs: what the rule of triangles would need on its mean edge. */
+static double modulus_of(const draft *d, dem_index t)
+{
+    const dem_index *c = d->lattice->triangles + 3 * t;
+    const dem_material *m = material_of(d, t);
+    double perimeter = 0.0;
+    if (m->bond_stiffness == 0.0) return m->youngs_modulus * m->thickness;
+    for (int k = 0; k < 3; k++) perimeter += distance(d->lattice, c[k], c[(k + 1) % 3]);
+    return m->bond_stiffness * perimeter / (6.0 * area_of(d->lattice, c[0], c[1], c[2]));
+}
+
+/* What springs leave of C12 h = nu E h/(1 - nu^2), of which diagonals of stiffness r E h/(1 + nu) give as much as that;
+ * at r = 1/2, isotropic, (lambda - G) h, which is 0 at nu = 1/3, to the bit. */
+static double area_modulus(const draft *d, const dem_material *m)
+{
+    const plate p = plate_of(m);
+    const double nu = p.ratio, r = d->diagonal;
+    return m->bond_stiffness > 0.0 ? 0.0 : p.modulus * ((1.0 + r) * nu - r) / (1.0 - nu * nu);
+}
+
+/* Arrays of nothing but zeros are none. */
+static dem_status fill_triangles(draft *d)
+{
+    const dem_index n = d->lattice->n_triangles;
+    dem_lattice *s = &d->solid;
+    s->guard = lattice_zeros(n, sizeof *s->guard);
+    s->area_stiffness = lattice_zeros(n, sizeof *s->area_stiffness);
+    s->thickness = lattice_zeros(n, sizeof *s->thickness);
+    s->modulus = lattice_zeros(n, sizeof *s->modulus);
+    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus, DEM_ERROR_MEMORY,
+          "out of memory for %lld triangles", (long long)n);
+    for (dem_index t = 0; t < n; t++) {
+        const dem_material *m = material_of(d, t);
+        s->guard[t] = m->guard * modulus_of(d, t);
+        s->area_stiffness[t] = area_modulus(d, m);
+        s->thickness[t] = m->thickness;
+        s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
+    }
+    drop_zeros(&s->guard, n);
+    drop_zeros(&s->area_stiffness, n);
+    drop_zeros(&s->modulus, n);
+    return DEM_OK;
+}
+
+/* ---- all of it ---- */
+
+static void swap(double **a, double **b)
+{
+    double *const old = *a;
+    *a = *b;
+    *b = old;
+}
+
+/* Hands the arrays of a solid over; `solid` gets the old ones. */
+static void give(dem_lattice *lattice, dem_lattice *solid)
+{
+    dem_index *const old = lattice->ends;
+    lattice->n_springs = solid->n_springs;
+    lattice->ends = solid->ends;
+    solid->ends = old;
+    swap(&lattice->mass, &solid->mass);
+    swap(&lattice->rest_length, &solid->rest_length);
+    swap(&lattice->stiffness, &solid->stiffness);
+    swap(&lattice->viscosity, &solid->viscosity);
+    swap(&lattice->guard, &solid->guard);
+    swap(&lattice->area_stiffness, &solid->area_stiffness);
+    swap(&lattice->thickness, &solid->thickness);
+    swap(&lattice->modulus, &solid->modulus);
+}
+
+static dem_status draw(draft *d)
+{
+    d->shares = lattice_zeros(3 * d->lattice->n_triangles, sizeof *d->shares);
+    d->solid.mass = lattice_zeros(d->lattice->n_nodes, sizeof *d->solid.mass);
+    CHECK(d->shares && d->solid.mass, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)d->lattice->n_nodes);
+    TRY(share_all(d));
+    TRY(fill_springs(d));
+    return fill_triangles(d);
+}
+
+static dem_status check_materials(const draft *d, dem_index n_materials)
+{
+    CHECK(n_materials > 0, DEM_ERROR_ARGUMENT, "the number of materials must be > 0: %lld", (long long)n_materials);
+    for (dem_index k = 0; k < n_materials; k++) {
+        const dem_material *m = d->materials != NULL ? d->materials + k : NULL;
+        TRY(check_material(m));
+        CHECK(n_materials == 1 || m->bond_stiffness == 0.0, DEM_ERROR_ARGUMENT,
+              "a bond stiffness, %g N, is for bodies of one material", m->bond_stiffness);
+        if (d->cells && m->bond_stiffness == 0.0) TRY(check_diagonal(plate_of(m), d->diagonal));
+    }
+    for (dem_index t = 0; d->of != NULL && t < d->lattice->n_triangles; t++)
+        CHECK(d->of[t] >= 0 && d->of[t] < n_materials, DEM_ERROR_ARGUMENT,
+              "triangle %lld has material %lld, but there are %lld", (long long)t, (long long)d->of[t],
+              (long long)n_materials);
+    return DEM_OK;
+}
+
+static dem_status check_lattice(const dem_lattice *lattice, bool cells)
+{
+    TRY(lattice_check(lattice));
+    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "the lattice already has %lld springs",
+          (long long)lattice->n_springs);
+    CHECK(lattice->n_triangles > 0, DEM_ERROR_MODEL, "a lattice without triangles cannot be assembled");
+    CHECK(!cells || lattice->n_triangles % 2 == 0, DEM_ERROR_MODEL, "%lld triangles do not pair up to cells",
+          (long long)lattice->n_triangles);
+    return DEM_OK;
+}
+
+dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials, dem_index n_materials,
+                                      const dem_index *of, double diagonal)
+{
+    const bool cells = diagonal != 0.0;
+    draft d = {
+        .lattice = lattice, .materials = materials, .of = of, .cells = cells, .diagonal = cells ? diagonal : 0.5};
+    CHECK(!cells || is_positive(diagonal), DEM_ERROR_ARGUMENT,
+          "the stiffness of a diagonal over a side's must be > 0: %g", diagonal);
+    TRY(check_lattice(lattice, cells));
+    TRY(check_materials(&d, n_materials));
+    dem_lattice_init(&d.solid);
+    const dem_status status = draw(&d);
+    if (status == DEM_OK) give(lattice, &d.solid);
+    dem_lattice_free(&d.solid);
+    free(d.shares);
+    return status;
+}
+
+dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material)
+{
+    return dem_lattice_assemble_mixed(lattice, material, 1, NULL, 0.0);
+}
+
+dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal)
+{
+    CHECK(is_positive(diagonal), DEM_ERROR_ARGUMENT, "the stiffness of a diagonal over a side's must be > 0: %g",
+          diagonal);
+    return dem_lattice_assemble_mixed(lattice, material, 1, NULL, diagonal);
+}

@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Equilateral triangulations and square cells of simple shapes, holes in them, and nodes moved at random. */
+#include <dem/dem.h>
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/random.h"
+#include "base/status.h"
+#include "base/vec2.h"
+#include "lattice/lattice.h"
+#include "lattice/mesh_edges.h"
+
+static const double max_nodes = 1099511627776.0; /* 2^40: no byte count of an array overflows */
+static const double sqrt3_2 = 0.86602540378443864676;
+static const double least_area = 0.1; /* of a triangle, over what it was before its nodes were moved */
+
+/* ---- equilateral triangulations ---- */
+
+/* Rows first <= 0 .. last >= 0 of an equilateral grid. Nodes are at x = s spacing/2 with whole s, |s| <= reach; s has
+ * the parity of reach in even rows, the other one in odd rows. So x is mirror symmetric to the bit. */
+typedef struct grid {
+    dem_index reach, first, last;
+    double spacing;
+} grid;
+
+static bool is_wide(dem_index row)
+{
+    return row % 2 == 0;
+}
+
+static double *grid_nodes(const grid *g, dem_index n)
+{
+    double *x = lattice_zeros(n, 2 * sizeof *x), *next = x;
+    if (x == NULL) return NULL;
+    for (dem_index row = g->first; row <= g->last; row++) {
+        const dem_index reach = is_wide(row) ? g->reach : g->reach - 1;
+        for (dem_index s = -reach; s <= reach; s += 2) {
+            *next++ = (double)s * (0.5 * g->spacing);
+            *next++ = (double)row * (sqrt3_2 * g->spacing);
+        }
+    }
+    return x;
+}
+
+static dem_index *put_triangle(dem_index *next, dem_index i, dem_index j, dem_index k)
+{
+    next[0] = i;
+    next[1] = j;
+    next[2] = k;
+    return next + 3;
+}
+
+static dem_index *grid_triangles(const grid *g, dem_index n)
+{
+    dem_index *triangles = lattice_zeros(n, 3 * sizeof *triangles), *next = triangles, low = 0;
+    if (triangles == NULL) return NULL;
+    for (dem_index row = g->first; row < g->last; row++) {
+        const bool wide = is_wide(row);
+        const dem_index high = low + g->reach + (wide ? 1 : 0);
+        for (dem_index k = 0; k < g->reach; k++) { /* on the wider row, then on the narrower */
+            next = wide ? put_triangle(next, low + k, low + k + 1, high + k)
+                        : put_triangle(next, low + k, high + k + 1, high + k);
+            if (k + 1 == g->reach) break;
+            next = wide ? put_triangle(next, low + k + 1, high + k + 1, high + k)
+                        : put_triangle(next, low + k, low + k + 1, high + k + 1);
+        }
+        low = high;
+    }
+    return triangles;
+}
+
+/* Hands a lattice over that may lack memory. */
+static dem_status finish(dem_lattice *out, dem_lattice *lattice)
+{
+    const dem_index n = lattice->n_nodes;
+    if (lattice->x == NULL || lattice->triangles == NULL) {
+        dem_lattice_free(lattice);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
+    }
+    *out = *lattice;
+    return DEM_OK;
+}
+
+static dem_status grid_lattice(dem_lattice *out, const grid *g)
+{
+    const dem_index wide = g->last / 2 - g->first / 2 + 1;
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = (g->last - g->first + 1) * g->reach + wide;
+    lattice.n_triangles = (g->last - g->first) * (2 * g->reach - 1);
+    lattice.x = grid_nodes(g, lattice.n_nodes);
+    lattice.triangles = grid_triangles(g, lattice.n_triangles);
+    return finish(out, &lattice);
+}
+
+/* ---- square cells ---- */
+
+static double *square_nodes(dem_index columns, dem_index rows, double spacing)
+{
+    double *x = lattice_zeros((columns + 1) * (rows + 1), 2 * sizeof *x), *next = x;
+    for (dem_index r = 0; x != NULL && r <= rows; r++)
+        for (dem_index c = 0; c <= columns; c++) {
+            *next++ = (double)(2 * c - columns) * (0.5 * spacing);
+            *next++ = (double)r * spacing;
+        }
+    return x;
+}
+
+/* The triangles of a cell meet along one diagonal or the other, like the fields of a chessboard. */
+static dem_index *square_triangles(dem_index columns, dem_index rows)
+{
+    dem_index *triangles = lattice_zeros(2 * columns * rows, 3 * sizeof *triangles), *next = triangles;
+    for (dem_index r = 0; triangles != NULL && r < rows; r++)
+        for (dem_index c = 0; c < columns; c++) {
+            const dem_index a = r * (columns + 1) + c, b = a + 1, d = a + columns + 1;
+            const bool rising = (r + c) % 2 == 0;
+            next = put_triangle(next, a, b, rising ? d + 1 : d);
+            next = put_triangle(next, rising ? a : b, d + 1, d);
+        }
+    return triangles;
+}
+
+/* ---- equilateral triangles: shapes ---- */
+
+static int is_in_disc(void *context, const double x[2])
+{
+    const double *radius = context;
+    return vec2_norm(vec2_at(x, 0)) <= *radius;
+}
+
+static bool is_positive(double value)
+{
+    return isfinite(value) && value > 0.0;
+}
+
+static dem_status check_rectangle(const dem_lattice *out, double width, double height, double spacing)
+{
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
+    CHECK(is_positive(spacing) && spacing <= width && spacing <= height && isfinite(width) && isfinite(height),
+          DEM_ERROR_ARGUMENT, "a rectangle of %g m x %g m cannot have the spacing %g m", width, height, spacing);
+    return DEM_OK;
+}
+
+static dem_status check_size(double width, double height, double spacing, double nodes)
+{
+    CHECK(nodes <= max_nodes, DEM_ERROR_MODEL,
+          "a rectangle of %g m x %g m with the spacing %g m would have %.3g nodes; the limit is %.3g", width, height,
+          spacing, nodes, max_nodes);
+    return DEM_OK;
+}
+
+/* ---- nodes moved at random ---- */
+
+/* Uniform in a disc. */
+static vec2 random_shift(uint64_t *state, double radius)
+{
+    vec2 place;
+    do place = (vec2){random_next(state), random_next(state)};
+    while (vec2_dot(place, place) > 1.0);
+    return vec2_scale(radius, place);
+}
+
+static double area_of(const double *x, const dem_index *corner)
+{
+    const vec2 a = vec2_at(x, corner[0]);
+    return 0.5 * vec2_cross(vec2_sub(vec2_at(x, corner[1]), a), vec2_sub(vec2_at(x, corner[2]), a));
+}
+
+static dem_status check_areas(const dem_lattice *l)
+{
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        CHECK(is_positive(area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
+              "triangle %lld has the area %g m^2; it must be > 0 to be jittered", (long long)t,
+              area_of(l->x, l->triangles + 3 * t));
+    return DEM_OK;
+}
+
+/* Brings the corners of triangles that lost most of their area half way back, until there are none. */
+static void relent(const dem_lattice *l, double *x)
+{
+    for (bool again = true; again;) {
+        again = false;
+        for (dem_index t = 0; t < l->n_triangles; t++) {
+            const dem_index *corner = l->triangles + 3 * t;
+            if (area_of(x, corner) >= least_area * area_of(l->x, corner)) continue;
+            again = true;
+            for (int c = 0; c < 3; c++) {
+                const vec2 before = vec2_at(l->x, corner[c]), shift = vec2_sub(vec2_at(x, corner[c]), before);
+                vec2_put(x, corner[c], vec2_along(before, 0.5, shift));
+            }
+        }
+    }
+}
+
+/* ---- public ---- */
+
+dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing)
+{
+    TRY(check_rectangle(out, width, height, spacing));
+    const double columns = round(width / spacing), strips = round(height / (sqrt3_2 * spacing));
+    TRY(check_size(width, height, spacing, (strips + 1.0) * (columns + 1.0)));
+    const grid g = {.reach = (dem_index)columns, .first = 0, .last = (dem_index)strips, .spacing = spacing};
+    return grid_lattice(out, &g);
+}
+
+dem_status dem_lattice_squares(dem_lattice *out, double width, double height, double spacing)
+{
+    TRY(check_rectangle(out, width, height, spacing));
+    const double columns = round(width / spacing), rows = round(height / spacing);
+    TRY(check_size(width, height, spacing, (columns + 1.0) * (rows + 1.0)));
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = ((dem_index)columns + 1) * ((dem_index)rows + 1);
+    lattice.n_triangles = 2 * (dem_index)columns * (dem_index)rows;
+    lattice.x = square_nodes((dem_index)columns, (dem_index)rows, spacing);
+    lattice.triangles = square_triangles((dem_index)columns, (dem_index)rows);
+    return finish(out, &lattice);
+}
+
+dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
+{
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
+    CHECK(is_positive(spacing) && spacing <= radius && isfinite(radius), DEM_ERROR_ARGUMENT,
+          "a disc of radius %g m cannot have the spacing %g m", radius, spacing);
+    double reach = radius + 1e-9 * spacing; /* a radius of whole spacings has its last nodes */
+    const double steps = floor(reach / spacing), strips = floor(reach / (sqrt3_2 * spacing));
+    const double nodes = (2.0 * strips + 1.0) * (2.0 * steps + 3.0);
+    CHECK(nodes <= max_nodes, DEM_ERROR_MODEL,
+          "a disc of radius %g m with the spacing %g m would have %.3g nodes; the limit is %.3g", radius, spacing,
+          nodes, max_nodes);
+    const dem_index columns = (dem_index)steps + 1, rows = (dem_index)strips;
+    const grid g = {.reach = 2 * columns, .first = -rows, .last = rows, .spacing = spacing};
+    dem_lattice lattice;
+    TRY(grid_lattice(&lattice, &g));
+    const dem_status status = dem_lattice_cut(&lattice, is_in_disc, &reach);
+    if (status == DEM_OK)
+        *out = lattice;
+    else
+        dem_lattice_free(&lattice);
+    return status;
+}
+
+dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context)
+{
+    TRY(lattice_check(lattice));
+    CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
+    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be cut: %lld springs",
+          (long long)lattice->n_springs);
+    unsigned char *stays = lattice_zeros(lattice->n_nodes, sizeof *stays);
+    unsigned char *whole = lattice_zeros(lattice->n_triangles, sizeof *whole);
+    const bool complete = stays != NULL && whole != NULL;
+    for (dem_index i = 0; complete && i < lattice->n_nodes; i++) stays[i] = keep(context, lattice->x + 2 * i) != 0;
+    for (dem_index t = 0; complete && t < lattice->n_triangles; t++) {
+        const dem_index *corner = lattice->triangles + 3 * t;
+        whole[t] = stays[corner[0]] && stays[corner[1]] && stays[corner[2]];
+    }
+    const dem_status status =
+        complete ? dem_lattice_trim(lattice, whole) : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    free(stays);
+    free(whole);
+    return status;
+}
+
+dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed)
+{
+    TRY(lattice_check(lattice));
+    CHECK(isfinite(radius) && radius >= 0.0, DEM_ERROR_ARGUMENT, "the radius of the jitter must be >= 0: %g m", radius);
+    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be jittered: %lld springs",
+          (long long)lattice->n_springs);
+    CHECK(lattice->n_triangles > 0, DEM_ERROR_MODEL, "a lattice without triangles cannot be jittered");
+    TRY(check_areas(lattice));
+    unsigned char *rim = lattice_zeros(lattice->n_nodes, sizeof *rim);
+    double *x = lattice_zeros(lattice->n_nodes, 2 * sizeof *x);
+    dem_status status =
+        rim != NULL && x != NULL ? sides_contact_flags(rim, lattice) : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) {
+        const vec2 shift = random_shift(&seed, radius), none = {0.0, 0.0};
+        vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), rim[i] != 0 ? none : shift));
+    }
+    if (status == DEM_OK) {
+        relent(lattice, x);
+        double *const old = lattice->x;
+        lattice->x = x;
+        x = old;
+    }
+    free(rim);
+    free(x);
+    return status;
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The highest frequency about the rest shape, by Lanczos iteration on M^-1/2 K M^-1/2: in the basis q_1, q_2, ... of
+ * the iterates this matrix is tridiagonal, with `diagonal` and `beside` it; its largest eigenvalue theta rises to that
+ * of the whole. Some eigenvalue is within the residual beside_m |s_m| of theta, s its unit eigenvector. */
+#include <stdlib.h>
+
+#include "base/random.h"
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "model/tangent_stiffness.h"
+
+enum { most_iterations = 2000 };
+
+static const double accepted = 1e-6; /* residual over theta; the error of theta is of the order of its square */
+
+typedef struct lanczos {
+    const dem_model *model;
+    dem_index m;                      /* iterations */
+    double diagonal[most_iterations]; /* 1/s^2 */
+    double beside[most_iterations];   /* beside[k] joins k and k + 1 */
+    double *vector, *last;            /* [n][2] q_m, q_(m-1) */
+    double *scaled, *image;           /* [n][2] */
+} lanczos;
+
+/* ---- the tridiagonal matrix ---- */
+
+/* Whether an eigenvalue is above x: a pivot of x - T is then negative. */
+static bool is_below_the_largest(const lanczos *l, double x)
+{
+    double pivot = x - l->diagonal[0];
+    for (dem_index k = 1; k < l->m && pivot > 0.0; k++)
+        pivot = x - l->diagonal[k] - l->beside[k - 1] * l->beside[k - 1] / pivot;
+    return !(pivot > 0.0);
+}
+
+static double largest_of(const lanczos *l)
+{
+    double low = 0.0, high = 0.0; /* Gershgorin's circles */
+    for (dem_index k = 0; k < l->m; k++)
+        high = fmax(high, l->diagonal[k] + (k > 0 ? l->beside[k - 1] : 0.0) + (k + 1 < l->m ? l->beside[k] : 0.0));
+    while (true) {
+        const double middle = 0.5 * (low + high);
+        if (!(middle > low && middle < high)) return high;
+        if (is_below_the_largest(l, middle))
+            low = middle;
+        else
+            high = middle;
+    }
+}
+
+/* |s_m| of the unit eigenvector of theta, from below: there it grows, and rounding with it dies out. What is left where
+ * it has fallen again does not matter. */
+static double last_component(const lanczos *l, double theta)
+{
+    double here = 1.0, below = 0.0, squares = 1.0, peak = 1.0;
+    for (dem_index k = l->m - 1; k > 0 && fabs(here) > 1e-3 * peak; k--) {
+        const double above =
+            ((theta - l->diagonal[k]) * here - (k + 1 < l->m ? l->beside[k] * below : 0.0)) / l->beside[k - 1];
+        below = here;
+        here = above;
+        squares += here * here;
+        peak = fmax(peak, fabs(here));
+    }
+    return 1.0 / sqrt(squares);
+}
+
+/* ---- the iteration ---- */
+
+static double product(const lanczos *l, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+/* Every mode is in it: random numbers; 0 where a node is fixed. */
+static void start(lanczos *l)
+{
+    uint64_t state = 1;
+    for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) {
+        const double value = random_next(&state);
+        l->vector[k] = l->model->inverse_mass[k / 2] > 0.0 ? value : 0.0;
+    }
+    const double size = sqrt(product(l, l->vector, l->vector));
+    for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes && size > 0.0; k++) l->vector[k] /= size;
+}
+
+/* image = M^-1/2 K M^-1/2 vector */
+static void apply(lanczos *l)
+{
+    const dem_model *model = l->model;
+    const dem_index n = model->lattice.n_nodes;
+    for (dem_index i = 0; i < n; i++)
+        vec2_put(l->scaled, i, vec2_scale(sqrt(model->inverse_mass[i]), vec2_at(l->vector, i)));
+    tangent_apply(model, model->lattice.x, l->scaled, l->image);
+    for (dem_index i = 0; i < n; i++)
+        vec2_put(l->image, i, vec2_scale(sqrt(model->inverse_mass[i]), vec2_at(l->image, i)));
+}
+
+/* Takes out of the image what it has of q_m and q_(m-1); what is left, made a unit vector, is the next. Its size. */
+static double next(lanczos *l)
+{
+    const dem_index n = 2 * l->model->lattice.n_nodes;
+    const double before = l->m > 0 ? l->beside[l->m - 1] : 0.0, here = product(l, l->image, l->vector);
+    for (dem_index k = 0; k < n; k++) l->image[k] -= here * l->vector[k] + before * l->last[k];
+    const double size = sqrt(product(l, l->image, l->image));
+    for (dem_index k = 0; k < n; k++) {
+        l->last[k] = l->vector[k];
+        l->vector[k] = size > 0.0 ? l->image[k] / size : 0.0;
+    }
+    l->diagonal[l->m] = here;
+    l->beside[l->m++] = size;
+    return size;
+}
+
+static dem_status iterate(lanczos *l, double *omega)
+{
+    start(l);
+    while (l->m < most_iterations) {
+        apply(l);
+        const double size = next(l), theta = largest_of(l);
+        *omega = sqrt(theta);
+        if (size * last_component(l, theta) <= accepted * theta) return DEM_OK;
+    }
+    return status_fail(DEM_ERROR_MODEL, "the highest frequency is not found in %d iterations; it is near %g rad/s",
+                       (int)most_iterations, *omega);
+}
+
+dem_status dem_model_omega(const dem_model *model, double *omega)
+{
+    CHECK(model != NULL && omega != NULL, DEM_ERROR_ARGUMENT, "dem_model_omega: %s is NULL", model ? "omega" : "model");
+    const dem_index n = model->lattice.n_nodes;
+    double *vectors = lattice_zeros(4 * n, 2 * sizeof *vectors), found = 0.0;
+    lanczos *l = calloc(1, sizeof *l);
+    dem_status status = DEM_ERROR_MEMORY;
+    if (vectors == NULL || l == NULL) {
+        (void)status_fail(status, "out of memory for %lld nodes", (long long)n);
+    } else {
+        *l = (lanczos){.model = model, .vector = vectors, .last = vectors + 2 * n};
+        l->scaled = vectors + 4 * n;
+        l->image = vectors + 6 * n;
+        status = iterate(l, &found);
+        if (status == DEM_OK) *omega = found;
+    }
+    free(vectors);
+    free(l);
+    return status;
+}

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Validates a lattice and obstacles, copies them and compiles CSR, triangle rows, segments and contact sites. */
+#include "model/model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "lattice/mesh_edges.h"
+
+/* ---- validation ---- */
+
+static dem_status check_pairs(const char *what, const double *array, dem_index n)
+{
+    for (dem_index i = 0; array != NULL && i < n; i++)
+        CHECK(isfinite(array[2 * i]) && isfinite(array[2 * i + 1]), DEM_ERROR_MODEL,
+              "node %lld: %s (%g, %g) is not finite", (long long)i, what, array[2 * i], array[2 * i + 1]);
+    return DEM_OK;
+}
+
+static dem_status check_nodes(const dem_lattice *l)
+{
+    CHECK(l->n_nodes > 0, DEM_ERROR_MODEL, "the lattice has no nodes");
+    CHECK(l->x != NULL && l->mass != NULL, DEM_ERROR_ARGUMENT, "the lattice has no array of %s",
+          l->x == NULL ? "positions" : "masses");
+    TRY(check_pairs("rest position", l->x, l->n_nodes));
+    TRY(check_pairs("initial position", l->position, l->n_nodes));
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        CHECK(isfinite(l->mass[i]) && l->mass[i] > 0.0, DEM_ERROR_MODEL, "node %lld: mass must be > 0, got %g kg",
+              (long long)i, l->mass[i]);
+        CHECK(l->body == NULL || (l->body[i] >= 0 && l->body[i] < l->n_nodes), DEM_ERROR_MODEL,
+              "node %lld: body number %d is not in 0 to %lld", (long long)i, l->body[i], (long long)(l->n_nodes - 1));
+    }
+    return check_pairs("initial velocity", l->velocity, l->n_nodes); /* masses may have made them */
+}
+
+static dem_status check_springs(const dem_lattice *l)
+{
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index i = l->ends[2 * k], j = l->ends[2 * k + 1];
+        CHECK(i != j, DEM_ERROR_MODEL, "spring %lld joins node %lld to itself", (long long)k, (long long)i);
+        CHECK(l->x[2 * i] != l->x[2 * j] || l->x[2 * i + 1] != l->x[2 * j + 1], DEM_ERROR_MODEL,
+              "spring %lld: its nodes %lld and %lld are at the same place", (long long)k, (long long)i, (long long)j);
+        CHECK(isfinite(l->rest_length[k]) && l->rest_length[k] > 0.0, DEM_ERROR_MODEL,
+              "spring %lld: rest length must be > 0, got %g m", (long long)k, l->rest_length[k]);
+        CHECK(isfinite(l->stiffness[k]) && l->stiffness[k] > 0.0, DEM_ERROR_MODEL,
+              "spring %lld: stiffness must be > 0, got %g N", (long long)k, l->stiffness[k]);
+        CHECK(l->viscosity == NULL || (isfinite(l->viscosity[k]) && l->viscosity[k] >= 0.0), DEM_ERROR_MODEL,
+              "spring %lld: viscosity must be >= 0, got %g N s", (long long)k, l->viscosity[k]);
+        CHECK(l->body == NULL || l->body[i] == l->body[j], DEM_ERROR_MODEL, "spring %lld joins bodies %d and %d",
+              (long long)k, l->body[i], l->body[j]);
+    }
+    return DEM_OK;
+}
+
+static dem_status check_triangles(const dem_lattice *l)
+{
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *c = &l->triangles[3 * k];
+        const double area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        CHECK(area > 0.0, DEM_ERROR_MODEL, "triangle %lld (nodes %lld, %lld, %lld): area must be > 0, got %g m^2",
+              (long long)k, (long long)c[0], (long long)c[1], (long long)c[2], area);
+        CHECK(l->guard == NULL || (isfinite(l->guard[k]) && l->guard[k] >= 0.0), DEM_ERROR_MODEL,
+              "triangle %lld: guard must be >= 0, got %g N/m", (long long)k, l->guard[k]);
+        CHECK(l->area_stiffness == NULL || isfinite(l->area_stiffness[k]), DEM_ERROR_MODEL,
+              "triangle %lld: area stiffness must be finite, got %g N/m", (long long)k, l->area_stiffness[k]);
+        CHECK(l->thickness == NULL || (isfinite(l->thickness[k]) && l->thickness[k] > 0.0), DEM_ERROR_MODEL,
+              "triangle %lld: thickness must be > 0, got %g m", (long long)k, l->thickness[k]);
+        CHECK(l->modulus == NULL || (isfinite(l->modulus[k]) && l->modulus[k] > 0.0), DEM_ERROR_MODEL,
+              "triangle %lld: modulus must be > 0, got %g Pa", (long long)k, l->modulus[k]);
+    }
+    return DEM_OK;
+}
+
+static dem_status check_lattice(const dem_lattice *l)
+{
+    CHECK(l->dim == 2, DEM_ERROR_ARGUMENT, "the lattice has dimension %d, only 2 is supported", l->dim);
+    TRY(check_nodes(l));
+    TRY(lattice_check(l));
+    TRY(check_springs(l));
+    return check_triangles(l);
+}
+
+/* A node without springs is legal only as a body of its own; body numbers have no holes. */
+static dem_status check_bodies(const dem_model *m)
+{
+    dem_index *size = lattice_zeros(m->n_bodies, sizeof *size);
+    CHECK_MEMORY(size);
+    const dem_lattice *l = &m->lattice;
+    dem_index loose = -1, empty = -1;
+    for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
+    for (dem_index i = l->n_nodes - 1; i >= 0; i--)
+        if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1) loose = i;
+    for (dem_index b = m->n_bodies - 1; b >= 0; b--)
+        if (size[b] == 0) empty = b;
+    free(size);
+    CHECK(loose < 0, DEM_ERROR_MODEL, "node %lld at (%g, %g) m has no springs, though body %d has other nodes",
+          (long long)loose, l->x[2 * loose], l->x[2 * loose + 1], l->body[loose]);
+    CHECK(empty < 0, DEM_ERROR_MODEL, "body %lld has no nodes, though there are bodies up to %lld", (long long)empty,
+          (long long)(m->n_bodies - 1));
+    return DEM_OK;
+}
+
+/* ---- compilation ---- */
+
+static dem_status fill_defaults(dem_lattice *l)
+{
+    const dem_index n = l->n_nodes;
+    const size_t pairs = 2 * (size_t)n * sizeof(double);
+    if (l->body == NULL) CHECK_MEMORY(l->body = lattice_zeros(n, sizeof *l->body));
+    if (l->velocity == NULL) CHECK_MEMORY(l->velocity = lattice_zeros(2 * n, sizeof *l->velocity));
+    if (l->position == NULL) {
+        CHECK_MEMORY(l->position = malloc(pairs));
+        memcpy(l->position, l->x, pairs);
+    }
+    if (l->flags == NULL) {
+        CHECK_MEMORY(l->flags = lattice_zeros(n, sizeof *l->flags));
+        TRY(sides_contact_flags(l->flags, l));
+    }
+    for (dem_index i = 0; i < n; i++)
+        if (l->flags[i] & DEM_NODE_FIXED) vec2_put(l->velocity, i, (vec2){0.0, 0.0});
+    return DEM_OK;
+}
+
+static dem_status compile_nodes(dem_model *m)
+{
+    const dem_lattice *l = &m->lattice;
+    m->inverse_mass = lattice_zeros(l->n_nodes, sizeof *m->inverse_mass);
+    m->sites = lattice_zeros(l->n_nodes, sizeof *m->sites);
+    CHECK(m->inverse_mass && m->sites, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const int fixed = l->flags[i] & DEM_NODE_FIXED;
+        m->inverse_mass[i] = fixed ? 0.0 : 1.0 / l->mass[i];
+        if ((l->flags[i] & DEM_NODE_CONTACT) && !fixed) m->sites[m->n_sites++] = i;
+        if (l->body[i] >= m->n_bodies) m->n_bodies = l->body[i] + 1;
+        m->mass += l->mass[i];
+    }
+    return DEM_OK;
+}
+
+/* Springs make at most twice their blocks, triangles three times theirs: (g.u)^2 <= 3 sum of (g_i.u_i)^2. */
+static double frequency_bound(const dem_model *m)
+{
+    const double *x = m->lattice.x;
+    double squared = 0.0;
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
+        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness, i, x);
+        const sym2 areas = triangles_block(&m->triangles, i, x);
+        const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
+                          2.0 * bonds.yy + 3.0 * areas.yy};
+        const double bound = sym2_largest(sum) * m->inverse_mass[i];
+        if (!isfinite(bound)) return (double)INFINITY;
+        squared = fmax(squared, bound);
+    }
+    return sqrt(squared);
+}
+
+static void compile_scales(dem_model *m)
+{
+    const dem_lattice *l = &m->lattice;
+    for (dem_index k = 0; k < l->n_springs; k++)
+        m->spacing = k == 0 ? l->rest_length[0] : fmin(m->spacing, l->rest_length[k]);
+    m->omega_max = frequency_bound(m);
+}
+
+static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
+{
+    TRY(check_lattice(lattice));
+    dem_lattice_init(&m->lattice);
+    TRY(dem_lattice_append(&m->lattice, lattice));
+    TRY(fill_defaults(&m->lattice));
+    TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(layout_compile(&m->layout, &m->springs, &m->triangles));
+    TRY(surface_compile(&m->surface, &m->lattice));
+    TRY(stress_compile(&m->stress, &m->lattice, &m->springs));
+    TRY(obstacles_compile(&m->obstacles, list, n));
+    TRY(compile_nodes(m));
+    compile_scales(m);
+    CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
+    return check_bodies(m);
+}
+
+/* ---- public ---- */
+
+dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                            dem_index n_obstacles)
+{
+    CHECK(out != NULL && lattice != NULL, DEM_ERROR_ARGUMENT, "dem_model_create: %s is NULL", out ? "lattice" : "out");
+    CHECK(n_obstacles >= 0 && (n_obstacles == 0 || obstacles != NULL), DEM_ERROR_ARGUMENT,
+          "dem_model_create: %lld obstacles, obstacles is %s", (long long)n_obstacles, obstacles ? "given" : "NULL");
+    dem_model *model = calloc(1, sizeof *model);
+    CHECK_MEMORY(model);
+    const dem_status status = compile(model, lattice, obstacles, n_obstacles);
+    if (status == DEM_OK)
+        *out = model;
+    else
+        dem_model_destroy(model);
+    return status;
+}
+
+void dem_model_destroy(dem_model *model)
+{
+    if (model == NULL) return;
+    dem_lattice_free(&model->lattice);
+    springs_free(&model->springs);
+    triangles_free(&model->triangles);
+    layout_free(&model->layout);
+    surface_free(&model->surface);
+    stress_free(&model->stress);
+    obstacles_free(&model->obstacles);
+    free(model->inverse_mass);
+    free(model->sites);
+    free(model);
+}
+
+dem_csr dem_model_csr(const dem_model *model)
+{
+    const springs *s = &model->springs;
+    return (dem_csr){s->n_nodes, s->row, s->neighbour, s->spring, s->stiffness, s->rest_length, s->viscosity};
+}
+
+const dem_lattice *dem_model_lattice(const dem_model *model)
+{
+    return &model->lattice;
+}
+
+const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles)
+{
+    *n_obstacles = model->obstacles.n;
+    return model->obstacles.list;
+}
+
+dem_model_size dem_model_sizes(const dem_model *model)
+{
+    return (dem_model_size){.n_nodes = model->lattice.n_nodes,
+                            .n_springs = model->lattice.n_springs,
+                            .n_triangles = model->lattice.n_triangles,
+                            .n_bodies = model->n_bodies,
+                            .n_contact_nodes = model->n_sites,
+                            .n_contact_edges = model->surface.n_edges,
+                            .n_obstacles = model->obstacles.n,
+                            .n_segments = model->obstacles.n_segments,
+                            .n_vertices = model->obstacles.n_vertices};
+}
+
+double dem_model_spacing(const dem_model *model)
+{
+    return model->spacing;
+}
+
+double dem_model_omega_max(const dem_model *model)
+{
+    return model->omega_max;
+}
+
+double dem_model_mass(const dem_model *model)
+{
+    return model->mass;
+}
+
+const double *dem_model_volumes(const dem_model *model)
+{
+    return model->stress.volume;
+}
+
+double dem_model_gap(const dem_model *model, const double x[2])
+{
+    return obstacles_gap(&model->obstacles, vec2_at(x, 0), 0.0, -1, -1).distance;
+}

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Triangles look at the boundary nodes in the cells that they reach into. */
+#include "model/overlap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "elastic/triangles.h"
+#include "lattice/mesh_edges.h"
+
+/* Of a triangle's area: a node that only touches an edge is not inside. */
+static const double touching = 1e-9;
+
+dem_status overlap_create(overlap *out, const dem_lattice *lattice)
+{
+    overlap o = {.found = {.node = -1, .triangle = -1}};
+    *out = o;
+    if (lattice->n_triangles == 0) return DEM_OK;
+    unsigned char *flags = malloc((size_t)lattice->n_nodes);
+    o.nodes = malloc((size_t)lattice->n_nodes * sizeof *o.nodes);
+    o.n_cells = lattice->n_triangles;
+    o.first = malloc((size_t)o.n_cells * sizeof *o.first);
+    dem_status status = flags != NULL && o.nodes != NULL && o.first != NULL
+                            ? sides_contact_flags(flags, lattice)
+                            : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    for (dem_index i = 0; i < lattice->n_nodes && status == DEM_OK; i++)
+        if (flags[i] & DEM_NODE_CONTACT) o.nodes[o.n++] = i;
+    free(flags);
+    o.next = malloc(((size_t)o.n + 1) * sizeof *o.next);
+    if (status == DEM_OK && o.next == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK)
+        *out = o;
+    else
+        overlap_destroy(&o);
+    return status;
+}
+
+void overlap_destroy(overlap *o)
+{
+    free(o->nodes);
+    free(o->first);
+    free(o->next);
+    o->nodes = NULL;
+    o->first = o->next = NULL;
+}
+
+/* ---- cells ---- */
+
+static dem_index cell_of(double x, double start, double per_length, dem_index n)
+{
+    if (!(x > start)) return 0;
+    const double place = (x - start) * per_length;
+    return place < (double)n ? (dem_index)place : n - 1;
+}
+
+static dem_index column_of(const overlap *o, double x)
+{
+    return cell_of(x, o->left, o->cells_per_length, o->columns);
+}
+
+static dem_index row_of(const overlap *o, double y)
+{
+    return cell_of(y, o->low, o->cells_per_length, o->rows);
+}
+
+/* As many cells as there are triangles, or fewer, over all boundary nodes. */
+static void fill_cells(overlap *o, const double *x)
+{
+    double right = -INFINITY, high = -INFINITY;
+    o->left = o->low = INFINITY;
+    for (dem_index p = 0; p < o->n; p++) {
+        const vec2 at = vec2_at(x, o->nodes[p]);
+        o->left = fmin(o->left, at.x);
+        o->low = fmin(o->low, at.y);
+        right = fmax(right, at.x);
+        high = fmax(high, at.y);
+    }
+    const double width = right - o->left, height = high - o->low, n = (double)o->n_cells;
+    o->columns = o->rows = 1;
+    o->cells_per_length = 0.0;
+    if (width > 0.0 && height > 0.0 && n > 4.0) {
+        o->columns = (dem_index)fmin(fmax(floor(sqrt(n * width / height)), 1.0), n);
+        o->rows = o->n_cells / o->columns;
+        o->cells_per_length = fmin((double)o->columns / width, (double)o->rows / height);
+    }
+    for (dem_index c = 0; c < o->n_cells; c++) o->first[c] = -1;
+    for (dem_index p = o->n - 1; p >= 0; p--) {
+        const vec2 at = vec2_at(x, o->nodes[p]);
+        int32_t *first = &o->first[row_of(o, at.y) * o->columns + column_of(o, at.x)];
+        o->next[p] = *first;
+        *first = (int32_t)p;
+    }
+}
+
+/* ---- triangles ---- */
+
+static bool is_inside(const dem_index *corner, dem_index i, const double *x)
+{
+    const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]), p = vec2_at(x, i);
+    if (i == corner[0] || i == corner[1] || i == corner[2]) return false;
+    const double least = touching * vec2_triangle_area(a, b, c);
+    return least > 0.0 && vec2_triangle_area(a, b, p) > least && vec2_triangle_area(b, c, p) > least &&
+           vec2_triangle_area(c, a, p) > least;
+}
+
+static void note(overlap *o, dem_index node, dem_index triangle, double t, const double *x)
+{
+    if (o->found.now++ > 0 || o->found.node >= 0) return;
+    o->found.t = t;
+    o->found.node = node;
+    o->found.triangle = triangle;
+    o->found.x[0] = x[2 * node];
+    o->found.x[1] = x[2 * node + 1];
+}
+
+static double least_of(double a, double b, double c)
+{
+    const double less = a < b ? a : b;
+    return less < c ? less : c;
+}
+
+static double most_of(double a, double b, double c)
+{
+    return -least_of(-a, -b, -c);
+}
+
+static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double t, const double *x)
+{
+    const dem_index *corner = &lattice->triangles[3 * k];
+    const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]);
+    const dem_index first = column_of(o, least_of(a.x, b.x, c.x)), last = column_of(o, most_of(a.x, b.x, c.x));
+    const dem_index top = row_of(o, most_of(a.y, b.y, c.y));
+    for (dem_index row = row_of(o, least_of(a.y, b.y, c.y)); row <= top; row++)
+        for (dem_index column = first; column <= last; column++)
+            for (int32_t p = o->first[row * o->columns + column]; p >= 0; p = o->next[p])
+                if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
+}
+
+void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x)
+{
+    o->found.now = 0;
+    if (o->n == 0) return;
+    fill_cells(o, x);
+    for (dem_index k = 0; k < lattice->n_triangles; k++) look_in(o, lattice, k, t, x);
+    if (o->found.now > o->found.most) o->found.most = o->found.now;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Whether bodies run into each other or into themselves, which nothing prevents: nodes of the boundary inside triangles
+ * of which they are no corners. */
+#ifndef DEM_MODEL_OVERLAP_H
+#define DEM_MODEL_OVERLAP_H
+
+#include <dem/dem.h>
+
+typedef struct overlap {
+    dem_index n, *nodes; /* [n] on the boundary of the triangulation */
+    dem_index n_cells, columns, rows;
+    int32_t *first, *next; /* [n_cells], [n] nodes in the cells of a grid over them all, as lists; -1: none */
+    double left, low, cells_per_length; /* m, where the grid begins; 1/m */
+    dem_overlap found;
+} overlap;
+
+/** Free with overlap_destroy. */
+dem_status overlap_create(overlap *out, const dem_lattice *lattice);
+void overlap_destroy(overlap *o);
+
+/** Looks at positions x [n_nodes][2] at t. Costs a few comparisons for each triangle. */
+void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x);
+
+#endif

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A spring's r x f goes to the triangles that have it for a side, or between whose outer corners it is, in proportion
+ * to modulus * thickness * area, and from each a third to every corner. A spring outside of all triangles gives half
+ * to each of its ends. */
+#include "model/stress.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "lattice/mesh_edges.h"
+
+/* ---- compilation ---- */
+
+/* Goes through the same shares twice: first it counts, then it writes. */
+typedef struct draft {
+    const dem_lattice *lattice;
+    const springs *springs;
+    sides sides;
+    bool *placed;    /* [n_springs] in a triangle */
+    dem_index *next; /* [n_nodes] slot to be written; while counting, number of slots */
+    bool writes;
+    stress_map *map;
+} draft;
+
+static double one_or(const double *array, dem_index k)
+{
+    return array != NULL ? array[k] : 1.0;
+}
+
+static double volume_of(const dem_lattice *l, dem_index triangle)
+{
+    const dem_index *c = &l->triangles[3 * triangle];
+    const double area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+    return one_or(l->thickness, triangle) * area;
+}
+
+static dem_index opposite(const dem_lattice *l, dem_index triangle, dem_index i, dem_index j)
+{
+    const dem_index *c = &l->triangles[3 * triangle];
+    return c[0] != i && c[0] != j ? c[0] : (c[1] != i && c[1] != j ? c[1] : c[2]);
+}
+
+/* The spring between two nodes, or -1. */
+static dem_index find_spring(const springs *s, dem_index i, dem_index j)
+{
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (s->neighbour[p] == j) return s->spring[p];
+    return -1;
+}
+
+static void give(draft *d, dem_index node, dem_index spring, double share)
+{
+    const dem_index p = d->next[node]++;
+    if (!d->writes) return;
+    d->map->spring[p] = spring;
+    d->map->share[p] = share;
+}
+
+/* Shares a spring between the triangles of the edge in slots p .. end - 1 of the sides. */
+static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index end)
+{
+    const dem_lattice *l = d->lattice;
+    double sum = 0.0;
+    for (dem_index q = p; q < end; q++)
+        sum += one_or(l->modulus, d->sides.list[q].triangle) * volume_of(l, d->sides.list[q].triangle);
+    for (dem_index q = p; q < end; q++) {
+        const dem_index t = d->sides.list[q].triangle;
+        const double share = one_or(l->modulus, t) * volume_of(l, t) / sum;
+        for (int c = 0; c < 3; c++) give(d, l->triangles[3 * t + c], spring, share / 3.0);
+    }
+    d->placed[spring] = true;
+}
+
+/* The spring along the edge of node i in slots p .. end - 1 of the sides; or else, where two triangles meet there, that
+ * between their outer corners. -1: there is none. */
+static dem_index spring_of(const draft *d, bool along, dem_index i, dem_index p, dem_index end)
+{
+    const side *list = d->sides.list;
+    const dem_index j = list[p].upper;
+    if (along) return find_spring(d->springs, i, j);
+    if (end - p != 2) return -1;
+    return find_spring(d->springs, opposite(d->lattice, list[p].triangle, i, j),
+                       opposite(d->lattice, list[p + 1].triangle, i, j));
+}
+
+static void give_edges(draft *d, bool along)
+{
+    for (dem_index i = 0; i < d->lattice->n_nodes; i++)
+        for (dem_index p = d->sides.row[i], end; p < d->sides.row[i + 1]; p = end) {
+            for (end = p + 1; end < d->sides.row[i + 1] && !sides_edge_begins(&d->sides, i, end);) end++;
+            const dem_index spring = spring_of(d, along, i, p, end);
+            if (spring >= 0 && !d->placed[spring]) give_triangles(d, spring, p, end);
+        }
+}
+
+static void give_all(draft *d)
+{
+    for (dem_index k = 0; k < d->lattice->n_springs; k++) d->placed[k] = false;
+    give_edges(d, true);
+    give_edges(d, false);
+    for (dem_index k = 0; k < 2 * d->lattice->n_springs; k++)
+        if (!d->placed[k / 2]) give(d, d->lattice->ends[k], k / 2, 0.5);
+}
+
+/* From counts to rows, and to the slots that are written first. */
+static void lay_rows(draft *d)
+{
+    dem_index *row = d->map->row;
+    for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
+        row[i + 1] = row[i] + d->next[i];
+        d->next[i] = row[i];
+    }
+}
+
+/* Adds up what a node has of the same spring from two triangles, which are neighbours in its row. */
+static void merge(stress_map *map, dem_index n_nodes)
+{
+    dem_index kept = 0;
+    for (dem_index i = 0, p = 0; i < n_nodes; i++) {
+        const dem_index end = map->row[i + 1], start = kept;
+        for (; p < end; p++) {
+            if (kept > start && map->spring[kept - 1] == map->spring[p]) {
+                map->share[kept - 1] += map->share[p];
+                continue;
+            }
+            map->spring[kept] = map->spring[p];
+            map->share[kept++] = map->share[p];
+        }
+        map->row[i + 1] = kept;
+    }
+}
+
+static void divide_by_volumes(stress_map *map, const dem_lattice *l)
+{
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) map->volume[l->triangles[k]] += volume_of(l, k / 3) / 3.0;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
+            map->share[p] = map->volume[i] > 0.0 ? map->share[p] / map->volume[i] : 0.0;
+}
+
+static dem_status compile(draft *d)
+{
+    const dem_lattice *l = d->lattice;
+    stress_map *map = d->map;
+    TRY(sides_create(&d->sides, l));
+    d->placed = lattice_zeros(l->n_springs, sizeof *d->placed);
+    d->next = lattice_zeros(l->n_nodes, sizeof *d->next);
+    map->row = lattice_zeros(l->n_nodes + 1, sizeof *map->row);
+    map->volume = lattice_zeros(l->n_nodes, sizeof *map->volume);
+    CHECK(d->placed && d->next && map->row && map->volume, DEM_ERROR_MEMORY, "out of memory");
+    give_all(d);
+    lay_rows(d);
+    map->spring = lattice_zeros(map->row[l->n_nodes], sizeof *map->spring);
+    map->share = lattice_zeros(map->row[l->n_nodes], sizeof *map->share);
+    CHECK(map->spring && map->share, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes",
+          (long long)l->n_nodes);
+    d->writes = true;
+    give_all(d);
+    merge(map, l->n_nodes);
+    divide_by_volumes(map, l);
+    return DEM_OK;
+}
+
+dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s)
+{
+    stress_map map = {0};
+    draft d = {.lattice = lattice, .springs = s, .map = &map};
+    const dem_status status = compile(&d);
+    sides_free(&d.sides);
+    free(d.placed);
+    free(d.next);
+    if (status == DEM_OK)
+        *out = map;
+    else
+        stress_free(&map);
+    return status;
+}
+
+void stress_free(stress_map *map)
+{
+    free(map->row);
+    free(map->spring);
+    free(map->share);
+    free(map->volume);
+    *map = (stress_map){0};
+}
+
+/* ---- stresses ---- */
+
+void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
+                    double stress[3])
+{
+    double xx = 0.0, yy = 0.0, xy = 0.0;
+    for (dem_index p = map->row[i]; p < map->row[i + 1]; p++) {
+        double virial[3];
+        springs_virial(lattice, map->spring[p], x, virial);
+        xx += map->share[p] * virial[0];
+        yy += map->share[p] * virial[1];
+        xy += map->share[p] * virial[2];
+    }
+    double spread = 0.0; /* of triangles, the same in all directions */
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
+        spread += triangles_virial(t, i, p, x) / (3.0 * map->volume[i]);
+    stress[0] = xx + spread;
+    stress[1] = yy + spread;
+    stress[2] = xy;
+}
+
+double dem_stress_von_mises(const double stress[3])
+{
+    const double xx = stress[0], yy = stress[1], xy = stress[2];
+    return sqrt(xx * xx - xx * yy + yy * yy + 3.0 * xy * xy);
+}
+
+void dem_stress_principal(const double stress[3], double value[2], double direction[2])
+{
+    const double mean = 0.5 * (stress[0] + stress[1]), half = 0.5 * (stress[0] - stress[1]), xy = stress[2];
+    const double radius = sqrt(half * half + xy * xy);
+    /* (S - value[1]) applied to the axis that it does not make small */
+    vec2 first = half >= 0.0 ? (vec2){half + radius, xy} : (vec2){xy, radius - half};
+    if (radius == 0.0) first = (vec2){1.0, 0.0};
+    const double sign = first.x < 0.0 ? -1.0 : 1.0;
+    value[0] = mean + radius;
+    value[1] = mean - radius;
+    vec2_put(direction, 0, vec2_scale(sign / vec2_norm(first), first));
+}

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sides of one triangle only, walked along each boundary. */
+#include "model/surface.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "base/vec2.h"
+#include "lattice/mesh_edges.h"
+
+/* An edge may be touched if both its nodes may and one of them moves. */
+static bool may_touch(const dem_lattice *l, dem_index a, dem_index b)
+{
+    return (l->flags[a] & l->flags[b] & DEM_NODE_CONTACT) && !(l->flags[a] & l->flags[b] & DEM_NODE_FIXED);
+}
+
+/* Whether side (i, j) of the triangle runs from i to j counter-clockwise. */
+static bool runs_from(const dem_index *corner, dem_index i, dem_index j)
+{
+    return (corner[0] == i && corner[1] == j) || (corner[1] == i && corner[2] == j) ||
+           (corner[2] == i && corner[0] == j);
+}
+
+/* Boundary edges from start to end, in the order of their lower nodes, into ends, or NULL; returns how many. */
+static dem_index find_edges(const dem_lattice *l, const sides *list, dem_index *ends)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        for (dem_index p = list->row[i]; p < list->row[i + 1]; p++) {
+            const dem_index j = list->list[p].upper;
+            if (!sides_edge_is_boundary(list, i, p) || !may_touch(l, i, j)) continue;
+            const bool forward = runs_from(&l->triangles[3 * list->list[p].triangle], i, j);
+            if (ends != NULL) {
+                ends[2 * n] = forward ? i : j;
+                ends[2 * n + 1] = forward ? j : i;
+            }
+            n++;
+        }
+    return n;
+}
+
+/* Edges listed by node: row[i] .. row[i+1]-1 of `at`. */
+static void list_by_node(surface *s, dem_index n_nodes)
+{
+    for (dem_index k = 0; k < 2 * s->n_edges; k++) s->row[s->ends[k] + 1]++;
+    for (dem_index i = 0; i < n_nodes; i++) s->row[i + 1] += s->row[i];
+    for (dem_index k = 2 * s->n_edges - 1; k >= 0; k--) s->at[--s->row[s->ends[k] + 1]] = k / 2;
+    for (dem_index i = 0; i < n_nodes; i++) s->row[i] = s->row[i + 1];
+    s->row[n_nodes] = 2 * s->n_edges;
+}
+
+/* Angle by which one turns clockwise at the end of edge e from the way back to the way along edge f, in (0, 2 pi]. */
+static double turn_at_end(const surface *s, const double *x, dem_index e, dem_index f)
+{
+    const vec2 at = vec2_at(x, s->ends[2 * e + 1]), back = vec2_sub(vec2_at(x, s->ends[2 * e]), at),
+               on = vec2_sub(vec2_at(x, s->ends[2 * f + 1]), at);
+    const double turn = -atan2(vec2_cross(back, on), vec2_dot(back, on));
+    return turn > 0.0 ? turn : turn + 2.0 * acos(-1.0);
+}
+
+/* The body is on the left, so that it is turned through first: the nearest edge belongs to the same fan. */
+static dem_index next_of(const surface *s, const double *x, dem_index e)
+{
+    const dem_index node = s->ends[2 * e + 1];
+    dem_index next = -1;
+    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++) {
+        const dem_index f = s->at[p];
+        if (s->ends[2 * f] == node && (next < 0 || turn_at_end(s, x, e, f) < turn_at_end(s, x, e, next))) next = f;
+    }
+    return next;
+}
+
+static void link_edges(surface *s, const double *x)
+{
+    for (dem_index e = 0; e < s->n_edges; e++) s->previous[e] = -1;
+    for (dem_index e = 0; e < s->n_edges; e++) {
+        s->next[e] = next_of(s, x, e);
+        if (s->next[e] >= 0) s->previous[s->next[e]] = e;
+    }
+}
+
+/* Open chains from where they begin, then closed ones. */
+static void walk(const surface *s, unsigned char *walked, dem_index *ends)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < 2 * s->n_edges; k++) {
+        const dem_index start = k % s->n_edges;
+        if (k < s->n_edges && s->previous[start] >= 0) continue;
+        for (dem_index e = start; e >= 0 && !walked[e]; e = s->next[e]) {
+            walked[e] = 1;
+            ends[2 * n] = s->ends[2 * e];
+            ends[2 * n + 1] = s->ends[2 * e + 1];
+            n++;
+        }
+    }
+}
+
+/* Puts the edges in the order of a walk along each boundary. */
+static dem_status sort_edges(surface *s, const dem_lattice *l)
+{
+    unsigned char *walked = calloc((size_t)s->n_edges + 1, 1);
+    dem_index *ends = malloc((2 * (size_t)s->n_edges + 1) * sizeof *ends);
+    if (walked == NULL || ends == NULL) {
+        free(walked);
+        free(ends);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld boundary edges", (long long)s->n_edges);
+    }
+    list_by_node(s, l->n_nodes);
+    link_edges(s, l->x);
+    walk(s, walked, ends);
+    free(walked);
+    free(s->ends);
+    s->ends = ends;
+    for (dem_index i = 0; i <= l->n_nodes; i++) s->row[i] = 0;
+    list_by_node(s, l->n_nodes);
+    link_edges(s, l->x);
+    return DEM_OK;
+}
+
+static dem_status allocate(surface *s, const dem_lattice *l)
+{
+    const size_t n = (size_t)s->n_edges;
+    s->ends = malloc((2 * n + 1) * sizeof *s->ends);
+    s->at = malloc((2 * n + 1) * sizeof *s->at);
+    s->next = malloc((n + 1) * sizeof *s->next);
+    s->previous = malloc((n + 1) * sizeof *s->previous);
+    s->row = calloc((size_t)l->n_nodes + 1, sizeof *s->row);
+    CHECK(s->ends && s->at && s->next && s->previous && s->row, DEM_ERROR_MEMORY,
+          "out of memory for %lld boundary edges", (long long)s->n_edges);
+    return DEM_OK;
+}
+
+dem_status surface_compile(surface *out, const dem_lattice *lattice)
+{
+    surface s = {0};
+    sides list = {0};
+    dem_status status = sides_create(&list, lattice);
+    if (status == DEM_OK) {
+        s.n_edges = find_edges(lattice, &list, NULL);
+        status = allocate(&s, lattice);
+    }
+    if (status == DEM_OK) {
+        (void)find_edges(lattice, &list, s.ends);
+        status = sort_edges(&s, lattice);
+    }
+    sides_free(&list);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        surface_free(&s);
+    return status;
+}
+
+void surface_free(surface *s)
+{
+    free(s->ends);
+    free(s->row);
+    free(s->at);
+    free(s->next);
+    free(s->previous);
+    *s = (surface){0};
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Products with K, and conjugate gradients on the nodes that are not held; sums in the order of the nodes. */
+#include "model/tangent_stiffness.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "lattice/lattice.h"
+
+void tangent_apply(const dem_model *model, const double *x, const double *u, double *out)
+{
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) vec2_put(out, i, tangent_row(model, i, x, u));
+}
+
+/* Nodes that are free, one after another: held nodes cost nothing. Vectors are [n][2], 0 where held. */
+typedef struct solver {
+    const dem_model *model;
+    const double *x;
+    dem_index n_free;
+    dem_index *free;      /* [n_free] */
+    double *scale;        /* [n_free] m/N, about the inverse of the diagonal of K */
+    double *direction;    /* p */
+    double *image, *rest; /* K p, r */
+} solver;
+
+static double product(const solver *s, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < s->n_free; k++) sum += vec2_dot(vec2_at(a, s->free[k]), vec2_at(b, s->free[k]));
+    return sum;
+}
+
+/* r.z with z = r times the scales */
+static double scaled_product(const solver *s)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < s->n_free; k++) {
+        const vec2 r = vec2_at(s->rest, s->free[k]);
+        sum += s->scale[k] * vec2_dot(r, r);
+    }
+    return sum;
+}
+
+static void advance(const solver *s, double step, double *u)
+{
+    for (dem_index k = 0; k < s->n_free; k++) {
+        const dem_index i = s->free[k];
+        vec2_put(u, i, vec2_along(vec2_at(u, i), step, vec2_at(s->direction, i)));
+        vec2_put(s->rest, i, vec2_along(vec2_at(s->rest, i), -step, vec2_at(s->image, i)));
+    }
+}
+
+/* p = z + ratio p */
+static void turn(const solver *s, double ratio)
+{
+    for (dem_index k = 0; k < s->n_free; k++) {
+        const dem_index i = s->free[k];
+        const vec2 old = vec2_scale(ratio, vec2_at(s->direction, i));
+        vec2_put(s->direction, i, vec2_along(old, s->scale[k], vec2_at(s->rest, i)));
+    }
+}
+
+/* u = 0 at first, the residual is f. */
+static dem_status iterate(const solver *s, double residual, double *u)
+{
+    const dem_index most = 20 * s->n_free + 1000; /* without rounding 2 n_free would do */
+    double size = scaled_product(s), previous = 0.0;
+    for (dem_index k = 0; product(s, s->rest, s->rest) > residual * residual; k++) {
+        CHECK(k < most, DEM_ERROR_MODEL, "the shape of %lld free nodes is not found in %lld iterations",
+              (long long)s->n_free, (long long)most);
+        turn(s, k > 0 ? size / previous : 0.0);
+        for (dem_index j = 0; j < s->n_free; j++)
+            vec2_put(s->image, s->free[j], tangent_row(s->model, s->free[j], s->x, s->direction));
+        const double curvature = product(s, s->direction, s->image);
+        CHECK(curvature > 0.0, DEM_ERROR_MODEL,
+              "the lattice is not stable: a displacement of %lld free nodes takes no energy", (long long)s->n_free);
+        advance(s, size / curvature, u);
+        previous = size;
+        size = scaled_product(s);
+    }
+    return DEM_OK;
+}
+
+static void fill(solver *s, const unsigned char *held, double *u)
+{
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {
+        const sym2 bonds = springs_block(&s->model->springs, s->model->springs.stiffness, i, s->x);
+        const sym2 areas = triangles_block(&s->model->triangles, i, s->x);
+        const double trace = bonds.xx + bonds.yy + areas.xx + areas.yy;
+        if (!held[i]) {
+            s->free[s->n_free] = i;
+            s->scale[s->n_free++] = trace > 0.0 ? 2.0 / trace : 1.0;
+            vec2_put(s->rest, i, vec2_at(u, i));
+        }
+        vec2_put(u, i, (vec2){0.0, 0.0});
+    }
+}
+
+dem_status tangent_solve(const dem_model *model, const double *x, const unsigned char *held, double residual, double *u)
+{
+    const dem_index n = model->lattice.n_nodes;
+    dem_status status = DEM_OK;
+    solver s = {.model = model,
+                .x = x,
+                .free = lattice_zeros(n, sizeof *s.free),
+                .scale = lattice_zeros(n, sizeof *s.scale),
+                .direction = lattice_zeros(n, 2 * sizeof *s.direction),
+                .image = lattice_zeros(n, 2 * sizeof *s.image),
+                .rest = lattice_zeros(n, 2 * sizeof *s.rest)};
+    if (s.free && s.scale && s.direction && s.image && s.rest) {
+        fill(&s, held, u);
+        status = iterate(&s, residual, u);
+    } else {
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
+    }
+    free(s.free);
+    free(s.scale);
+    free(s.direction);
+    free(s.image);
+    free(s.rest);
+    return status;
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The tree is an array in the order of levels, so that it needs no links and siblings lie side by side. */
+#include "obstacle/box_tree.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+
+static const dem_index fewest_in_leaf = 2; /* measured: halves and doubles of it cost more */
+
+box box_around(vec2 a, vec2 b, double reach)
+{
+    const double size = fabs(a.x) + fabs(a.y) + fabs(b.x) + fabs(b.y) + reach;
+    const double r = reach + BOX_TREE_ROUNDING * size;
+    return (box){{fmin(a.x, b.x) - r, fmin(a.y, b.y) - r}, {fmax(a.x, b.x) + r, fmax(a.y, b.y) + r}};
+}
+
+static void widen(box *b, const box *around)
+{
+    b->low = (vec2){fmin(b->low.x, around->low.x), fmin(b->low.y, around->low.y)};
+    b->high = (vec2){fmax(b->high.x, around->high.x), fmax(b->high.y, around->high.y)};
+}
+
+static bool meet(const box *a, const box *b)
+{
+    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y;
+}
+
+static dem_index leaf_of(const box_tree *t, dem_index item)
+{
+    const dem_index leaves = (dem_index)1 << t->depth;
+    return leaves + ((item + 1) * leaves - 1) / t->n;
+}
+
+dem_status box_tree_create(box_tree *out, dem_index n)
+{
+    box_tree t = {.n = n};
+    while (n >> (t.depth + 1) >= fewest_in_leaf) t.depth++;
+    const size_t n_boxes = (size_t)2 << t.depth;
+    t.boxes = malloc(n_boxes * sizeof *t.boxes);
+    CHECK_MEMORY(t.boxes);
+    for (size_t k = 0; k < n_boxes; k++) t.boxes[k] = (box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    *out = t;
+    return DEM_OK;
+}
+
+void box_tree_free(box_tree *t)
+{
+    free(t->boxes);
+    *t = (box_tree){0};
+}
+
+void box_tree_cover(box_tree *t, dem_index item, const box *around)
+{
+    for (dem_index node = leaf_of(t, item); node > 0; node /= 2) widen(&t->boxes[node], around);
+}
+
+/* The node behind a subtree, in the order of items; 0 behind the last. */
+static dem_index behind(dem_index node)
+{
+    while (node % 2 == 1) node /= 2;
+    return node > 0 ? node + 1 : 0;
+}
+
+dem_index box_tree_seek(const box_tree *t, dem_index from, const box *window)
+{
+    if (from >= t->n) return t->n;
+    dem_index node = leaf_of(t, from);
+    while (node > 0) {
+        if (!meet(&t->boxes[node], window)) {
+            node = behind(node);
+        } else if (box_tree_is_leaf(t, node)) {
+            const dem_index first = box_tree_first(t, node);
+            return first > from ? first : from;
+        } else {
+            node *= 2;
+        }
+    }
+    return t->n;
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Items in a row, neighbours lying near each other, in a balanced tree of boxes: which of them a query concerns. */
+#ifndef DEM_OBSTACLE_BOX_TREE_H
+#define DEM_OBSTACLE_BOX_TREE_H
+
+#include <stdbool.h>
+
+#include "base/vec2.h"
+
+typedef struct box {
+    vec2 low, high; /* m */
+} box;
+
+typedef struct box_tree {
+    dem_index n; /* items */
+    int depth;   /* of the 2^depth leaves, among which the items are dealt evenly and in order */
+    box *boxes;  /* [2^(depth + 1)] the root is 1, the children of k are 2 k and 2 k + 1, the second half are leaves */
+} box_tree;
+
+/** Relative error allowed to what is computed from coordinates: some 40 roundings. */
+#define BOX_TREE_ROUNDING 1e-14
+
+/** Box of the segment ab and of what is within `reach` (m) of it, a little wider than rounding could matter. */
+box box_around(vec2 a, vec2 b, double reach);
+
+/** A tree of n items without extent yet. Free with box_tree_free. */
+dem_status box_tree_create(box_tree *out, dem_index n);
+void box_tree_free(box_tree *t);
+
+/** Widens an item. */
+void box_tree_cover(box_tree *t, dem_index item, const box *around);
+
+/** First item, at or after `from`, that may meet the window; n if none does. Costs its depth. */
+dem_index box_tree_seek(const box_tree *t, dem_index from, const box *window);
+
+static inline bool box_tree_is_leaf(const box_tree *t, dem_index node)
+{
+    return node >> t->depth != 0;
+}
+
+/** First item of a leaf; where its items end the next leaf's begin. */
+static inline dem_index box_tree_first(const box_tree *t, dem_index leaf)
+{
+    return ((leaf - ((dem_index)1 << t->depth)) * t->n) >> t->depth;
+}
+
+/* ---- best first: a node's bound is a lower bound of what is looked for in it ---- */
+
+enum { BOX_TREE_DEPTH = 63 };
+
+/** Nodes put off, and the limit above which a bound rules a node out. */
+typedef struct box_tree_walk {
+    double limit;
+    int n;
+    dem_index node[BOX_TREE_DEPTH];
+    double bound[BOX_TREE_DEPTH];
+} box_tree_walk;
+
+/** Starts a walk; returns the root. */
+static inline dem_index box_tree_start(box_tree_walk *walk, double limit)
+{
+    walk->limit = limit;
+    walk->n = 0;
+    return 1;
+}
+
+/** The node last put off that is not ruled out by now; 0 if there is none. */
+static inline dem_index box_tree_back(box_tree_walk *walk)
+{
+    while (walk->n > 0)
+        if (walk->bound[--walk->n] <= walk->limit) return walk->node[walk->n];
+    return 0;
+}
+
+/** Of two siblings with their bounds the first, the other one being put off; or what box_tree_back() gives. */
+static inline dem_index box_tree_prefer(box_tree_walk *walk, dem_index first, double bound, dem_index other,
+                                        double other_bound)
+{
+    walk->node[walk->n] = other;
+    walk->bound[walk->n++] = other_bound;
+    return bound <= walk->limit ? first : box_tree_back(walk);
+}
+
+/** Where to go from a node whose children have these bounds: to the more promising one first. */
+static inline dem_index box_tree_down(box_tree_walk *walk, dem_index node, double bound, double bound_too)
+{
+    /* A branch and no choice of values: the next boxes are read before this is decided. */
+    if (bound_too < bound) return box_tree_prefer(walk, 2 * node + 1, bound_too, 2 * node, bound);
+    return box_tree_prefer(walk, 2 * node, bound, 2 * node + 1, bound_too);
+}
+
+#endif

@@ -1,0 +1,409 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which array is where in /VTKHDF, and what fills it. docs/output.md lists them all. */
+#include "output/frames.h"
+
+#include "base/status.h"
+#include "output/vtk_grid.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STEPS         GRID "Steps/"
+#define IN(set, name) GRID set "/" name, STEPS set "Offsets/" name
+#define ENERGY(name)                                                                                                   \
+    {                                                                                                                  \
+        IN("FieldData", name "_energy")                                                                                \
+    }
+
+enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
+
+enum of { NONE, ONE, NODES, SPRINGS };
+
+typedef struct view {
+    const dem_simulation *simulation;
+    const dem_lattice *lattice;
+    dem_state state;
+} view;
+
+/* ---- arrays: what fills f->scratch ---- */
+
+/* The plane lies at z = 0 of space. */
+static void spread(double *out, dem_index n, const double *values, const double *less)
+{
+    for (dem_index i = 0; i < n; i++)
+        for (int d = 0; d < 3; d++)
+            out[3 * i + d] = d == 2 ? 0.0 : values[2 * i + d] - (less != NULL ? less[2 * i + d] : 0.0);
+}
+
+static void fill_points(const frames *f, const view *v)
+{
+    spread(f->scratch, f->n_nodes, v->state.x, NULL);
+}
+
+static void fill_displacement(const frames *f, const view *v)
+{
+    spread(f->scratch, f->n_nodes, v->state.x, v->lattice->x);
+}
+
+static void fill_velocity(const frames *f, const view *v)
+{
+    spread(f->scratch, f->n_nodes, v->state.v, NULL);
+}
+
+static void fill_stress(const frames *f, const view *v)
+{
+    (void)v;
+    frames_spread_stress(f->scratch, f->n_nodes, f->stress);
+}
+
+static void fill_von_mises(const frames *f, const view *v)
+{
+    (void)v;
+    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = dem_stress_von_mises(f->stress + 3 * i);
+}
+
+static void fill_principal(const frames *f, const view *v)
+{
+    double direction[2];
+    (void)v;
+    for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(f->stress + 3 * i, f->scratch + 2 * i, direction);
+}
+
+static void fill_strain(const frames *f, const view *v)
+{
+    dem_simulation_strains(v->simulation, f->scratch);
+}
+
+static void fill_force(const frames *f, const view *v)
+{
+    dem_simulation_forces(v->simulation, f->scratch);
+}
+
+static void fill_broken(const frames *f, const view *v)
+{
+    (void)v;
+    memset(f->scratch, 0, (size_t)f->n_springs); /* springs do not break yet */
+}
+
+static const struct array {
+    const char *name, *offset;
+    uint32_t field; /* 0: always there */
+    hdf5_kind kind; /* HDF5_F32: as the options say */
+    enum of of;
+    int components;
+    void (*fill)(const frames *f, const view *v);
+} arrays[] = {
+    {GRID "Points", STEPS "PointOffsets", 0, HDF5_F64, NODES, 3, fill_points},
+    {IN("PointData", "displacement"), DEM_FIELD_DISPLACEMENT, HDF5_F32, NODES, 3, fill_displacement},
+    {IN("PointData", "velocity"), DEM_FIELD_VELOCITY, HDF5_F32, NODES, 3, fill_velocity},
+    {IN("PointData", "stress"), DEM_FIELD_STRESS, HDF5_F32, NODES, 6, fill_stress},
+    {IN("PointData", "von_mises"), DEM_FIELD_VON_MISES, HDF5_F32, NODES, 1, fill_von_mises},
+    {IN("PointData", "principal_stress"), DEM_FIELD_PRINCIPAL, HDF5_F32, NODES, 2, fill_principal},
+    {IN("CellData", "strain"), DEM_FIELD_STRAIN, HDF5_F32, SPRINGS, 1, fill_strain},
+    {IN("CellData", "force"), DEM_FIELD_FORCE, HDF5_F32, SPRINGS, 1, fill_force},
+    {IN("CellData", "broken"), 0, HDF5_U8, SPRINGS, 1, fill_broken},
+};
+enum { N_ARRAYS = sizeof arrays / sizeof arrays[0] };
+
+/* One value a frame, in the order of append_energies(). */
+static const struct energy {
+    const char *name, *offset;
+} energies[] = {
+    ENERGY("kinetic"),
+    ENERGY("elastic"),
+    ENERGY("area"),
+    ENERGY("guard"),
+    ENERGY("gravity"),
+    ENERGY("impact"),
+    ENERGY("friction"),
+    ENERGY("damping"),
+    ENERGY("projection"),
+    ENERGY("boundary"),
+    {IN("FieldData", "contacts")},
+};
+enum { N_ENERGIES = sizeof energies / sizeof energies[0] };
+
+/* Where the data of frame k begin. Arrays of one size begin at the same places: they share a dataset, under the name of
+ * each; a frame of a small body is written in half the time. */
+static const struct offset {
+    const char *name;
+    int rank;
+    enum of of;
+} offsets[] = {
+    {STEPS "PartOffsets", 1, NONE},   {STEPS "FieldDataOffsets/contacts", 1, ONE},
+    {STEPS "PointOffsets", 1, NODES}, {STEPS "CellDataOffsets/broken", 1, SPRINGS},
+    {STEPS "CellOffsets", 2, NONE},
+};
+enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
+
+static bool is_wanted(const frames *f, const struct array *a)
+{
+    return a->field == 0 || (f->fields & a->field) != 0;
+}
+
+static dem_index count_of(const frames *f, enum of of)
+{
+    const dem_index count[] = {[NONE] = 0, [ONE] = 1, [NODES] = f->n_nodes, [SPRINGS] = f->n_springs};
+    return count[of];
+}
+
+/* A chunk is a frame, so that no frame touches another's. */
+static hdf5_rows array_rows(const frames *f, const struct array *a)
+{
+    const hdf5_kind kind = a->kind == HDF5_F32 ? f->real : a->kind;
+    return (hdf5_rows){
+        a->name, kind, a->components > 1 ? 2 : 1, {(hsize_t)a->components}, (hsize_t)count_of(f, a->of), f->deflate};
+}
+
+/* One row a frame. Chunks of several rows, stored plain, are rewritten in place with the same bytes. */
+static hdf5_rows frame_rows(const char *name, hdf5_kind kind, int rank)
+{
+    return (hdf5_rows){name, kind, rank, {1}, 64, 0};
+}
+
+/* ---- creation ---- */
+
+static dem_status create_row(const hdf5_file *file, const char *name, hdf5_kind kind, int rank)
+{
+    const hdf5_rows rows = frame_rows(name, kind, rank);
+    return hdf5_create(file, &rows);
+}
+
+/* Of rank 1, which come in the order of `of`. */
+static dem_status share_offset(const hdf5_file *file, const char *name, enum of of)
+{
+    return strcmp(name, offsets[of].name) != 0 ? hdf5_link(file, name, offsets[of].name) : DEM_OK;
+}
+
+static dem_status create_offsets(const hdf5_file *file)
+{
+    for (int o = 0; o < N_OFFSETS; o++) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
+    TRY(share_offset(file, STEPS "PointDataOffsets/id", NONE));
+    TRY(share_offset(file, STEPS "PointDataOffsets/body", NONE));
+    return hdf5_link(file, STEPS "ConnectivityIdOffsets", STEPS "CellOffsets");
+}
+
+static dem_status create_arrays(const frames *f, const hdf5_file *file)
+{
+    for (int a = 0; a < N_ARRAYS; a++) {
+        const hdf5_rows rows = array_rows(f, &arrays[a]);
+        if (!is_wanted(f, &arrays[a])) continue;
+        TRY(hdf5_create(file, &rows));
+        TRY(share_offset(file, arrays[a].offset, arrays[a].of));
+    }
+    return DEM_OK;
+}
+
+static dem_status create_rows(const hdf5_file *file)
+{
+    for (int e = 0; e < N_ENERGIES; e++) {
+        TRY(create_row(file, energies[e].name, HDF5_F64, 1));
+        TRY(share_offset(file, energies[e].offset, ONE));
+    }
+    TRY(create_row(file, STEPS "Values", HDF5_F64, 1));
+    TRY(create_row(file, STEPS "NumberOfParts", HDF5_I64, 1));
+    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &(dem_index){0});
+}
+
+static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
+{
+    const size_t n = (size_t)f->n_nodes;
+    const hdf5_rows body = {GRID "PointData/body", HDF5_I32, 1, {0}, 0, f->deflate};
+    const hdf5_rows number = {GRID "PointData/id", HDF5_I64, 1, {0}, 0, f->deflate};
+    dem_index *id = malloc(n * sizeof *id);
+    CHECK_MEMORY(id);
+    for (dem_index i = 0; i < f->n_nodes; i++) id[i] = i;
+    const dem_status status = hdf5_write(file, number, n, id);
+    free(id);
+    TRY(status);
+    return hdf5_write(file, body, n, lattice->body);
+}
+
+dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
+{
+    const grid g = {f->n_nodes, f->n_springs, lattice->ends};
+    TRY(grid_write(file, &g, f->deflate));
+    TRY(write_nodes(f, file, lattice));
+    TRY(create_offsets(file));
+    TRY(create_arrays(f, file));
+    return create_rows(file);
+}
+
+dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
+{
+    const dem_model_size size = dem_model_sizes(model);
+    frames f = {.n_nodes = size.n_nodes,
+                .n_springs = size.n_springs,
+                .fields = options->fields,
+                .real = options->double_precision ? HDF5_F64 : HDF5_F32,
+                .deflate = options->deflate};
+    const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs;
+    f.scratch = calloc(6 * n > m ? 6 * n : m, sizeof *f.scratch);
+    f.stress = calloc(n, 3 * sizeof *f.stress);
+    if (f.scratch == NULL || f.stress == NULL) {
+        frames_free(&f);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for the frames of %lld nodes", (long long)size.n_nodes);
+    }
+    *out = f;
+    return DEM_OK;
+}
+
+void frames_free(frames *f)
+{
+    free(f->scratch);
+    free(f->stress);
+    *f = (frames){0};
+}
+
+/* ---- frames ---- */
+
+static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows rows, const void *value)
+{
+    return hdf5_append(file, &rows, (hsize_t)f->n, 1, value);
+}
+
+static dem_status append_arrays(const frames *f, const hdf5_file *file, const view *v)
+{
+    if (f->fields & ANY_STRESS) dem_simulation_stress(v->simulation, f->stress);
+    for (int k = 0; k < N_ARRAYS; k++) {
+        const struct array *a = &arrays[k];
+        const hdf5_rows rows = array_rows(f, a);
+        const hsize_t count = (hsize_t)count_of(f, a->of);
+        if (!is_wanted(f, a)) continue;
+        a->fill(f, v);
+        TRY(hdf5_append(file, &rows, (hsize_t)f->n * count, count, f->scratch));
+    }
+    return DEM_OK;
+}
+
+static dem_status append_energies(const frames *f, const hdf5_file *file, const dem_state *state)
+{
+    const dem_energy *e = &state->energy;
+    const double values[N_ENERGIES] = {e->kinetic,
+                                       e->elastic,
+                                       e->area,
+                                       e->guard,
+                                       e->gravity,
+                                       e->impact,
+                                       e->friction,
+                                       e->damping,
+                                       e->projection,
+                                       e->boundary,
+                                       (double)state->n_contacts};
+    for (int k = 0; k < N_ENERGIES; k++)
+        TRY(append_row(f, file, frame_rows(energies[k].name, HDF5_F64, 1), &values[k]));
+    return DEM_OK;
+}
+
+static dem_status append_offsets(const frames *f, const hdf5_file *file, hsize_t n)
+{
+    for (int o = 0; o < N_OFFSETS; o++) {
+        const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        TRY(hdf5_append(file, &rows, n, 1, &(dem_index){(dem_index)n * count_of(f, offsets[o].of)}));
+    }
+    return DEM_OK;
+}
+
+static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
+{
+    TRY(append_offsets(f, file, (hsize_t)f->n));
+    TRY(append_row(f, file, frame_rows(STEPS "NumberOfParts", HDF5_I64, 1), &(dem_index){1}));
+    return append_row(f, file, frame_rows(STEPS "Values", HDF5_F64, 1), &t);
+}
+
+/* The count of steps comes last: readers believe it. */
+static dem_status write_count(const hdf5_file *file, dem_index n)
+{
+    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &n);
+}
+
+hsize_t frames_bytes(const frames *f)
+{
+    return 168 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs; /* all arrays in double */
+}
+
+dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
+{
+    view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
+    dem_simulation_state(simulation, &v.state);
+    TRY(append_arrays(f, file, &v));
+    TRY(append_energies(f, file, &v.state));
+    TRY(append_steps(f, file, v.state.t));
+    return write_count(file, f->n + 1);
+}
+
+/* ---- the end ---- */
+
+void frames_spread_stress(double *out, dem_index n, const double *stress)
+{
+    for (dem_index i = 0; i < n; i++) {
+        const double *s = stress + 3 * i, six[6] = {s[0], s[1], 0.0, s[2], 0.0, 0.0};
+        memcpy(out + 6 * i, six, sizeof six);
+    }
+}
+
+dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
+                                 const double *values)
+{
+    char name[96], offset[96];
+    const hsize_t width = (hsize_t)constant->components;
+    const dem_index count = strcmp(constant->set, "PointData") == 0 ? f->n_nodes : f->n_springs;
+    (void)snprintf(name, sizeof name, GRID "%s/%s", constant->set, constant->name);
+    (void)snprintf(offset, sizeof offset, STEPS "%sOffsets/%s", constant->set, constant->name);
+    const hdf5_rows rows = {name, constant->kind, width > 1 ? 2 : 1, {width}, 0, f->deflate};
+    TRY(hdf5_write(file, rows, (hsize_t)count, values));
+    return share_offset(file, offset, NONE);
+}
+
+/* ---- frames of other files ---- */
+
+/* What every frame has one row of, the offsets left out. */
+static hdf5_rows row_of(int k)
+{
+    if (k < N_ENERGIES) return frame_rows(energies[k].name, HDF5_F64, 1);
+    if (k == N_ENERGIES) return frame_rows(STEPS "NumberOfParts", HDF5_I64, 1);
+    return frame_rows(STEPS "Values", HDF5_F64, 1);
+}
+enum { N_ROWS = N_ENERGIES + 2 };
+
+dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
+{
+    if (span.count == 0) return DEM_OK;
+    for (int k = 0; k < N_ARRAYS; k++) {
+        const hdf5_rows rows = array_rows(f, &arrays[k]);
+        const hsize_t n = (hsize_t)count_of(f, arrays[k].of);
+        if (is_wanted(f, &arrays[k]))
+            TRY(hdf5_copy(from, to, &rows, (hdf5_span){n * span.first, n * span.count, n * span.at}));
+    }
+    for (int k = 0; k < N_ROWS; k++) {
+        const hdf5_rows rows = row_of(k);
+        TRY(hdf5_copy(from, to, &rows, span));
+    }
+    for (hsize_t n = span.at; n < span.at + span.count; n++) TRY(append_offsets(f, to, n));
+    return write_count(to, (dem_index)(span.at + span.count));
+}
+
+dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n)
+{
+    TRY(hdf5_count_rows(file, STEPS "Values", n));
+    return frames_verify(f, file, *n);
+}
+
+dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
+{
+    for (int k = 0; k < N_ARRAYS; k++) {
+        const hdf5_rows rows = array_rows(f, &arrays[k]);
+        if (is_wanted(f, &arrays[k])) TRY(hdf5_expect_rows(file, &rows, n * (hsize_t)count_of(f, arrays[k].of)));
+    }
+    for (int k = 0; k < N_ROWS; k++) {
+        const hdf5_rows rows = row_of(k);
+        TRY(hdf5_expect_rows(file, &rows, n));
+    }
+    for (int o = 0; o < N_OFFSETS; o++) {
+        const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        TRY(hdf5_expect_rows(file, &rows, n));
+    }
+    return hdf5_expect_attribute(file, "/VTKHDF/Steps", "NSteps", (dem_index)n);
+}

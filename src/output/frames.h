@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The group /VTKHDF of a trajectory: the lattice as a grid of lines, and what is shown on it at every frame. */
+#ifndef DEM_OUTPUT_FRAMES_H
+#define DEM_OUTPUT_FRAMES_H
+
+#include <dem/trajectory.h>
+
+#include "output/hdf5_file.h"
+
+typedef struct frames {
+    dem_index n_nodes, n_springs;
+    uint32_t fields; /* DEM_FIELD_... */
+    hdf5_kind real;  /* of most arrays in the file: HDF5_F32 or HDF5_F64 */
+    int deflate;
+    dem_index before; /* in files before this one */
+    dem_index n;      /* in the file */
+    double last;      /* t of the last one, s */
+    double *scratch;  /* what is written: [6 n_nodes] or [n_springs] */
+    double *stress;   /* [n_nodes][3] */
+} frames;
+
+/** An array that is the same in all frames. */
+typedef struct frames_constant {
+    const char *set; /* "PointData": of nodes, "CellData": of springs */
+    const char *name;
+    hdf5_kind kind;
+    int components;
+} frames_constant;
+
+/** Free with frames_free(). */
+dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options);
+void frames_free(frames *f);
+
+/** Makes the group: the grid, and no frame. */
+dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice);
+
+/** How many bytes frames_append() adds, at most. */
+hsize_t frames_bytes(const frames *f);
+
+/** Adds what is seen of the simulation as frame f->n; it counts once the file is closed, and f->n raised. */
+dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation);
+
+/** Adds an array to all frames that are there, in a file that frames_create() has seen.
+ *  \param values  [number of nodes or springs][components] */
+dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
+                                 const double *values);
+
+/** Stresses xx, yy, xy [n][3] as VTK has symmetric tensors: xx, yy, zz, xy, yz, xz [n][6]; zz is left at 0. */
+void frames_spread_stress(double *out, dem_index n, const double *stress);
+
+/** Copies frames of another file; they begin elsewhere in this one. */
+dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
+
+/** The frames of a file; DEM_ERROR_IO unless every array has as many. */
+dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n);
+
+/** DEM_ERROR_IO unless every array has so many frames. */
+dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n);
+
+#endif

@@ -1,0 +1,309 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checks come in the order in which HDF5 itself would come upon what they look at. */
+#include "output/hdf5_untrusted.h"
+
+#include "base/status.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Larger than any run, small enough that sizes in bytes do not overflow. */
+static const hsize_t most_rows = (hsize_t)1 << 40, most_numbers = (hsize_t)1 << 44;
+
+/* Deflate makes nothing shorter than by this factor. */
+static const hsize_t most_deflation = 1032;
+
+enum { most_bytes = 16 /* of a number */ };
+
+dem_status foreign_refuse(const hdf5_file *file, const char *name, const char *reason)
+{
+    return status_fail(DEM_ERROR_IO, "%s: %s: %s", file->path, name, reason);
+}
+
+void foreign_print(char out[FOREIGN_PRINTABLE], const char *name)
+{
+    size_t n = 0;
+    for (; n + 1 < FOREIGN_PRINTABLE && name[n] != '\0'; n++) out[n] = name[n] > ' ' && name[n] <= '~' ? name[n] : '?';
+    out[n] = '\0';
+}
+
+dem_status foreign_open(hdf5_file *out, const char *path)
+{
+    struct stat kind;
+    CHECK(stat(path, &kind) != 0 || S_ISREG(kind.st_mode), DEM_ERROR_IO, "%s: is not a regular file", path);
+    return hdf5_open_read(out, path);
+}
+
+/* ---- links ---- */
+
+static dem_status check_link(const hdf5_file *file, const char *name, bool *present)
+{
+    H5L_info_t info;
+    *present = H5Lexists(file->id, name, H5P_DEFAULT) > 0;
+    if (*present && (H5Lget_info(file->id, name, &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD))
+        return foreign_refuse(file, name, "is a soft or external link");
+    return DEM_OK;
+}
+
+dem_status foreign_find(const hdf5_file *file, const char *name, bool *present)
+{
+    char way[256];
+    CHECK(strlen(name) < sizeof way, DEM_ERROR_IO, "%s: a path of %zu characters is too long", file->path,
+          strlen(name));
+    *present = true;
+    for (const char *end = name; *present && *end != '\0';) {
+        end += 1 + strcspn(end + 1, "/");
+        memcpy(way, name, (size_t)(end - name));
+        way[end - name] = '\0';
+        TRY(check_link(file, way, present));
+    }
+    return DEM_OK;
+}
+
+/* In no order: to sort the names of a damaged group, HDF5 1.10 frees what it has not allocated. */
+typedef struct listing {
+    dem_status (*take)(void *context, const char *name);
+    void *context;
+    dem_status status;
+} listing;
+
+static herr_t take_name(hid_t group, const char *name, const H5L_info_t *info, void *context)
+{
+    listing *l = context;
+    (void)group, (void)info;
+    l->status = l->take(l->context, name);
+    return l->status == DEM_OK ? 0 : 1;
+}
+
+dem_status foreign_list(const hdf5_file *file, const char *group, dem_status (*take)(void *context, const char *name),
+                        void *context)
+{
+    listing l = {take, context, DEM_OK};
+    const hid_t id = H5Gopen2(file->id, group, H5P_DEFAULT);
+    if (id < 0) return hdf5_fail(file, group, "is not a readable group");
+    if (H5Literate(id, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, take_name, &l) < 0)
+        l.status = hdf5_fail(file, group, "cannot be listed");
+    (void)H5Gclose(id);
+    return l.status;
+}
+
+/* ---- datasets ---- */
+
+/* As h5py stores it: an enumeration of FALSE = 0 and TRUE = 1. */
+static bool is_boolean(hid_t type)
+{
+    signed char no = -1, yes = -1;
+    if (H5Tget_class(type) != H5T_ENUM || H5Tget_size(type) != 1 || H5Tget_nmembers(type) != 2) return false;
+    return H5Tenum_valueof(type, "FALSE", &no) >= 0 && H5Tenum_valueof(type, "TRUE", &yes) >= 0 && no == 0 && yes == 1;
+}
+
+static bool is_real(hdf5_kind kind)
+{
+    return kind == HDF5_F64 || kind == HDF5_F32;
+}
+
+static const char *find_misfit(hid_t type, hdf5_kind kind)
+{
+    const H5T_class_t class = H5Tget_class(type);
+    const bool flag = kind == HDF5_U8;
+    const bool fits = class == H5T_INTEGER || (is_real(kind) && class == H5T_FLOAT) || (flag && is_boolean(type));
+    if (fits && H5Tget_size(type) <= most_bytes) return NULL;
+    return is_real(kind) ? "is neither floating-point nor integer"
+           : flag        ? "is neither integer nor boolean"
+                         : "is not integer";
+}
+
+static hdf5_kind kind_of(hid_t type)
+{
+    const size_t size = H5Tget_size(type);
+    if (H5Tget_class(type) == H5T_FLOAT) return size <= 4 ? HDF5_F32 : HDF5_F64;
+    if (size > 1) return size <= 4 ? HDF5_I32 : HDF5_I64;
+    return H5Tget_class(type) == H5T_INTEGER && H5Tget_sign(type) != H5T_SGN_NONE ? HDF5_I8 : HDF5_U8;
+}
+
+static dem_status check_filters(const hdf5_file *file, const char *name, hid_t layout)
+{
+    const int n = H5Pget_nfilters(layout);
+    int deflates = 0;
+    for (int k = 0; k < n; k++) {
+        size_t n_values = 0;
+        unsigned flags = 0;
+        const H5Z_filter_t filter = H5Pget_filter2(layout, (unsigned)k, &flags, &n_values, NULL, 0, NULL, NULL);
+        deflates += filter == H5Z_FILTER_DEFLATE;
+        if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32)
+            return foreign_refuse(file, name, "uses a filter other than deflate, shuffle and fletcher32");
+    }
+    return n < 0 || deflates > 1 ? foreign_refuse(file, name, "has filters that cannot be told") : DEM_OK;
+}
+
+/* The numbers of a chunk, which is read as a whole; 0 where there are no chunks. */
+static hsize_t count_chunk(hid_t layout)
+{
+    hsize_t extent[FOREIGN_RANK] = {1, 1, 1};
+    if (H5Pget_layout(layout) != H5D_CHUNKED || H5Pget_chunk(layout, FOREIGN_RANK, extent) < 0) return 0;
+    return extent[0] * extent[1] * extent[2]; /* below 2^32 bytes, says HDF5 */
+}
+
+static dem_status check_size(const hdf5_file *file, const char *name, hid_t dataset, hsize_t bytes)
+{
+    hsize_t in_file = 0;
+    (void)H5Fget_filesize(file->id, &in_file);
+    const hsize_t stored = H5Dget_storage_size(dataset);
+    if (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0))
+        return foreign_refuse(file, name, "claims more data than the file holds");
+    return DEM_OK;
+}
+
+/* `n` numbers of `size` bytes. */
+static dem_status check_storage(const hdf5_file *file, const char *name, hid_t dataset, hsize_t size, hsize_t n)
+{
+    const hid_t layout = H5Dget_create_plist(dataset);
+    const H5D_layout_t kind = H5Pget_layout(layout);
+    const hsize_t chunk = n > 0 ? count_chunk(layout) : 0;
+    dem_status status;
+    if (H5Pget_external_count(layout) != 0)
+        status = foreign_refuse(file, name, "keeps its data in an external file");
+    else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
+        status = foreign_refuse(file, name, "has a virtual or unknown layout");
+    else if ((status = check_filters(file, name, layout)) == DEM_OK)
+        status = check_size(file, name, dataset, size * (n > chunk ? n : chunk));
+    (void)H5Pclose(layout);
+    return status;
+}
+
+static void measure_extent(hid_t dataset, foreign_shape *out)
+{
+    const hid_t space = H5Dget_space(dataset);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= FOREIGN_RANK;
+    for (int d = 0; d < FOREIGN_RANK; d++) out->extent[d] = 1;
+    out->rank = fits && H5Sget_simple_extent_dims(space, out->extent, NULL) >= 0 ? rank : 0;
+    (void)H5Sclose(space);
+}
+
+static dem_status count_numbers(const hdf5_file *file, const char *name, const foreign_shape *shape, hsize_t *n)
+{
+    *n = 1;
+    if (shape->extent[0] > most_rows) return foreign_refuse(file, name, "has more than 2^40 rows");
+    for (int d = 0; d < FOREIGN_RANK; d++) {
+        if (*n > most_numbers / (shape->extent[d] + 1)) return foreign_refuse(file, name, "has more than 2^44 numbers");
+        *n *= shape->extent[d];
+    }
+    return DEM_OK;
+}
+
+static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind, foreign_shape *out)
+{
+    const hid_t type = H5Dget_type(dataset);
+    const hsize_t size = H5Tget_size(type);
+    const char *misfit = find_misfit(type, kind);
+    hsize_t n = 0;
+    out->stored = kind_of(type);
+    (void)H5Tclose(type);
+    if (misfit != NULL) return foreign_refuse(file, name, misfit);
+    measure_extent(dataset, out);
+    if (out->rank == 0) return DEM_OK;
+    TRY(count_numbers(file, name, out, &n));
+    return check_storage(file, name, dataset, size, n);
+}
+
+dem_status foreign_measure(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_shape *out)
+{
+    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
+    const dem_status status = measure(file, name, dataset, kind, out);
+    (void)H5Dclose(dataset);
+    return status;
+}
+
+/* A number that does not fit is an error, not the nearest number that does. */
+static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid_t to, void *value, void *result,
+                                    void *context)
+{
+    (void)from, (void)to, (void)value, (void)result, (void)context;
+    return exception == H5T_CONV_EXCEPT_RANGE_HI || exception == H5T_CONV_EXCEPT_RANGE_LOW ? H5T_CONV_ABORT
+                                                                                           : H5T_CONV_UNHANDLED;
+}
+
+/* The cause of a failure is HDF5's only until the next call of it. */
+static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
+                            const foreign_rows *rows, void *data)
+{
+    const hsize_t start[FOREIGN_RANK] = {rows->first};
+    hsize_t count[FOREIGN_RANK] = {0, 1, 1};
+    dem_status status = DEM_OK;
+    const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
+    const int rank = H5Sget_simple_extent_dims(space, count, NULL);
+    count[0] = rows->count;
+    if (rows->width > 0 && rank > 1) count[1] = rows->width;
+    const hid_t memory = H5Screate_simple(rank, count, NULL);
+    if (H5Pset_type_conv_cb(transfer, on_conversion, NULL) < 0 ||
+        H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) < 0 ||
+        H5Dread(dataset, hdf5_memory_type(kind), memory, space, transfer, data) < 0)
+        status = hdf5_fail(file, name, "cannot be read");
+    (void)H5Sclose(memory);
+    (void)H5Pclose(transfer);
+    (void)H5Sclose(space);
+    return status;
+}
+
+dem_status foreign_read(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_rows rows, void *data)
+{
+    if (rows.count == 0) return DEM_OK;
+    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
+    const dem_status status = read_rows(file, name, dataset, kind, &rows, data);
+    (void)H5Dclose(dataset);
+    return status;
+}
+
+/* ---- attributes ---- */
+
+/* An attribute of one item, or a negative number. */
+static hid_t open_attribute(const hdf5_file *file, const char *object, const char *name)
+{
+    const hid_t id = H5Aopen_by_name(file->id, object, name, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = id < 0 ? H5I_INVALID_HID : H5Aget_space(id);
+    const bool single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+    if (space >= 0) (void)H5Sclose(space);
+    if (id < 0 || single) return id;
+    (void)H5Aclose(id);
+    return H5I_INVALID_HID;
+}
+
+static dem_status refuse_attribute(const hdf5_file *file, const char *object, const char *name, const char *what)
+{
+    return status_fail(DEM_ERROR_IO, "%s: %s: has no attribute %s that is %s", file->path, object, name, what);
+}
+
+dem_status foreign_read_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
+                                  void *value)
+{
+    const hid_t id = open_attribute(file, object, name);
+    bool read = false;
+    if (id >= 0) {
+        const hid_t type = H5Aget_type(id);
+        read = find_misfit(type, kind) == NULL && H5Aread(id, hdf5_memory_type(kind), value) >= 0;
+        (void)H5Tclose(type);
+        (void)H5Aclose(id);
+    }
+    return read ? DEM_OK : refuse_attribute(file, object, name, is_real(kind) ? "a number" : "an integer");
+}
+
+dem_status foreign_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
+                                       size_t size)
+{
+    const hid_t id = open_attribute(file, object, name);
+    bool read = false;
+    if (id >= 0) {
+        const hid_t type = H5Aget_type(id);
+        const size_t length = H5Tget_size(type);
+        read = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 && length < size &&
+               H5Aread(id, type, text) >= 0;
+        if (read) text[length] = '\0';
+        (void)H5Tclose(type);
+        (void)H5Aclose(id);
+    }
+    return read ? DEM_OK : refuse_attribute(file, object, name, "a short string");
+}

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which columns there are, and what fills them. */
+#include "output/history.h"
+
+#include "base/status.h"
+
+enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column tells of */
+
+/* In the order in which history_record() fills a row. */
+static const table_column columns[] = {
+    {"/history/t", HDF5_F64, RUN, 1},
+    {"/history/h", HDF5_F64, RUN, 1},
+    {"/history/kinetic", HDF5_F64, RUN, 1},
+    {"/history/elastic", HDF5_F64, RUN, 1},
+    {"/history/area", HDF5_F64, RUN, 1},
+    {"/history/guard", HDF5_F64, RUN, 1},
+    {"/history/gravity", HDF5_F64, RUN, 1},
+    {"/history/impact", HDF5_F64, RUN, 1},
+    {"/history/friction", HDF5_F64, RUN, 1},
+    {"/history/damping", HDF5_F64, RUN, 1},
+    {"/history/projection", HDF5_F64, RUN, 1},
+    {"/history/boundary", HDF5_F64, RUN, 1},
+    {"/history/closure", HDF5_F64, RUN, 1},
+    {"/history/strain_min", HDF5_F64, RUN, 1},
+    {"/history/strain_max", HDF5_F64, RUN, 1},
+    {"/history/area_min", HDF5_F64, RUN, 1},
+    {"/history/guarded", HDF5_I64, RUN, 1},
+    {"/history/inverted", HDF5_I64, RUN, 1},
+    {"/history/overlaps", HDF5_I64, RUN, 1},
+    {"/history/contacts", HDF5_I64, RUN, 1},
+    {"/history/impacts", HDF5_I64, RUN, 1},
+    {"/history/vertex_impacts", HDF5_I64, RUN, 1},
+    {"/history/early", HDF5_I64, RUN, 1},
+    {"/history/closings", HDF5_I64, RUN, 1},
+    {"/history/releases", HDF5_I64, RUN, 1},
+    {"/history/slips", HDF5_I64, RUN, 1},
+    {"/history/sticks", HDF5_I64, RUN, 1},
+    {"/history/passings", HDF5_I64, RUN, 1},
+    {"/history/late", HDF5_I64, RUN, 1},
+    {"/history/behind", HDF5_I64, RUN, 1},
+    {"/history/events", HDF5_I64, RUN, 1},
+    {"/history/steps", HDF5_I64, RUN, 1},
+    {"/history/rejected", HDF5_I64, RUN, 1},
+    {"/history/retries", HDF5_I64, RUN, 1},
+    {"/history/evaluations", HDF5_I64, RUN, 1},
+    {"/history/body_centre", HDF5_F64, BODIES, 2},
+    {"/history/body_velocity", HDF5_F64, BODIES, 2},
+    {"/history/body_angular_momentum", HDF5_F64, BODIES, 1},
+    {"/history/obstacle_reaction", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_point", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_impulse", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_friction_impulse", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_contacts", HDF5_I64, OBSTACLES, 1},
+    {"/history/boundary_force", HDF5_F64, BOUNDARIES, 2},
+    {"/history/boundary_displacement", HDF5_F64, BOUNDARIES, 2},
+};
+
+static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state, double closure)
+{
+    const dem_energy *e = &state->energy;
+    const dem_strain s = dem_simulation_strain(simulation);
+    const dem_counts n = dem_simulation_counts(simulation);
+    const double reals[] = {state->t,   state->step, e->kinetic,  e->elastic, e->area,       e->guard,
+                            e->gravity, e->impact,   e->friction, e->damping, e->projection, e->boundary,
+                            closure,    s.min,       s.max,       s.area_min};
+    const dem_index counts[] = {s.guarded,
+                                s.inverted,
+                                dem_simulation_overlap(simulation).now,
+                                state->n_contacts,
+                                n.impacts,
+                                n.vertex_impacts,
+                                n.early,
+                                n.closings,
+                                n.releases,
+                                n.slips,
+                                n.sticks,
+                                n.passings,
+                                n.late,
+                                n.behind,
+                                n.events,
+                                n.steps,
+                                n.rejected,
+                                n.retries,
+                                n.evaluations};
+    cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
+    return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
+}
+
+static table_cell *put_bodies(table_cell *cell, const dem_simulation *simulation, dem_index n_bodies)
+{
+    table_cell *centre = cell, *velocity = centre + 2 * n_bodies, *momentum = velocity + 2 * n_bodies;
+    for (dem_index b = 0; b < n_bodies; b++) {
+        const dem_body_motion motion = dem_simulation_body(simulation, b);
+        centre = table_put_reals(centre, motion.centre, 2);
+        velocity = table_put_reals(velocity, motion.velocity, 2);
+        momentum = table_put_reals(momentum, &motion.angular_momentum, 1);
+    }
+    return momentum;
+}
+
+static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulation, dem_index n_obstacles)
+{
+    table_cell *reaction = cell, *point = reaction + 2 * n_obstacles, *impulse = point + 2 * n_obstacles;
+    table_cell *friction = impulse + 2 * n_obstacles, *contacts = friction + 2 * n_obstacles;
+    for (dem_index o = 0; o < n_obstacles; o++) {
+        const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
+        reaction = table_put_reals(reaction, load.reaction, 2);
+        point = table_put_reals(point, load.point, 2);
+        impulse = table_put_reals(impulse, load.impulse, 2);
+        friction = table_put_reals(friction, load.friction_impulse, 2);
+        contacts = table_put_wholes(contacts, &load.contacts, 1);
+    }
+    return contacts;
+}
+
+static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simulation, dem_index n_boundaries)
+{
+    table_cell *force = cell, *displacement = force + 2 * n_boundaries;
+    for (dem_index b = 0; b < n_boundaries; b++) {
+        const dem_boundary_load load = dem_simulation_boundary(simulation, b);
+        force = table_put_reals(force, load.force, 2);
+        displacement = table_put_reals(displacement, load.displacement, 2);
+    }
+    return displacement;
+}
+
+/* What the ledger has lost or gained since the first row, over the largest energy of motion and strain so far. */
+static double close_ledger(history *h, dem_energy e)
+{
+    if (table_total(&h->table) == 0) h->start = dem_energy_ledger(e);
+    h->largest = dem_energy_motion(e) > h->largest ? dem_energy_motion(e) : h->largest;
+    return h->largest > 0.0 ? (dem_energy_ledger(e) - h->start) / h->largest : 0.0;
+}
+
+dem_status history_init(history *out, const dem_simulation *simulation)
+{
+    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_index count[] = {size.n_bodies, size.n_obstacles, dem_simulation_options(simulation).n_boundaries};
+    *out = (history){.last = 0.0};
+    return table_init(&out->table, columns, sizeof columns / sizeof columns[0], count);
+}
+
+void history_free(history *h)
+{
+    table_free(&h->table);
+}
+
+void history_record(history *h, const dem_simulation *simulation)
+{
+    dem_state state = {.struct_size = sizeof state};
+    dem_simulation_state(simulation, &state);
+    if (table_total(&h->table) > 0 && state.t == h->last) return;
+    const double closure = close_ledger(h, state.energy);
+    table_cell *cell = table_add(&h->table);
+    cell = put_run(cell, simulation, &state, closure);
+    cell = put_bodies(cell, simulation, (dem_index)h->table.count[BODIES]);
+    cell = put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
+    (void)put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);
+    h->last = state.t;
+}
+
+dem_status history_expect_last(const history *h, const hdf5_file *file, hsize_t row)
+{
+    const hdf5_rows time = {columns[0].name, columns[0].kind, 1, {0}, 0, 0};
+    double t;
+    TRY(hdf5_read(file, &time, row, 1, &t));
+    CHECK(t == h->last, DEM_ERROR_IO, "%s: is of another run: row %llu of its history is at t = %.17g s, not %.17g s",
+          file->path, (unsigned long long)row, t, h->last);
+    return DEM_OK;
+}

@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The group /lattice of an HDF5 file. It may come from anywhere: nothing is allocated unchecked. */
+#include "output/lattice_file.h"
+
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "lattice/mesh_edges.h"
+#include "output/hdf5_untrusted.h"
+
+#include <dem/trajectory.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum rows_of { NODES, SPRINGS, TRIANGLES, ANY, N_ROWS_OF };
+enum array {
+    X,
+    MASS,
+    ENDS,
+    REST_LENGTH,
+    STIFFNESS,
+    VISCOSITY,
+    CORNERS,
+    GUARD,
+    AREA_STIFFNESS,
+    THICKNESS,
+    MODULUS,
+    BODY,
+    POSITION,
+    VELOCITY,
+    FIXED,
+    CONTACT_NODES,
+    N_ARRAYS
+};
+
+/* The first dataset of each length decides it. Without springs their datasets may all be absent. */
+static const struct dataset {
+    const char *name;
+    hdf5_kind kind;
+    enum rows_of of;
+    hsize_t width;
+    int required;
+} datasets[N_ARRAYS] = {
+    [X] = {"/lattice/x", HDF5_F64, NODES, 2, 1},
+    [MASS] = {"/lattice/mass", HDF5_F64, NODES, 1, 1},
+    [ENDS] = {"/lattice/ends", HDF5_I64, SPRINGS, 2, 1},
+    [REST_LENGTH] = {"/lattice/rest_length", HDF5_F64, SPRINGS, 1, 1},
+    [STIFFNESS] = {"/lattice/stiffness", HDF5_F64, SPRINGS, 1, 1},
+    [VISCOSITY] = {"/lattice/viscosity", HDF5_F64, SPRINGS, 1, 0},
+    [CORNERS] = {"/lattice/triangles", HDF5_I64, TRIANGLES, 3, 0},
+    [GUARD] = {"/lattice/guard", HDF5_F64, TRIANGLES, 1, 0},
+    [AREA_STIFFNESS] = {"/lattice/area_stiffness", HDF5_F64, TRIANGLES, 1, 0},
+    [THICKNESS] = {"/lattice/thickness", HDF5_F64, TRIANGLES, 1, 0},
+    [MODULUS] = {"/lattice/modulus", HDF5_F64, TRIANGLES, 1, 0},
+    [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
+    [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
+    [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
+    [FIXED] = {"/lattice/fixed", HDF5_U8, NODES, 1, 0},
+    [CONTACT_NODES] = {"/lattice/contact_nodes", HDF5_I64, ANY, 1, 0},
+};
+
+typedef struct reader {
+    hdf5_file file;
+    hsize_t rows[N_ROWS_OF]; /* valid once `known` */
+    int known[N_ROWS_OF];
+    int springs; /* one of their datasets is there */
+    int measure; /* nothing but extents is wanted */
+    bool present[N_ARRAYS];
+    void *data[N_ARRAYS];
+} reader;
+
+/* ---- checks ---- */
+
+static size_t item_size(hdf5_kind kind)
+{
+    return kind == HDF5_U8 ? 1 : kind == HDF5_I32 ? 4 : 8;
+}
+
+static dem_status refuse(const reader *r, const char *name, const char *reason)
+{
+    return foreign_refuse(&r->file, name, reason);
+}
+
+static dem_status check_extent(reader *r, const struct dataset *d, const foreign_shape *shape)
+{
+    const hsize_t rows = shape->extent[0];
+    const int rank = d->width > 1 ? 2 : 1;
+    CHECK(shape->rank == rank && (rank == 1 || shape->extent[1] == d->width), DEM_ERROR_IO,
+          "%s: %s: is not of shape [n]%s", r->file.path, d->name,
+          d->width == 2   ? "[2]"
+          : d->width == 3 ? "[3]"
+                          : "");
+    CHECK(!r->known[d->of] || rows == r->rows[d->of], DEM_ERROR_MODEL,
+          "%s: %s: has %llu rows where the datasets before it have %llu", r->file.path, d->name,
+          (unsigned long long)rows, (unsigned long long)r->rows[d->of]);
+    r->rows[d->of] = rows;
+    r->known[d->of] = d->of != ANY;
+    return DEM_OK;
+}
+
+/* ---- reading ---- */
+
+static dem_status read_data(reader *r, enum array a)
+{
+    const struct dataset *d = &datasets[a];
+    const foreign_rows all = {0, r->rows[d->of], 0};
+    r->data[a] = lattice_zeros((dem_index)(all.count * d->width), item_size(d->kind));
+    CHECK_MEMORY(r->data[a]);
+    return foreign_read(&r->file, d->name, d->kind, all, r->data[a]);
+}
+
+static dem_status read_array(reader *r, enum array a)
+{
+    const struct dataset *d = &datasets[a];
+    foreign_shape shape;
+    TRY(foreign_find(&r->file, d->name, &r->present[a]));
+    if (!r->present[a])
+        return d->required && (d->of != SPRINGS || r->springs) ? refuse(r, d->name, "is missing") : DEM_OK;
+    TRY(foreign_measure(&r->file, d->name, d->kind, &shape));
+    TRY(check_extent(r, d, &shape));
+    return r->measure ? DEM_OK : read_data(r, a);
+}
+
+/* A name that is not known is a misspelt one, and what it holds would be missed without a word. */
+static dem_status check_name(void *context, const char *name)
+{
+    reader *r = context;
+    char known[192] = "", printable[FOREIGN_PRINTABLE];
+    size_t n = 0;
+    for (int a = 0; a < N_ARRAYS; a++) {
+        const char *own = datasets[a].name + sizeof "/lattice";
+        if (strcmp(name, own) == 0) {
+            r->springs |= datasets[a].of == SPRINGS;
+            return DEM_OK;
+        }
+        n += (size_t)snprintf(known + n, sizeof known - n, "%s%s", a == 0 ? "" : ", ", own);
+    }
+    foreign_print(printable, name);
+    return status_fail(DEM_ERROR_IO, "%s: /lattice/%s: is none of the datasets of a lattice: %s", r->file.path,
+                       printable, known);
+}
+
+static dem_status read_arrays(reader *r)
+{
+    bool present = false;
+    TRY(foreign_find(&r->file, "/lattice", &present));
+    if (!present) return refuse(r, "/lattice", "is missing");
+    TRY(foreign_list(&r->file, "/lattice", check_name, r));
+    for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
+    for (int a = 0; a < N_ARRAYS; a++)
+        if (datasets[a].of == TRIANGLES && r->present[a] && !r->present[CORNERS])
+            return refuse(r, datasets[a].name, "is there without triangles");
+    return DEM_OK;
+}
+
+/* ---- from arrays to a lattice ---- */
+
+static dem_status mark_contacts(const reader *r, dem_lattice *lattice)
+{
+    const dem_index *nodes = r->data[CONTACT_NODES];
+    if (nodes == NULL) return sides_contact_flags(lattice->flags, lattice);
+    for (hsize_t k = 0; k < r->rows[ANY]; k++) {
+        CHECK(nodes[k] >= 0 && nodes[k] < lattice->n_nodes, DEM_ERROR_MODEL,
+              "%s: %s: entry %llu is %lld, which is no node: there are %lld", r->file.path,
+              datasets[CONTACT_NODES].name, (unsigned long long)k, (long long)nodes[k], (long long)lattice->n_nodes);
+        lattice->flags[nodes[k]] |= DEM_NODE_CONTACT;
+    }
+    return DEM_OK;
+}
+
+static dem_status make_flags(const reader *r, dem_lattice *lattice)
+{
+    const unsigned char *fixed = r->data[FIXED];
+    if (fixed == NULL && r->data[CONTACT_NODES] == NULL) return DEM_OK;
+    lattice->flags = lattice_zeros(lattice->n_nodes, 1);
+    CHECK_MEMORY(lattice->flags);
+    TRY(mark_contacts(r, lattice));
+    for (dem_index i = 0; fixed != NULL && i < lattice->n_nodes; i++)
+        if (fixed[i] != 0) lattice->flags[i] |= DEM_NODE_FIXED;
+    return DEM_OK;
+}
+
+/* Moves the arrays. */
+static void fill(dem_lattice *lattice, reader *r)
+{
+    lattice->n_nodes = (dem_index)r->rows[NODES];
+    lattice->n_springs = (dem_index)r->rows[SPRINGS];
+    lattice->n_triangles = (dem_index)r->rows[TRIANGLES];
+    lattice->x = r->data[X];
+    lattice->mass = r->data[MASS];
+    lattice->ends = r->data[ENDS];
+    lattice->rest_length = r->data[REST_LENGTH];
+    lattice->stiffness = r->data[STIFFNESS];
+    lattice->viscosity = r->data[VISCOSITY];
+    lattice->triangles = r->data[CORNERS];
+    lattice->guard = r->data[GUARD];
+    lattice->area_stiffness = r->data[AREA_STIFFNESS];
+    lattice->thickness = r->data[THICKNESS];
+    lattice->modulus = r->data[MODULUS];
+    lattice->body = r->data[BODY];
+    lattice->position = r->data[POSITION];
+    lattice->velocity = r->data[VELOCITY];
+    for (int a = 0; a < FIXED; a++) r->data[a] = NULL;
+}
+
+static dem_status check_indices(const dem_lattice *lattice, const char *path)
+{
+    char reason[256];
+    CHECK(lattice->n_nodes > 0, DEM_ERROR_MODEL, "%s: /lattice/x: has no nodes", path);
+    if (lattice_check(lattice) == DEM_OK) return DEM_OK;
+    (void)snprintf(reason, sizeof reason, "%s", dem_status_message());
+    return status_fail(DEM_ERROR_MODEL, "%s: /lattice: %s", path, reason);
+}
+
+static dem_status read_file(reader *r, const char *path)
+{
+    TRY(foreign_open(&r->file, path));
+    return hdf5_close(&r->file, read_arrays(r));
+}
+
+dem_status dem_lattice_read(dem_lattice *out, const char *path)
+{
+    reader r = {0};
+    dem_lattice lattice;
+    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_read: an argument is NULL");
+    dem_lattice_init(&lattice);
+    dem_status status = read_file(&r, path);
+    if (status != DEM_OK) goto out;
+    fill(&lattice, &r);
+    status = check_indices(&lattice, path);
+    if (status == DEM_OK) status = make_flags(&r, &lattice);
+    if (status == DEM_OK)
+        *out = lattice;
+    else
+        dem_lattice_free(&lattice);
+out:
+    for (int a = 0; a < N_ARRAYS; a++) free(r.data[a]);
+    return status;
+}
+
+dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *n_springs)
+{
+    reader r = {.measure = 1};
+    CHECK(path != NULL && n_nodes != NULL && n_springs != NULL, DEM_ERROR_ARGUMENT,
+          "dem_lattice_measure: an argument is NULL");
+    TRY(read_file(&r, path));
+    *n_nodes = (dem_index)r.rows[NODES];
+    *n_springs = (dem_index)r.rows[SPRINGS];
+    return DEM_OK;
+}
+
+/* ---- writing ---- */
+
+static dem_status write_array(const hdf5_file *file, enum array a, int deflate, dem_index count, const void *data)
+{
+    const struct dataset *d = &datasets[a];
+    const hdf5_rows rows = {d->name, d->kind, d->width > 1 ? 2 : 1, {d->width}, 0, deflate};
+    return data != NULL || d->required ? hdf5_write(file, rows, (hsize_t)count, data) : DEM_OK;
+}
+
+static dem_status write_flags(const hdf5_file *file, const dem_lattice *lattice, int deflate)
+{
+    dem_status status = DEM_ERROR_MEMORY;
+    dem_index n_contacts = 0;
+    unsigned char *fixed = malloc((size_t)lattice->n_nodes);
+    dem_index *contacts = malloc((size_t)lattice->n_nodes * sizeof *contacts);
+    if (fixed == NULL || contacts == NULL) {
+        (void)status_fail(status, "out of memory");
+        goto out;
+    }
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        fixed[i] = (lattice->flags[i] & DEM_NODE_FIXED) != 0;
+        if (lattice->flags[i] & DEM_NODE_CONTACT) contacts[n_contacts++] = i;
+    }
+    status = write_array(file, FIXED, deflate, lattice->n_nodes, fixed);
+    if (status == DEM_OK) status = write_array(file, CONTACT_NODES, deflate, n_contacts, contacts);
+out:
+    free(contacts);
+    free(fixed);
+    return status;
+}
+
+dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice, int deflate)
+{
+    const dem_index n = lattice->n_nodes, m = lattice->n_springs, t = lattice->n_triangles;
+    TRY(write_array(file, X, deflate, n, lattice->x));
+    TRY(write_array(file, MASS, deflate, n, lattice->mass));
+    TRY(write_array(file, ENDS, deflate, m, lattice->ends));
+    TRY(write_array(file, REST_LENGTH, deflate, m, lattice->rest_length));
+    TRY(write_array(file, STIFFNESS, deflate, m, lattice->stiffness));
+    TRY(write_array(file, VISCOSITY, deflate, m, lattice->viscosity));
+    TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
+    TRY(write_array(file, GUARD, deflate, t, lattice->guard));
+    TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
+    TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
+    TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
+    TRY(write_array(file, BODY, deflate, n, lattice->body));
+    TRY(write_array(file, POSITION, deflate, n, lattice->position));
+    TRY(write_array(file, VELOCITY, deflate, n, lattice->velocity));
+    return lattice->flags != NULL ? write_flags(file, lattice, deflate) : DEM_OK;
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Writes the group /lattice, which dem_lattice_read() reads. */
+#ifndef DEM_OUTPUT_LATTICE_FILE_H
+#define DEM_OUTPUT_LATTICE_FILE_H
+
+#include "output/hdf5_file.h"
+
+/** Optional arrays that are NULL are left out. */
+dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice, int deflate);
+
+#endif

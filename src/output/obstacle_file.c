@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The polylines twice: as the model has them, and as one grid. */
+#include "output/obstacle_file.h"
+
+#include "base/grow.h"
+#include "base/status.h"
+#include "lattice/lattice.h"
+#include "output/hdf5_untrusted.h"
+#include "output/vtk_grid.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static dem_status write_law(const hdf5_file *file, const char *group, const dem_obstacle *o)
+{
+    const char *law = o->friction_law == DEM_FRICTION_PAPER ? "paper" : "coulomb";
+    TRY(hdf5_write_attribute(file, group, "restitution", HDF5_F64, 1, &o->restitution));
+    TRY(hdf5_write_attribute(file, group, "friction", HDF5_F64, 1, &o->friction));
+    return hdf5_write_attribute_text(file, group, "friction_law", law);
+}
+
+dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
+{
+    dem_index n_obstacles = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
+    for (dem_index o = 0; o < n_obstacles; o++) {
+        char group[48], points[64];
+        (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)o);
+        (void)snprintf(points, sizeof points, "%s/points", group);
+        const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
+        TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
+        TRY(write_law(file, group, &obstacles[o]));
+    }
+    return DEM_OK;
+}
+
+/* ---- reading ---- */
+
+static dem_status read_law(const hdf5_file *file, const char *group, dem_obstacle *o)
+{
+    char law[16];
+    TRY(foreign_read_attribute(file, group, "restitution", HDF5_F64, &o->restitution));
+    TRY(foreign_read_attribute(file, group, "friction", HDF5_F64, &o->friction));
+    TRY(foreign_read_attribute_text(file, group, "friction_law", law, sizeof law));
+    if (strcmp(law, "paper") == 0)
+        o->friction_law = DEM_FRICTION_PAPER;
+    else if (strcmp(law, "coulomb") != 0)
+        return foreign_refuse(file, group, "friction_law is neither coulomb nor paper");
+    return DEM_OK;
+}
+
+/* The points are the caller's as soon as they are allocated. */
+static dem_status read_points(const hdf5_file *file, const char *name, dem_obstacle *o)
+{
+    foreign_shape shape;
+    TRY(foreign_measure(file, name, HDF5_F64, &shape));
+    if (shape.rank != 2 || shape.extent[1] != 2) return foreign_refuse(file, name, "is not of shape [n][2]");
+    double *points = lattice_zeros((dem_index)shape.extent[0], 2 * sizeof *points);
+    CHECK_MEMORY(points);
+    o->n_points = (dem_index)shape.extent[0];
+    o->points = points;
+    return foreign_read(file, name, HDF5_F64, (foreign_rows){0, shape.extent[0], 0}, points);
+}
+
+static dem_status check(const hdf5_file *file, const char *group, const dem_obstacle *o)
+{
+    char reason[256];
+    dem_index segments[2];
+    const dem_status status = dem_obstacle_check(o, segments);
+    if (status == DEM_OK || status == DEM_ERROR_MEMORY) return status;
+    (void)snprintf(reason, sizeof reason, "%s", dem_status_message());
+    return foreign_refuse(file, group, reason);
+}
+
+static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_obstacle *out)
+{
+    char points[64];
+    bool present = false;
+    (void)snprintf(points, sizeof points, "%s/points", group);
+    TRY(foreign_find(file, points, &present));
+    if (!present) return foreign_refuse(file, points, "is missing");
+    TRY(read_points(file, points, out));
+    TRY(read_law(file, group, out));
+    return check(file, group, out);
+}
+
+/* After a failure too, what is there is [*n]. */
+static dem_status read_all(const hdf5_file *file, dem_obstacle **out, dem_index *n)
+{
+    dem_index capacity = 0;
+    for (bool present = true; present;) {
+        char group[48];
+        (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)*n);
+        TRY(foreign_find(file, group, &present));
+        if (!present) break;
+        CHECK(grow_array((void **)out, &capacity, *n + 1, sizeof **out), DEM_ERROR_MEMORY, "out of memory");
+        (*out)[*n] = (dem_obstacle){0};
+        TRY(read_obstacle(file, group, &(*out)[(*n)++]));
+    }
+    return DEM_OK;
+}
+
+dem_status obstacle_file_read(const hdf5_file *file, dem_obstacle **out, dem_index *n)
+{
+    dem_obstacle *all = NULL;
+    dem_index n_all = 0;
+    const dem_status status = read_all(file, &all, &n_all);
+    if (status == DEM_OK) {
+        *out = all;
+        *n = n_all;
+    } else {
+        obstacle_file_free(all, n_all);
+    }
+    return status;
+}
+
+void obstacle_file_free(dem_obstacle *obstacles, dem_index n)
+{
+    for (dem_index o = 0; o < n; o++) free((void *)(uintptr_t)obstacles[o].points);
+    free(obstacles);
+}
+
+/* ---- writing for ParaView ---- */
+
+/* The polylines as one grid. */
+typedef struct outline {
+    grid grid;
+    double *points; /* [n_points][3] */
+    dem_index *ends;
+    int32_t *owner; /* [n_cells] the obstacle of each segment */
+} outline;
+
+static void free_outline(outline *o)
+{
+    free(o->points);
+    free(o->ends);
+    free(o->owner);
+}
+
+static dem_status allocate_outline(outline *out, dem_index n_points, dem_index n_segments)
+{
+    outline o = {.grid = {n_points, n_segments, NULL}};
+    o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
+    o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
+    o.owner = calloc((size_t)n_segments, sizeof *o.owner);
+    o.grid.ends = o.ends;
+    *out = o;
+    if (o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
+    free_outline(&o);
+    return status_fail(DEM_ERROR_MEMORY, "out of memory");
+}
+
+static dem_status make_outline(outline *out, const dem_model *model)
+{
+    dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
+    for (dem_index o = 0; o < n_obstacles; o++) n_points += obstacles[o].n_points;
+    TRY(allocate_outline(out, n_points, n_points - n_obstacles));
+    for (dem_index o = 0; o < n_obstacles; o++)
+        for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
+            memcpy(out->points + 3 * point, obstacles[o].points + 2 * p, 2 * sizeof *out->points);
+            if (p == 0) continue;
+            out->ends[2 * segment] = point - 1;
+            out->ends[2 * segment + 1] = point;
+            out->owner[segment++] = (int32_t)o;
+        }
+    return DEM_OK;
+}
+
+static dem_status write_outline(const hdf5_file *file, const outline *o, int deflate)
+{
+    const hdf5_rows points = {GRID "Points", HDF5_F64, 2, {3}, 0, deflate};
+    const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
+    TRY(grid_write(file, &o->grid, deflate));
+    TRY(hdf5_write(file, points, (hsize_t)o->grid.n_points, o->points));
+    return hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner);
+}
+
+dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, int deflate)
+{
+    outline o;
+    hdf5_file file;
+    TRY(make_outline(&o, model));
+    dem_status status = hdf5_open_new(&file, part, 64 * (hsize_t)o.grid.n_points);
+    if (status == DEM_OK) status = hdf5_close(&file, write_outline(&file, &o, deflate));
+    if (status == DEM_OK) status = hdf5_publish(part, path);
+    if (status != DEM_OK) (void)unlink(part);
+    free_outline(&o);
+    return status;
+}

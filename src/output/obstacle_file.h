@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Obstacles as they were given, in the group /obstacles, and as lines for ParaView, in a file of their own. */
+#ifndef DEM_OUTPUT_OBSTACLE_FILE_H
+#define DEM_OUTPUT_OBSTACLE_FILE_H
+
+#include "output/hdf5_file.h"
+
+/** Makes /obstacles/0, /obstacles/1, ... */
+dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model);
+
+/** The obstacles as obstacle_file_write() left them, [*n]; free with obstacle_file_free(), points and all. The file may
+ *  come from anywhere.
+ *  \return DEM_ERROR_IO with the dataset and the reason */
+dem_status obstacle_file_read(const hdf5_file *file, dem_obstacle **out, dem_index *n);
+void obstacle_file_free(dem_obstacle *obstacles, dem_index n);
+
+/** Makes the file `part`, of lines, and publishes it as `path`; after a failure there is no part. */
+dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, int deflate);
+
+#endif

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Peaks are kept as entries; the file has a column for each of their numbers. */
+#include "output/peaks_file.h"
+
+#include "base/status.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- arrays ---- */
+
+static dem_status write_nodes(const hdf5_file *file, const dem_node_peak *peaks, const frames *f)
+{
+    const frames_constant size = {"PointData", "peak_von_mises", f->real, 1};
+    const frames_constant time = {"PointData", "peak_von_mises_time", HDF5_F64, 1};
+    const frames_constant stress = {"PointData", "peak_stress", f->real, 6};
+    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = peaks[i].von_mises;
+    TRY(frames_write_constant(f, file, &size, f->scratch));
+    for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = peaks[i].t;
+    TRY(frames_write_constant(f, file, &time, f->scratch));
+    for (dem_index i = 0; i < f->n_nodes; i++) memcpy(f->stress + 3 * i, peaks[i].stress, sizeof peaks[i].stress);
+    frames_spread_stress(f->scratch, f->n_nodes, f->stress);
+    return frames_write_constant(f, file, &stress, f->scratch);
+}
+
+static dem_status write_springs(const hdf5_file *file, const dem_spring_peak *peaks, const frames *f)
+{
+    const frames_constant strain = {"CellData", "peak_strain", f->real, 1};
+    const frames_constant time = {"CellData", "peak_strain_time", HDF5_F64, 1};
+    for (dem_index k = 0; k < f->n_springs; k++) f->scratch[k] = peaks[k].strain;
+    TRY(frames_write_constant(f, file, &strain, f->scratch));
+    for (dem_index k = 0; k < f->n_springs; k++) f->scratch[k] = peaks[k].t;
+    return frames_write_constant(f, file, &time, f->scratch);
+}
+
+dem_status peaks_file_write_arrays(const hdf5_file *file, const peaks_report *report, const frames *f)
+{
+    TRY(write_nodes(file, dem_peaks_nodes(report->peaks), f));
+    return write_springs(file, dem_peaks_springs(report->peaks), f);
+}
+
+/* ---- lists ---- */
+
+static dem_status write_column(const hdf5_file *file, const char *name, dem_index n, int components,
+                               const double *values)
+{
+    const hdf5_rows rows = {name, HDF5_F64, components > 1 ? 2 : 1, {(hsize_t)components}, 0, 0};
+    return hdf5_write(file, rows, (hsize_t)n, values);
+}
+
+static dem_status write_numbers(const hdf5_file *file, const char *name, dem_index n, const dem_index *numbers)
+{
+    return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, 0}, (hsize_t)n, numbers);
+}
+
+static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
+{
+    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most, list);
+    const dem_node_peak *peaks = dem_peaks_nodes(r->peaks);
+    TRY(write_numbers(file, "/most_stressed/nodes/node", n, list));
+    for (dem_index k = 0; k < n; k++) memcpy(column + 2 * k, r->lattice->x + 2 * list[k], 2 * sizeof *column);
+    TRY(write_column(file, "/most_stressed/nodes/x", n, 2, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
+    TRY(write_column(file, "/most_stressed/nodes/t", n, 1, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].von_mises;
+    TRY(write_column(file, "/most_stressed/nodes/von_mises", n, 1, column));
+    for (dem_index k = 0; k < n; k++) memcpy(column + 3 * k, peaks[list[k]].stress, 3 * sizeof *column);
+    return write_column(file, "/most_stressed/nodes/stress", n, 3, column);
+}
+
+static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
+{
+    const dem_index n = dem_peaks_most_strained_springs(r->peaks, r->most, list);
+    const dem_spring_peak *peaks = dem_peaks_springs(r->peaks);
+    const dem_lattice *l = r->lattice;
+    TRY(write_numbers(file, "/most_stressed/springs/spring", n, list));
+    for (dem_index k = 0; k < 2 * n; k++) {
+        const dem_index *ends = l->ends + 2 * list[k / 2];
+        column[k] = 0.5 * (l->x[2 * ends[0] + k % 2] + l->x[2 * ends[1] + k % 2]);
+    }
+    TRY(write_column(file, "/most_stressed/springs/x", n, 2, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].t;
+    TRY(write_column(file, "/most_stressed/springs/t", n, 1, column));
+    for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].strain;
+    TRY(write_column(file, "/most_stressed/springs/strain", n, 1, column));
+    for (dem_index k = 0; k < n; k++) column[k] *= l->stiffness[list[k]];
+    return write_column(file, "/most_stressed/springs/force", n, 1, column);
+}
+
+dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *report)
+{
+    const dem_index n = report->lattice->n_nodes, m = report->lattice->n_springs, largest = n > m ? n : m;
+    const size_t most = (size_t)(report->most < largest ? report->most : largest) + 1;
+    dem_index *list = malloc(most * sizeof *list);
+    double *column = malloc(3 * most * sizeof *column);
+    dem_status status = DEM_OK;
+    if (list == NULL || column == NULL)
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory for the %lld most stressed", (long long)report->most);
+    if (status == DEM_OK) status = write_node_list(file, report, list, column);
+    if (status == DEM_OK) status = write_spring_list(file, report, list, column);
+    free(list);
+    free(column);
+    return status;
+}
+
+hsize_t peaks_file_bytes(const peaks_report *report, hsize_t n)
+{
+    const dem_lattice *l = report->lattice;
+    return 64 * (hsize_t)l->n_nodes + 16 * (hsize_t)l->n_springs + 40 * n + 104 * (hsize_t)report->most;
+}

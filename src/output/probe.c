@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which columns each kind of probe has, and what fills them. */
+#include "output/probe.h"
+
+#include "base/status.h"
+#include "elastic/springs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { most_letters = 63 };
+
+/* In the order in which probe_record() fills a row; the columns of a kind end with one without a name. */
+static const struct column {
+    const char *name, *unit;
+    hsize_t components;
+} columns[][PROBE_COLUMNS + 1] = {
+    [DEM_PROBE_NODE] = {{"t", "s", 1}, {"x", "m", 2}, {"v", "m/s", 2}, {"stress", "Pa", 3}, {"von_mises", "Pa", 1}},
+    [DEM_PROBE_SPRING] = {{"t", "s", 1}, {"strain", "1", 1}, {"force", "N", 1}},
+    [DEM_PROBE_GAUGE] = {{"t", "s", 1}, {"length", "m", 1}, {"strain", "1", 1}},
+};
+
+static const char *const kinds[] = {
+    [DEM_PROBE_NODE] = "node", [DEM_PROBE_SPRING] = "spring", [DEM_PROBE_GAUGE] = "gauge"};
+
+static int count_columns(const dem_probe *what)
+{
+    int n = 0;
+    while (columns[what->kind][n].name != NULL) n++;
+    return n;
+}
+
+/* How many numbers say what is probed. */
+static int count_numbers(const dem_probe *what)
+{
+    return what->kind == DEM_PROBE_GAUGE ? 2 : 1;
+}
+
+/* ---- checks ---- */
+
+static dem_status check_name(const char *name)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    CHECK(name != NULL, DEM_ERROR_ARGUMENT, "a probe has no name");
+    const size_t n = strlen(name);
+    CHECK(n >= 1 && n <= most_letters && strspn(name, letters) == n, DEM_ERROR_ARGUMENT,
+          "\"%s\" cannot name a probe: 1 to %d letters, digits, _ and -", name, (int)most_letters);
+    return DEM_OK;
+}
+
+static dem_status check_probe(const dem_probe *what, const dem_lattice *l)
+{
+    TRY(check_name(what->name));
+    CHECK(what->kind >= DEM_PROBE_NODE && what->kind <= DEM_PROBE_GAUGE, DEM_ERROR_ARGUMENT,
+          "probe %s: kind %d is unknown", what->name, (int)what->kind);
+    CHECK(what->every >= 1, DEM_ERROR_ARGUMENT, "probe %s: a row every %lld steps; it must be 1 or more", what->name,
+          (long long)what->every);
+    const bool spring = what->kind == DEM_PROBE_SPRING;
+    const dem_index n = spring ? l->n_springs : l->n_nodes;
+    for (int k = 0; k < count_numbers(what); k++)
+        CHECK(what->number[k] >= 0 && what->number[k] < n, DEM_ERROR_ARGUMENT,
+              "probe %s: there is no %s %lld; they are 0 to %lld", what->name, spring ? "spring" : "node",
+              (long long)what->number[k], (long long)(n - 1));
+    return DEM_OK;
+}
+
+/* ---- creation ---- */
+
+/* The name, and the paths of the columns behind it. */
+static dem_status name_columns(probe *p, const char *name)
+{
+    const int n = count_columns(&p->what);
+    const size_t size = strlen(name) + sizeof "/probes//von_mises";
+    p->text = malloc((size_t)(n + 1) * size);
+    CHECK_MEMORY(p->text);
+    (void)snprintf(p->text, size, "%s", name);
+    p->what.name = p->text;
+    for (int c = 0; c < n; c++) {
+        const struct column *column = &columns[p->what.kind][c];
+        char *path = p->text + (size_t)(c + 1) * size;
+        (void)snprintf(path, size, "/probes/%s/%s", name, column->name);
+        p->columns[c] = (table_column){path, HDF5_F64, 0, column->components};
+    }
+    return DEM_OK;
+}
+
+static double gauge_length(const dem_probe *what, const double *x)
+{
+    return vec2_norm(vec2_sub(vec2_at(x, what->number[1]), vec2_at(x, what->number[0])));
+}
+
+static dem_status prepare(probe *p, const dem_lattice *lattice)
+{
+    if (p->what.kind == DEM_PROBE_GAUGE) {
+        p->initial = gauge_length(&p->what, lattice->x);
+        CHECK(p->initial > 0.0, DEM_ERROR_ARGUMENT, "probe %s: a gauge from node %lld to node %lld has no length",
+              p->what.name, (long long)p->what.number[0], (long long)p->what.number[1]);
+    }
+    TRY(name_columns(p, p->what.name));
+    return table_init(&p->table, p->columns, count_columns(&p->what), NULL);
+}
+
+dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice)
+{
+    *out = (probe){0};
+    TRY(check_probe(what, lattice));
+    out->what = *what;
+    const dem_status status = prepare(out, lattice);
+    if (status != DEM_OK) probe_free(out);
+    return status;
+}
+
+void probe_free(probe *p)
+{
+    table_free(&p->table);
+    free(p->text);
+    *p = (probe){0};
+}
+
+dem_status probe_create(const probe *p, const hdf5_file *file)
+{
+    char group[sizeof "/probes/" + most_letters];
+    (void)snprintf(group, sizeof group, "/probes/%s", p->what.name);
+    TRY(table_create(&p->table, file));
+    for (int c = 0; c < p->table.n_columns; c++)
+        TRY(hdf5_write_attribute_text(file, p->columns[c].name, "unit", columns[p->what.kind][c].unit));
+    TRY(hdf5_write_attribute_text(file, group, "kind", kinds[p->what.kind]));
+    const hsize_t n = (hsize_t)count_numbers(&p->what);
+    TRY(hdf5_write_attribute(file, group, "number", HDF5_I64, n, p->what.number));
+    return hdf5_write_attribute(file, group, "every", HDF5_I64, 1, &p->what.every);
+}
+
+/* ---- rows ---- */
+
+static void record_node(probe *p, const dem_simulation *simulation, const dem_state *state)
+{
+    const dem_index i = p->what.number[0];
+    double stress[3];
+    dem_simulation_stress_at(simulation, i, stress);
+    const double von_mises = dem_stress_von_mises(stress);
+    table_cell *cell = table_put_reals(table_add(&p->table), &state->t, 1);
+    cell = table_put_reals(cell, state->x + 2 * i, 2);
+    cell = table_put_reals(cell, state->v + 2 * i, 2);
+    cell = table_put_reals(cell, stress, 3);
+    (void)table_put_reals(cell, &von_mises, 1);
+}
+
+static void record_spring(probe *p, const dem_simulation *simulation, const dem_state *state)
+{
+    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
+    const dem_index k = p->what.number[0];
+    const double strain = springs_strain_of(l, k, state->x), row[3] = {state->t, strain, l->stiffness[k] * strain};
+    (void)table_put_reals(table_add(&p->table), row, 3);
+}
+
+static void record_gauge(probe *p, const dem_state *state)
+{
+    const double length = gauge_length(&p->what, state->x), row[3] = {state->t, length, length / p->initial - 1.0};
+    (void)table_put_reals(table_add(&p->table), row, 3);
+}
+
+void probe_record(probe *p, const dem_simulation *simulation)
+{
+    dem_state state;
+    dem_simulation_state(simulation, &state);
+    if (p->seen && state.t == p->last) return;
+    p->seen = true;
+    p->last = state.t;
+    if (p->left-- > 0) return;
+    p->left = p->what.every - 1;
+    if (p->what.kind == DEM_PROBE_NODE)
+        record_node(p, simulation, &state);
+    else if (p->what.kind == DEM_PROBE_SPRING)
+        record_spring(p, simulation, &state);
+    else
+        record_gauge(p, &state);
+}
+
+probe_memory probe_remember(const probe *p)
+{
+    probe_memory m = {.kind = (int64_t)p->what.kind,
+                      .every = p->what.every,
+                      .rows = (int64_t)table_total(&p->table),
+                      .left = p->left,
+                      .seen = p->seen,
+                      .last = p->last};
+    (void)snprintf(m.name, sizeof m.name, "%s", p->what.name);
+    for (int k = 0; k < count_numbers(&p->what); k++) m.number[k] = p->what.number[k];
+    return m;
+}
+
+dem_status probe_recall(probe *p, const probe_memory *memory)
+{
+    const probe_memory own = probe_remember(p);
+    CHECK(strncmp(own.name, memory->name, sizeof own.name) == 0 && own.kind == memory->kind &&
+              own.number[0] == memory->number[0] && own.number[1] == memory->number[1] && own.every == memory->every,
+          DEM_ERROR_ARGUMENT, "probe %s is none of those of the run that is to go on", own.name);
+    CHECK(memory->left >= 0 && memory->left < p->what.every, DEM_ERROR_IO,
+          "probe %s: the record has %lld steps until its next row, of %lld", own.name, (long long)memory->left,
+          (long long)p->what.every);
+    p->left = memory->left;
+    p->seen = memory->seen != 0;
+    p->last = memory->last;
+    return DEM_OK;
+}

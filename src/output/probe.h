@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The groups /probes/NAME of a trajectory: a node, a spring or a gauge over time. */
+#ifndef DEM_OUTPUT_PROBE_H
+#define DEM_OUTPUT_PROBE_H
+
+#include <stdbool.h>
+
+#include <dem/trajectory.h>
+
+#include "output/table.h"
+
+enum { PROBE_COLUMNS = 5 /**< at most */ };
+
+typedef struct probe {
+    dem_probe what; /**< its name is own */
+    double initial; /**< distance of a gauge's nodes at rest, m */
+    dem_index left; /**< accepted steps until the next row */
+    bool seen;      /**< whether there was a step */
+    double last;    /**< t of the last one, s */
+    char *text;     /**< the names, one allocation */
+    table_column columns[PROBE_COLUMNS];
+    table table; /**< refers to the columns: a probe must stay where it is */
+} probe;
+
+/** What a record keeps of a probe, in whole words. */
+typedef struct probe_memory {
+    char name[64];
+    int64_t kind, number[2], every;
+    int64_t rows, left, seen;
+    double last;
+} probe_memory;
+
+/** Checks and copies; `out` is left empty on failure. Free with probe_free(). */
+dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice);
+void probe_free(probe *p);
+
+/** Makes the group: datasets without rows, with their units, and what is probed as attributes. */
+dem_status probe_create(const probe *p, const hdf5_file *file);
+
+/** Appends the state as a row if one is due. The table's buffer must have room. */
+void probe_record(probe *p, const dem_simulation *simulation);
+
+probe_memory probe_remember(const probe *p);
+
+/** Goes on from there, the rows left to the caller; DEM_ERROR_ARGUMENT if that was another probe. */
+dem_status probe_recall(probe *p, const probe_memory *memory);
+
+#endif

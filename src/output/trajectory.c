@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run as VTKHDF files: when what is written, and what a record has to remember of it. docs/output.md lists all
+ * datasets. */
+#include <dem/trajectory.h>
+
+#include "base/status.h"
+#include "output/obstacle_file.h"
+#include "output/trajectory_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+struct dem_trajectory {
+    reel reel;
+    segments segments;
+    int finished;
+};
+
+static const char *path_of(const dem_trajectory *t)
+{
+    return t->segments.names[SEGMENTS_WHOLE];
+}
+
+static const char *part_of(const dem_trajectory *t)
+{
+    return t->segments.names[SEGMENTS_PART];
+}
+
+/* ---- following a run ---- */
+
+static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation)
+{
+    TRY(reel_flush(&t->reel, file));
+    return frames_append(&t->reel.frames, file, simulation);
+}
+
+static dem_status on_frame(void *context, const dem_simulation *simulation)
+{
+    dem_trajectory *t = context;
+    frames *f = &t->reel.frames;
+    dem_state state = {.struct_size = sizeof state};
+    hdf5_file file;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
+    dem_simulation_state(simulation, &state);
+    if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
+    TRY(hdf5_open_write(&file, part_of(t), reel_flush_bytes(&t->reel) + frames_bytes(f)));
+    TRY(hdf5_close(&file, append_frame(t, &file, simulation)));
+    f->n++;
+    f->last = state.t;
+    return DEM_OK;
+}
+
+static dem_status flush(dem_trajectory *t)
+{
+    hdf5_file file;
+    TRY(hdf5_open_write(&file, part_of(t), reel_flush_bytes(&t->reel)));
+    return hdf5_close(&file, reel_flush(&t->reel, &file));
+}
+
+static dem_status on_step(void *context, const dem_simulation *simulation)
+{
+    dem_trajectory *t = context;
+    reel *r = &t->reel;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
+    if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t)); /* no probe has more rows */
+    history_record(&r->history, simulation);
+    for (dem_index k = 0; k < r->options.n_probes; k++) probe_record(&r->probes[k], simulation);
+    return DEM_OK;
+}
+
+static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    dem_trajectory *t = context;
+    (void)simulation;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more events", path_of(t));
+    if (t->reel.events.buffered == TABLE_ROWS) TRY(flush(t));
+    events_record(&t->reel.events, event);
+    return DEM_OK;
+}
+
+/* ---- records ---- */
+
+static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
+
+/* Without gaps: its bytes are those of its numbers. */
+typedef struct memory {
+    int64_t rows[REEL_PROBES];                          /* so far, over all segments */
+    int64_t n_probes, fields, double_precision, events; /* of the options, which have to be these again */
+    double frame_interval;
+    double last_frame, last_row; /* s */
+    double start, largest;       /* J, of the history */
+} memory;
+
+static memory remember(const dem_trajectory *t)
+{
+    const reel *r = &t->reel;
+    const dem_trajectory_options *o = &r->options;
+    memory m = {.n_probes = o->n_probes,
+                .fields = o->fields,
+                .double_precision = o->double_precision != 0,
+                .events = o->events != 0,
+                .frame_interval = o->frame_interval,
+                .last_frame = r->frames.last,
+                .last_row = r->history.last,
+                .start = r->history.start,
+                .largest = r->history.largest};
+    for (int k = 0; k < REEL_PROBES; k++) m.rows[k] = (int64_t)reel_total(r, k);
+    return m;
+}
+
+static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
+{
+    const dem_trajectory *t = context;
+    const memory m = remember(t);
+    const size_t n = (size_t)m.n_probes;
+    (void)simulation;
+    TRY(dem_record_put(record, entry, &m, sizeof m));
+    if (n == 0) return DEM_OK;
+    probe_memory *probes = malloc(n * sizeof *probes);
+    CHECK_MEMORY(probes);
+    for (size_t k = 0; k < n; k++) probes[k] = probe_remember(&t->reel.probes[k]);
+    const dem_status status = dem_record_put(record, probes_entry, probes, n * sizeof *probes);
+    free(probes);
+    return status;
+}
+
+static dem_status check_same(const char *what, double now, double then)
+{
+    CHECK(now == then, DEM_ERROR_ARGUMENT, "%s is %.17g, in the run that is to go on it is %.17g", what, now, then);
+    return DEM_OK;
+}
+
+static dem_status check_options_then(const memory *now, const memory *then)
+{
+    TRY(check_same("n_probes", (double)now->n_probes, (double)then->n_probes));
+    TRY(check_same("fields", (double)now->fields, (double)then->fields));
+    TRY(check_same("double_precision", (double)now->double_precision, (double)then->double_precision));
+    TRY(check_same("events", (double)now->events, (double)then->events));
+    return check_same("frame_interval", now->frame_interval, then->frame_interval);
+}
+
+/* What a record says of this trajectory. */
+typedef struct remembered {
+    memory memory;
+    const probe_memory *probes; /* [n_probes] */
+    hsize_t *rows;              /* [kinds] */
+} remembered;
+
+/* Free rows, after a failure too. */
+static dem_status recall(remembered *out, const dem_trajectory *t, const dem_record *record)
+{
+    const memory now = remember(t);
+    const size_t n = (size_t)now.n_probes;
+    size_t size = 0;
+    *out = (remembered){.rows = calloc((size_t)t->reel.n_kinds, sizeof *out->rows)};
+    CHECK_MEMORY(out->rows);
+    TRY(dem_record_get(record, entry, &out->memory, sizeof out->memory));
+    TRY(check_options_then(&now, &out->memory));
+    out->probes = dem_record_find(record, probes_entry, &size);
+    CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
+          "the record has no entry %s of %zu probes", probes_entry, n);
+    for (int k = 0; k < REEL_PROBES; k++) out->rows[k] = (hsize_t)out->memory.rows[k];
+    for (size_t k = 0; k < n; k++) out->rows[REEL_PROBES + k] = (hsize_t)out->probes[k].rows;
+    return DEM_OK;
+}
+
+/* ---- creation ---- */
+
+static dem_status check_options(const char *path, const dem_trajectory_options *options)
+{
+    static const char suffix[] = SEGMENTS_SUFFIX;
+    const size_t length = strlen(path), end = sizeof suffix - 1;
+    CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
+          "%s: the name of a trajectory ends in %s", path, suffix);
+    CHECK(options->struct_size == sizeof *options, DEM_ERROR_ARGUMENT,
+          "the options are not from dem_trajectory_options_default()");
+    CHECK(isfinite(options->frame_interval), DEM_ERROR_ARGUMENT, "frame_interval is not a finite number");
+    CHECK((options->fields & ~(uint32_t)DEM_FIELD_ALL) == 0, DEM_ERROR_ARGUMENT, "fields is 0x%x, with unknown bits",
+          options->fields);
+    CHECK(options->n_probes >= 0 && (options->n_probes == 0 || options->probes != NULL), DEM_ERROR_ARGUMENT,
+          "%lld probes, probes is %s", (long long)options->n_probes, options->probes != NULL ? "given" : "NULL");
+    CHECK(options->most_stressed >= 0, DEM_ERROR_ARGUMENT, "most_stressed is %lld; it must be >= 0",
+          (long long)options->most_stressed);
+    CHECK(options->deflate >= 0 && options->deflate <= 9, DEM_ERROR_ARGUMENT, "deflate is %d, not in 0 to 9",
+          options->deflate);
+    return DEM_OK;
+}
+
+/* A trajectory without files yet. */
+static dem_status prepare(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                          const dem_trajectory_options *options)
+{
+    CHECK(out != NULL && path != NULL && simulation != NULL && options != NULL, DEM_ERROR_ARGUMENT,
+          "a trajectory: an argument is NULL");
+    TRY(check_options(path, options));
+    dem_trajectory *t = calloc(1, sizeof *t);
+    CHECK_MEMORY(t);
+    dem_status status = reel_init(&t->reel, simulation, options);
+    if (status == DEM_OK) status = segments_init(&t->segments, path, &t->reel);
+    if (status == DEM_OK)
+        *out = t;
+    else
+        dem_trajectory_destroy(t);
+    return status;
+}
+
+/* Makes the part and the file of obstacles, and removes what is younger. */
+static dem_status start(dem_trajectory *t)
+{
+    const reel *r = &t->reel;
+    const segments *s = &t->segments;
+    TRY(segments_open(s, r));
+    dem_status status = DEM_OK;
+    if (dem_model_sizes(r->model).n_obstacles > 0)
+        status = obstacle_file_publish(s->names[SEGMENTS_OBSTACLE_PART], s->names[SEGMENTS_OBSTACLE], r->model,
+                                       r->options.deflate);
+    if (status == DEM_OK) status = segments_prune(&t->segments);
+    if (status != DEM_OK) (void)unlink(part_of(t));
+    return status;
+}
+
+/* Hands out what has started, or puts it away. */
+static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status status)
+{
+    if (status == DEM_OK)
+        *out = t;
+    else
+        dem_trajectory_destroy(t);
+    return status;
+}
+
+/* The history's last instant is known before the segments are looked for: they end with it. */
+static dem_status go_on(dem_trajectory *t, const dem_record *record)
+{
+    remembered then;
+    reel *r = &t->reel;
+    dem_status status = recall(&then, t, record);
+    for (dem_index k = 0; k < r->options.n_probes && status == DEM_OK; k++)
+        status = probe_recall(&r->probes[k], &then.probes[k]);
+    if (status == DEM_OK) {
+        r->frames.last = then.memory.last_frame;
+        r->history.last = then.memory.last_row;
+        r->history.start = then.memory.start;
+        r->history.largest = then.memory.largest;
+        status = segments_find(&t->segments, r, then.rows);
+    }
+    free(then.rows);
+    return status == DEM_OK ? start(t) : status;
+}
+
+/* ---- public ---- */
+
+dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                 const dem_trajectory_options *options)
+{
+    dem_trajectory *t = NULL;
+    TRY(prepare(&t, path, simulation, options));
+    return hand_out(out, t, start(t));
+}
+
+dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const dem_simulation *simulation,
+                                 const dem_trajectory_options *options, const dem_record *record)
+{
+    dem_trajectory *t = NULL;
+    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_resume: the record is NULL");
+    TRY(prepare(&t, path, simulation, options));
+    return hand_out(out, t, go_on(t, record));
+}
+
+dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
+{
+    return (dem_observer){.interval = trajectory->reel.options.frame_interval,
+                          .frame = on_frame,
+                          .step = on_step,
+                          .event = trajectory->reel.options.events ? on_event : NULL,
+                          .record = on_record,
+                          .context = trajectory};
+}
+
+dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
+{
+    char path[NOTES_PATH];
+    hdf5_file file;
+    CHECK(trajectory != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
+          "dem_trajectory_note: an argument is NULL");
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", path_of(trajectory));
+    TRY(notes_path(path, name));
+    TRY(hdf5_open_write(&file, part_of(trajectory), strlen(text)));
+    TRY(hdf5_close(&file, hdf5_write_text(&file, path, text)));
+    return notes_put(&trajectory->reel.notes, path, text);
+}
+
+dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record)
+{
+    remembered then;
+    CHECK(trajectory != NULL && record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
+    TRY(flush(trajectory));
+    dem_status status = recall(&then, trajectory, record);
+    if (status == DEM_OK) status = segments_cut(&trajectory->segments, &trajectory->reel, then.rows);
+    free(then.rows);
+    return status;
+}
+
+dem_status dem_trajectory_finish(dem_trajectory *trajectory)
+{
+    CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
+    CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", path_of(trajectory));
+    TRY(flush(trajectory));
+    TRY(segments_join(&trajectory->segments, &trajectory->reel));
+    trajectory->finished = 1;
+    return DEM_OK;
+}
+
+void dem_trajectory_destroy(dem_trajectory *trajectory)
+{
+    if (trajectory == NULL) return;
+    reel_free(&trajectory->reel);
+    segments_free(&trajectory->segments);
+    free(trajectory);
+}
+
+dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size)
+{
+    char full[NOTES_PATH];
+    hdf5_file file;
+    CHECK(path != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
+          "dem_trajectory_read_note: an argument is NULL");
+    TRY(notes_path(full, name));
+    TRY(hdf5_open_read(&file, path));
+    return hdf5_close(&file, hdf5_read_text(&file, full, text, size));
+}
+
+void dem_hdf5_skip_exit(void)
+{
+    (void)H5dont_atexit();
+}
+
+const char *dem_version_hdf5(void)
+{
+    static _Thread_local char version[32];
+    unsigned major = 0, minor = 0, release = 0;
+    (void)H5get_libversion(&major, &minor, &release);
+    (void)snprintf(version, sizeof version, "%u.%u.%u", major, minor, release);
+    return version;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "output/units.h"
+
+#include <string.h>
+
+enum { MOST = 24 };
+
+static const struct unit {
+    const char *unit, *names[MOST]; /* NULL behind the last */
+} units[] = {
+    {"s", {"t", "h", "peak_von_mises_time", "peak_strain_time"}},
+    {"m", {"x", "displacement", "length", "body_centre", "obstacle_point", "boundary_displacement"}},
+    {"m/s", {"v", "velocity", "before", "after", "body_velocity"}},
+    {"N", {"force", "obstacle_reaction", "boundary_force"}},
+    {"N s", {"normal_impulse", "tangential_impulse", "obstacle_impulse", "obstacle_friction_impulse"}},
+    {"kg m^2/s", {"body_angular_momentum"}},
+    {"Pa", {"stress", "von_mises", "principal_stress", "peak_von_mises", "peak_stress"}},
+    {"1", {"strain", "peak_strain", "strain_min", "strain_max", "area_min", "closure", "weight", "normal"}},
+    {"J",
+     {"energy",         "kinetic",           "elastic",        "area",           "guard",         "gravity",
+      "impact",         "friction",          "damping",        "projection",     "boundary",      "kinetic_energy",
+      "elastic_energy", "area_energy",       "guard_energy",   "gravity_energy", "impact_energy", "friction_energy",
+      "damping_energy", "projection_energy", "boundary_energy"}},
+};
+
+const char *units_of(const char *name)
+{
+    for (size_t u = 0; u < sizeof units / sizeof units[0]; u++)
+        for (int k = 0; k < MOST && units[u].names[k] != NULL; k++)
+            if (strcmp(units[u].names[k], name) == 0) return units[u].unit;
+    return "";
+}

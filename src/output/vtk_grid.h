@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A VTKHDF UnstructuredGrid of lines, without its points. */
+#ifndef DEM_OUTPUT_VTK_GRID_H
+#define DEM_OUTPUT_VTK_GRID_H
+
+#include "output/hdf5_file.h"
+
+#define GRID "/VTKHDF/" /* the group; names within it follow */
+
+typedef struct grid {
+    dem_index n_points, n_cells;
+    const dem_index *ends; /**< [n_cells][2] */
+} grid;
+
+/** Counts, connectivity and types of the cells, and what tells readers that this is such a grid. */
+dem_status grid_write(const hdf5_file *file, const grid *g, int deflate);
+
+#endif

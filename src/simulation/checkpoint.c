@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Entries are structs of numbers of 8 bytes, without gaps. */
+#include "simulation/checkpoint.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/record.h"
+#include "base/status.h"
+
+typedef struct numbers {
+    double t, step;      /* s */
+    double next_step;    /* s; 0: fixed ones */
+    double impact;       /* J, books of contacts */
+    double projection;   /* J */
+    double straightened; /* m */
+    dem_index events, unlooked, idle;
+} numbers;
+
+/* What two models must have in common. */
+typedef struct sizes {
+    dem_index n_nodes, n_springs, n_triangles, n_segments, n_vertices, n_obstacles, n_sites, n_unknowns;
+} sizes;
+
+typedef struct touch_entry {
+    dem_index feature, sign, held;
+    double place, force, friction;
+} touch_entry;
+
+/* A site with something to remember. */
+typedef struct site_entry {
+    dem_index k, n_closed, behind[2], storm;
+    double storm_start;
+    touch_entry closed[2];
+} site_entry;
+
+static sizes sizes_of(const dem_simulation *s)
+{
+    const dem_model *m = s->model;
+    return (sizes){m->lattice.n_nodes,      m->lattice.n_springs, m->lattice.n_triangles, m->obstacles.n_segments,
+                   m->obstacles.n_vertices, m->obstacles.n,       s->contact.sites.n,     run_unknowns(m)};
+}
+
+/* ---- contacts ---- */
+
+static bool remembers(const contact_site *site)
+{
+    return site->n_closed > 0 || site->behind[0] >= 0 || site->behind[1] >= 0 || site->storm > 0;
+}
+
+static site_entry describe(const contact_site *site, dem_index k)
+{
+    site_entry e = {k, site->n_closed, {site->behind[0], site->behind[1]}, site->storm, site->storm_start, {{0}}};
+    for (int q = 0; q < site->n_closed; q++) {
+        const contact_touch *touch = &site->closed[q];
+        e.closed[q] =
+            (touch_entry){touch->feature, touch->sign, touch->held, touch->place, touch->force, touch->friction};
+    }
+    return e;
+}
+
+static dem_status put_contacts(const contact_sites *c, dem_record *record)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < c->n; k++) n += remembers(&c->list[k]);
+    site_entry *list = malloc(((size_t)n + 1) * sizeof *list);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contacts of a record");
+    n = 0;
+    for (dem_index k = 0; k < c->n; k++)
+        if (remembers(&c->list[k])) list[n++] = describe(&c->list[k], k);
+    const dem_status status = dem_record_put(record, "contacts", list, (size_t)n * sizeof *list);
+    free(list);
+    return status;
+}
+
+static bool is_within(dem_index value, dem_index low, dem_index high)
+{
+    return value >= low && value <= high;
+}
+
+/* Whether an entry is one of a site. */
+static bool is_possible(const contact_sites *c, const site_entry *e)
+{
+    const obstacle_set *o = &c->scene.model->obstacles;
+    if (!is_within(e->k, 0, c->n - 1) || !is_within(e->n_closed, 0, 2)) return false;
+    if (!is_within(e->behind[0], -1, o->n - 1) || !is_within(e->behind[1], -1, o->n - 1)) return false;
+    if (e->storm < 0 || !isfinite(e->storm_start)) return false;
+    const dem_index n_features = site_is_edge(&c->list[e->k]) ? o->n_vertices : o->n_segments;
+    for (dem_index q = 0; q < e->n_closed; q++) {
+        const touch_entry *touch = &e->closed[q];
+        if (!is_within(touch->feature, 0, n_features - 1) || !is_within(touch->sign, -1, 1)) return false;
+        if (!is_within(touch->held, 0, 1) || !isfinite(touch->place)) return false;
+        if (!isfinite(touch->force) || !isfinite(touch->friction)) return false;
+    }
+    return e->n_closed < 2 || e->closed[0].feature != e->closed[1].feature;
+}
+
+static void forget(contact_site *site)
+{
+    *site = sites_anew(site);
+    site->behind[0] = site->behind[1] = -1;
+}
+
+static void restore(contact_site *site, const site_entry *e)
+{
+    site->n_closed = (int)e->n_closed;
+    site->storm = e->storm;
+    site->storm_start = e->storm_start;
+    for (int q = 0; q < 2; q++) site->behind[q] = e->behind[q];
+    for (int q = 0; q < site->n_closed; q++) {
+        const touch_entry *touch = &e->closed[q];
+        site->closed[q] = (contact_touch){.feature = touch->feature,
+                                          .sign = (int)touch->sign,
+                                          .held = touch->held != 0,
+                                          .place = touch->place,
+                                          .force = touch->force,
+                                          .friction = touch->friction};
+    }
+}
+
+static dem_status get_contacts(contact_sites *c, const dem_record *record)
+{
+    size_t size;
+    dem_index last = -1;
+    const site_entry *list = dem_record_find(record, "contacts", &size);
+    CHECK(list != NULL && size % sizeof *list == 0, DEM_ERROR_IO, "the record has no contacts");
+    for (dem_index k = 0; k < c->n; k++) forget(&c->list[k]);
+    for (size_t k = 0; k < size / sizeof *list; k++) {
+        CHECK(is_possible(c, &list[k]) && list[k].k > last, DEM_ERROR_IO,
+              "entry %zu of the contacts in the record is impossible", k);
+        last = list[k].k;
+        restore(&c->list[last], &list[k]);
+    }
+    return DEM_OK;
+}
+
+/* ---- all of it ---- */
+
+/* What goes both ways. */
+static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem_counts *counts)
+{
+    contact_books *books = &s->contact.sites.books;
+    const size_t n_impulses = 4 * (size_t)s->model->obstacles.n;
+    TRY(record_pass(way, "numbers", n, sizeof *n));
+    TRY(record_pass(way, "counts", counts, sizeof *counts));
+    TRY(record_pass(way, "impulses", books->impulse, n_impulses * sizeof *books->impulse));
+    return record_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
+}
+
+dem_status recall_put(dem_simulation *s, dem_record *record)
+{
+    const contact_books *books = &s->contact.sites.books;
+    const record_way way = {.into = record};
+    const dem_counts of_engine = engine_counts(&s->engine);
+    dem_counts counts = books->counts;
+    sizes size = sizes_of(s);
+    numbers n = {s->t,          s->step,           engine_next_step(&s->engine),
+                 books->impact, books->projection, s->contact.sites.straightened,
+                 s->events,     s->unlooked,       s->contact.idle};
+    counts.steps = of_engine.steps;
+    counts.rejected = of_engine.rejected;
+    counts.evaluations = of_engine.evaluations;
+    counts.retries = of_engine.retries;
+    TRY(record_pass(&way, "sizes", &size, sizeof size));
+    TRY(pass(s, &way, &n, &counts));
+    TRY(put_contacts(&s->contact.sites, record));
+    return record_pass(&way, "state", s->y, 2 * (size_t)run_unknowns(s->model) * sizeof *s->y);
+}
+
+/* The state, if it is one. */
+static dem_status find_state(const dem_simulation *s, const dem_record *record, const double **out)
+{
+    const size_t n = 2 * (size_t)run_unknowns(s->model);
+    size_t size;
+    const double *y = dem_record_find(record, "state", &size);
+    CHECK(y != NULL && size == n * sizeof *y, DEM_ERROR_IO, "the record has %zu bytes of state, %zu are expected", size,
+          n * sizeof *y);
+    for (size_t k = 0; k < n; k++) CHECK(isfinite(y[k]), DEM_ERROR_IO, "the state in the record is not finite");
+    *out = y;
+    return DEM_OK;
+}
+
+static dem_status check_sizes(const dem_simulation *s, const dem_record *record)
+{
+    const sizes here = sizes_of(s);
+    sizes there;
+    TRY(dem_record_get(record, "sizes", &there, sizeof there));
+    CHECK(memcmp(&here, &there, sizeof here) == 0, DEM_ERROR_IO,
+          "the record is of another model: %lld nodes, %lld springs, %lld segments, not %lld, %lld, %lld",
+          (long long)there.n_nodes, (long long)there.n_springs, (long long)there.n_segments, (long long)here.n_nodes,
+          (long long)here.n_springs, (long long)here.n_segments);
+    return DEM_OK;
+}
+
+static dem_status check_numbers(const numbers *n)
+{
+    const bool finite = isfinite(n->impact) && isfinite(n->projection) && isfinite(n->straightened);
+    const bool timely = isfinite(n->t) && n->t >= 0.0 && isfinite(n->step) && n->step >= 0.0;
+    CHECK(finite && timely && isfinite(n->next_step) && n->next_step >= 0.0, DEM_ERROR_IO,
+          "the record's time %g s, step %g s or next step %g s is impossible", n->t, n->step, n->next_step);
+    CHECK(is_within(n->unlooked, 0, INT32_MAX) && n->events >= 0 && n->idle >= 0, DEM_ERROR_IO,
+          "the record's counts are impossible");
+    return DEM_OK;
+}
+
+dem_status recall_get(dem_simulation *s, const dem_record *record)
+{
+    contact_sites *c = &s->contact.sites;
+    const record_way way = {.from = record};
+    const double *y = NULL;
+    numbers n;
+    TRY(check_sizes(s, record));
+    TRY(pass(s, &way, &n, &c->books.counts));
+    TRY(check_numbers(&n));
+    TRY(find_state(s, record, &y));
+    TRY(get_contacts(c, record));
+    c->books.impact = n.impact;
+    c->books.projection = n.projection;
+    c->straightened = n.straightened;
+    s->contact.idle = n.idle;
+    s->t = n.t;
+    s->step = n.step;
+    s->events = n.events;
+    s->unlooked = (int)n.unlooked;
+    s->unrecorded = 0;
+    s->in_hand = s->at_event = false;
+    s->path = (path){0};
+    TRY(engine_renew(&s->engine, &(engine_start){n.t, n.next_step, y, c->books.counts}));
+    s->y = engine_state(&s->engine);
+    return contact_renew(&s->contact, s->y);
+}

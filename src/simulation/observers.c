@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Telling in turn. */
+#include "simulation/observers.h"
+
+#include <math.h>
+
+#include "base/status.h"
+
+static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
+
+/* The first frame later than `told`. */
+static dem_index frame_after(double interval, double told)
+{
+    if (!(interval > 0.0) || told < 0.0) return 0;
+    dem_index k = (dem_index)(told / interval);
+    while (k > 0 && (double)(k - 1) * interval > told) k--;
+    while ((double)k * interval <= told) k++;
+    return k;
+}
+
+dem_status audience_add(audience *a, const dem_observer *observer, double told)
+{
+    const double interval = observer->interval;
+    CHECK(isfinite(interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", interval);
+    CHECK(!(interval > 0.0) || told < most_frames * interval, DEM_ERROR_ARGUMENT,
+          "frames %g s apart cannot be numbered at %g s", interval, told);
+    CHECK(a->n < AUDIENCE_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)AUDIENCE_MOST);
+    a->members[a->n++] = (audience_member){*observer, frame_after(interval, told)};
+    return DEM_OK;
+}
+
+bool audience_hears_events(const audience *a)
+{
+    for (int k = 0; k < a->n; k++)
+        if (a->members[k].observer.event != NULL) return true;
+    return false;
+}
+
+dem_status audience_event(const audience *a, const dem_simulation *simulation, const dem_event *event)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->event != NULL) status = status_first(status, o->event(o->context, simulation, event));
+    }
+    return status;
+}
+
+dem_status audience_step(const audience *a, const dem_simulation *simulation)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->step != NULL) status = status_first(status, o->step(o->context, simulation));
+    }
+    return status;
+}
+
+dem_status audience_record(const audience *a, const dem_simulation *simulation, dem_record *record)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->record != NULL) status = status_first(status, o->record(o->context, simulation, record));
+    }
+    return status;
+}
+
+int audience_due(const audience *a, double end, double t_end, double *t)
+{
+    int first = -1;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->frame == NULL || !(o->interval > 0.0)) continue;
+        const double due = (double)a->members[k].next_frame * o->interval;
+        if (due > end || due > t_end + 1e-9 * o->interval) continue;
+        if (first >= 0 && due >= *t) continue;
+        first = k;
+        *t = due;
+    }
+    return first;
+}
+
+dem_status audience_frame(audience *a, int k, const dem_simulation *simulation)
+{
+    const dem_observer *o = &a->members[k].observer;
+    a->members[k].next_frame++;
+    return o->frame(o->context, simulation);
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Validity and defaults. */
+#include "simulation/options.h"
+
+#include "base/status.h"
+
+static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
+static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
+static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/method.md */
+
+dem_status options_check(const dem_options *o)
+{
+    const double lengths[] = {o->spacing, o->v_scale, o->max_step, o->fixed_step, o->skin, o->rest_speed};
+    static const char *const names[] = {"spacing", "v_scale", "max_step", "fixed_step", "skin", "rest_speed"};
+    CHECK(o->struct_size == sizeof *o, DEM_ERROR_ARGUMENT, "dem_options: struct_size is %zu, %zu expected",
+          o->struct_size, sizeof *o);
+    CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
+          o->gravity[0], o->gravity[1]);
+    CHECK(o->rtol >= 1e-13 && o->rtol <= 0.1, DEM_ERROR_ARGUMENT, "rtol must be in [1e-13, 0.1], got %g", o->rtol);
+    for (int k = 0; k < 6; k++)
+        CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],
+              lengths[k]);
+    CHECK(isfinite(o->mass_damping) && o->mass_damping >= 0.0, DEM_ERROR_ARGUMENT, "mass_damping must be >= 0, got %g",
+          o->mass_damping);
+    CHECK(isfinite(o->window), DEM_ERROR_ARGUMENT, "window must be finite, got %g", o->window);
+    CHECK(o->threads >= 1 && o->threads <= 1024, DEM_ERROR_ARGUMENT, "threads must be in [1, 1024], got %d",
+          o->threads);
+    CHECK(o->contact == DEM_CONTACT_LOCAL || o->contact == DEM_CONTACT_EXACT, DEM_ERROR_ARGUMENT,
+          "unknown contact method %d", (int)o->contact);
+    CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
+    CHECK(o->record_steps >= 0, DEM_ERROR_ARGUMENT, "record_steps must be >= 0, got %lld", (long long)o->record_steps);
+    return DEM_OK;
+}
+
+/* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound,
+ * which is omega_max a/2 in a chain of spacing a. */
+static double default_v_scale(const dem_options *o, const dem_model *model, const boundaries *b)
+{
+    const dem_lattice *l = &model->lattice;
+    double speed = 1e-3 * 0.5 * model->omega_max * o->spacing, drop = INFINITY;
+    speed = fmax(speed, boundaries_speed(b));
+    for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
+    for (dem_index k = 0; k < model->n_sites; k++)
+        drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->sites[k]]));
+    const double g = hypot(o->gravity[0], o->gravity[1]);
+    return isfinite(drop) && drop > 0.0 ? fmax(speed, sqrt(2.0 * g * drop)) : speed;
+}
+
+/* Largest rate at which damping slows anything, 1/s. */
+static double damping_rate(const dem_options *o, const dem_model *m)
+{
+    return springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass) + o->mass_damping;
+}
+
+dem_status options_fill(dem_options *o, const dem_model *model, const boundaries *b)
+{
+    if (o->spacing == 0.0) o->spacing = model->spacing;
+    CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
+    if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
+    const double rate = damping_rate(o, model);
+    CHECK(isfinite(rate), DEM_ERROR_ARGUMENT, "damping of springs or masses is too strong to compute with");
+    if (o->max_step == 0.0 && model->omega_max > 0.0)
+        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) / fmax(model->omega_max, rate);
+    CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
+    if (!method.adaptive) o->fixed_step = o->max_step;
+    if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
+    if (o->window < 0.0 && o->contact == DEM_CONTACT_EXACT && model->omega_max > 0.0)
+        o->window = window_share * fmin(1.0 / model->omega_max, 2.0 * o->max_step);
+    o->window = fmax(o->window, 0.0);
+    if (o->v_scale == 0.0) o->v_scale = default_v_scale(o, model, b);
+    CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
+    return DEM_OK;
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Largest stresses and strains of a run: one entry for each node and spring, replaced by a larger one. */
+#include <dem/dem.h>
+
+#include "base/record.h"
+#include "base/status.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct dem_peaks {
+    dem_index n_nodes, n_springs;
+    dem_index every, left; /* accepted steps between looks, and until the next */
+    dem_node_peak *nodes;
+    dem_spring_peak *springs;
+    double *stress; /* [n_nodes][3] scratch */
+    double *strain; /* [n_springs] scratch */
+};
+
+static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double t)
+{
+    dem_simulation_stress(simulation, p->stress);
+    for (dem_index i = 0; i < p->n_nodes; i++) {
+        const double *s = p->stress + 3 * i, size = dem_stress_von_mises(s);
+        if (size > p->nodes[i].von_mises) p->nodes[i] = (dem_node_peak){size, t, {s[0], s[1], s[2]}};
+    }
+}
+
+static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, double t)
+{
+    dem_simulation_strains(simulation, p->strain);
+    for (dem_index k = 0; k < p->n_springs; k++)
+        if (fabs(p->strain[k]) > fabs(p->springs[k].strain)) p->springs[k] = (dem_spring_peak){p->strain[k], t};
+}
+
+static dem_status look(void *context, const dem_simulation *simulation)
+{
+    dem_peaks *p = context;
+    dem_state state;
+    if (p->left-- > 0) return DEM_OK;
+    p->left = p->every - 1;
+    dem_simulation_state(simulation, &state);
+    look_at_nodes(p, simulation, state.t);
+    look_at_springs(p, simulation, state.t);
+    return DEM_OK;
+}
+
+/* What a run has to remember of them. */
+static dem_status pass(dem_peaks *p, const record_way *way)
+{
+    TRY(record_pass(way, "peaks.left", &p->left, sizeof p->left));
+    TRY(record_pass(way, "peaks.nodes", p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
+    return record_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
+}
+
+static dem_status remember(void *context, const dem_simulation *simulation, dem_record *record)
+{
+    const record_way way = {.into = record};
+    (void)simulation;
+    return pass(context, &way);
+}
+
+/* ---- ranks ---- */
+
+/* Sizes of entries by their number. */
+typedef double (*size_of)(const dem_peaks *p, dem_index k);
+
+static double node_size(const dem_peaks *p, dem_index i)
+{
+    return p->nodes[i].von_mises;
+}
+
+static double spring_size(const dem_peaks *p, dem_index k)
+{
+    return fabs(p->springs[k].strain);
+}
+
+/* The n largest of `count`, those of equal size in the order of their numbers. */
+static dem_index rank(const dem_peaks *p, size_of size, dem_index count, dem_index n, dem_index *list)
+{
+    dem_index filled = 0;
+    for (dem_index k = 0; k < count; k++) {
+        if (!(size(p, k) > 0.0) || n <= 0) continue;
+        if (filled == n && size(p, k) <= size(p, list[n - 1])) continue;
+        dem_index q = filled < n ? filled++ : n - 1;
+        for (; q > 0 && size(p, list[q - 1]) < size(p, k); q--) list[q] = list[q - 1];
+        list[q] = k;
+    }
+    return filled;
+}
+
+/* ---- public ---- */
+
+dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every)
+{
+    CHECK(out != NULL && model != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_create: %s is NULL", out ? "model" : "out");
+    CHECK(every >= 1, DEM_ERROR_ARGUMENT, "peaks are looked for every %lld steps; it must be 1 or more",
+          (long long)every);
+    const dem_model_size size = dem_model_sizes(model);
+    const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs;
+    dem_peaks *p = calloc(1, sizeof *p);
+    CHECK_MEMORY(p);
+    *p = (dem_peaks){.n_nodes = size.n_nodes, .n_springs = size.n_springs, .every = every};
+    p->nodes = calloc(n, sizeof *p->nodes);
+    p->springs = calloc(m + 1, sizeof *p->springs);
+    p->stress = calloc(n, 3 * sizeof *p->stress);
+    p->strain = calloc(m + 1, sizeof *p->strain);
+    if (p->nodes && p->springs && p->stress && p->strain) {
+        *out = p;
+        return DEM_OK;
+    }
+    dem_peaks_destroy(p);
+    return status_fail(DEM_ERROR_MEMORY, "out of memory for the peaks of %lld nodes", (long long)size.n_nodes);
+}
+
+dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_record *record)
+{
+    const record_way way = {.from = record};
+    dem_peaks *p;
+    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: record is NULL");
+    TRY(dem_peaks_create(&p, model, every));
+    dem_status status = pass(p, &way);
+    if (status == DEM_OK && (p->left < 0 || p->left >= every))
+        status = status_fail(DEM_ERROR_IO, "the record has %lld steps until the next look at peaks, of %lld",
+                             (long long)p->left, (long long)every);
+    if (status == DEM_OK)
+        *out = p;
+    else
+        dem_peaks_destroy(p);
+    return status;
+}
+
+void dem_peaks_destroy(dem_peaks *peaks)
+{
+    if (peaks == NULL) return;
+    free(peaks->nodes);
+    free(peaks->springs);
+    free(peaks->stress);
+    free(peaks->strain);
+    free(peaks);
+}
+
+dem_observer dem_peaks_observer(dem_peaks *peaks)
+{
+    return (dem_observer){.step = look, .record = remember, .context = peaks};
+}
+
+const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks)
+{
+    return peaks->nodes;
+}
+
+const dem_spring_peak *dem_peaks_springs(const dem_peaks *peaks)
+{
+    return peaks->springs;
+}
+
+dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem_index *nodes)
+{
+    return rank(peaks, node_size, peaks->n_nodes, n, nodes);
+}
+
+dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *springs)
+{
+    return rank(peaks, spring_size, peaks->n_springs, n, springs);
+}

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The moving state: what a simulation has, and where things stand in it. The loop is simulation.c's, what is seen of it
+ * query.c's, what a record has of it checkpoint.c's. */
+#ifndef DEM_SIMULATION_PRIVATE_H
+#define DEM_SIMULATION_PRIVATE_H
+
+#include "events/event_queue.h"
+#include "forces/kernel.h"
+#include "model/overlap.h"
+#include "simulation/observers.h"
+#include "time/integrator.h"
+
+/* What is known of the state as seen; each is worked out once, when first asked for. */
+typedef struct run_measures {
+    bool has_events, has_state, has_contacts, has_energy, has_strain;
+    dem_index n_contacts;
+    dem_energy energy;
+    dem_strain strain;
+} run_measures;
+
+struct dem_simulation {
+    const dem_model *model;
+    dem_options options; /* every default replaced */
+    boundaries boundaries;
+    coupling *coupling; /* NULL: no force from outside */
+    kernel kernel;
+    overlap overlap;
+    contact contact;
+    queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
+    engine engine;
+    double t;              /* s, of y */
+    double step;           /* s, length of the last committed step */
+    double *y;             /* [4 n] state (x, v) after the last committed step, the engine's */
+    double *initial;       /* [4 n] state before there is an engine */
+    double *frame;         /* [4 n] state interpolated to a frame or to t_end */
+    path path;             /* the step in hand */
+    bool in_hand;          /* whether there is one */
+    bool at_event;         /* whether it ends with one */
+    bool started;          /* whether the contacts of the initial state have been taken up */
+    bool advanced;         /* whether it has gone on: no more observers */
+    bool advancing;        /* whether it does so just now */
+    double seen_t;         /* s, of what observers and callers see: */
+    const double *seen;    /* y or frame */
+    dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
+    run_measures *measures;
+    bool damped;  /* whether springs or masses are */
+    int unlooked; /* steps since overlaps were looked for */
+    dem_index events;
+    dem_index unrecorded;     /* steps since the last record */
+    dem_record *record;       /* the last one, */
+    bool has_record;          /* if there is one */
+    dem_record *refuge;       /* what was before contacts change that ask for the force from outside, */
+    bool has_refuge;          /* while they do */
+    dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
+    audience audience;
+};
+
+/* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
+ * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
+ * the energies that friction and damping take; then the work from outside, and last the time. Before them there is
+ * room, so that the velocities begin at a cache line as the positions do. */
+static inline dem_index run_room(const dem_model *model)
+{
+    const dem_index pairs_of_line = 4, used = model->lattice.n_nodes + 2 * model->obstacles.n + 2;
+    return (pairs_of_line - used % pairs_of_line) % pairs_of_line;
+}
+
+static inline dem_index run_books(const dem_model *model)
+{
+    return run_room(model) + 2 * model->obstacles.n + 2;
+}
+
+enum { RUN_FRICTION, RUN_DAMPING, RUN_WORK, RUN_TIME }; /* places behind the impulses */
+
+static inline dem_index run_unknowns(const dem_model *model)
+{
+    return 2 * (model->lattice.n_nodes + run_books(model)); /* of positions, and as many of velocities */
+}
+
+/* The books in a state, and those of them behind the impulses. */
+static inline const double *run_books_of(const dem_simulation *s, const double *y)
+{
+    return y + run_unknowns(s->model) + 2 * (s->model->lattice.n_nodes + run_room(s->model));
+}
+
+static inline const double *run_totals_of(const dem_simulation *s, const double *y)
+{
+    return run_books_of(s, y) + 4 * s->model->obstacles.n;
+}
+
+/* What acts on nodes besides springs and triangles. */
+static inline forces run_load(const dem_simulation *s)
+{
+    const dem_options *o = &s->options;
+    return (forces){{o->gravity[0], o->gravity[1]},
+                    o->mass_damping,
+                    s->boundaries.first != NULL ? &s->boundaries : NULL,
+                    s->coupling,
+                    2 * (s->model->lattice.n_nodes + run_books(s->model)) - 1};
+}
+
+static inline bool run_is_local(const dem_simulation *s)
+{
+    return s->options.contact == DEM_CONTACT_LOCAL;
+}
+
+#endif

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A state is interpolated, and what follows from it worked out, when it is first asked for. */
+#include "simulation/query.h"
+
+#include "forces/diagnostics.h"
+
+void view_at(dem_simulation *s, double t, const double *y)
+{
+    s->seen_t = t;
+    s->seen = y;
+    *s->measures = (run_measures){.has_events = true, .has_state = y != s->frame};
+}
+
+void view_inside(dem_simulation *s, double t)
+{
+    view_at(s, t, s->frame);
+    s->measures->has_events = !run_is_local(s);
+}
+
+/* Contacts and books as seen. The queue goes back for that and on again, to the same end. */
+static const contact *contact_of(const dem_simulation *s)
+{
+    dem_simulation *self = (dem_simulation *)s;
+    if (!s->measures->has_events) (void)queue_show(&self->queue, s->seen_t); /* what it did once it can do again */
+    s->measures->has_events = true;
+    return &s->contact;
+}
+
+static const double *seen_of(const dem_simulation *s)
+{
+    (void)contact_of(s);
+    if (!s->measures->has_state) path_state(&s->path, s->seen_t, s->frame);
+    s->measures->has_state = true;
+    return s->seen;
+}
+
+static dem_index contacts_of(const dem_simulation *s)
+{
+    run_measures *m = s->measures;
+    if (!m->has_contacts) m->n_contacts = contact_list(&s->contact, seen_of(s), s->contacts);
+    m->has_contacts = true;
+    return m->n_contacts;
+}
+
+/* ---- public ---- */
+
+void dem_simulation_state(const dem_simulation *s, dem_state *state)
+{
+    *state = (dem_state){.struct_size = sizeof *state,
+                         .t = s->seen_t,
+                         .step = s->step,
+                         .x = seen_of(s),
+                         .v = s->seen + run_unknowns(s->model),
+                         .n_contacts = contacts_of(s),
+                         .contacts = s->contacts,
+                         .energy = dem_simulation_energy(s)};
+}
+
+dem_energy dem_simulation_energy(const dem_simulation *s)
+{
+    run_measures *m = s->measures;
+    if (!m->has_energy)
+        m->energy = diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + run_unknowns(s->model));
+    m->has_energy = true;
+    m->energy.impact = contact_of(s)->sites.books.impact;
+    m->energy.friction = run_totals_of(s, seen_of(s))[RUN_FRICTION];
+    m->energy.damping = run_totals_of(s, seen_of(s))[RUN_DAMPING];
+    m->energy.boundary = run_totals_of(s, seen_of(s))[RUN_WORK];
+    m->energy.projection = contact_of(s)->sites.books.projection;
+    return m->energy;
+}
+
+dem_strain dem_simulation_strain(const dem_simulation *s)
+{
+    run_measures *m = s->measures;
+    if (!m->has_strain) m->strain = diagnostics_strain(s->model, seen_of(s));
+    m->has_strain = true;
+    return m->strain;
+}
+
+void dem_simulation_strains(const dem_simulation *s, double *strain)
+{
+    springs_strains(&s->model->springs, seen_of(s), strain);
+}
+
+void dem_simulation_forces(const dem_simulation *s, double *force)
+{
+    springs_forces(&s->model->springs, seen_of(s), force);
+}
+
+void dem_simulation_stress(const dem_simulation *s, double *stress)
+{
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) dem_simulation_stress_at(s, i, stress + 3 * i);
+}
+
+void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
+{
+    const dem_model *m = s->model;
+    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, seen_of(s), stress);
+}
+
+dem_overlap dem_simulation_overlap(const dem_simulation *s)
+{
+    return s->overlap.found;
+}
+
+dem_counts dem_simulation_counts(const dem_simulation *s)
+{
+    const dem_counts of_engine = engine_counts(&s->engine);
+    dem_counts counts = contact_of(s)->sites.books.counts;
+    counts.steps = of_engine.steps;
+    counts.rejected = of_engine.rejected;
+    counts.evaluations = of_engine.evaluations;
+    counts.retries = of_engine.retries;
+    counts.events = s->events + (s->in_hand ? s->queue.n_stops : 0);
+    return counts;
+}
+
+dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
+{
+    return diagnostics_body(s->model, body, seen_of(s), s->seen + run_unknowns(s->model));
+}
+
+dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
+{
+    const contact_books *books = &contact_of(s)->sites.books;
+    const double *lasting = run_books_of(s, seen_of(s)), *rubbing = lasting + 2 * s->model->obstacles.n;
+    dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
+    for (int k = 0; k < 2; k++) {
+        load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[2 * obstacle + k];
+        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[2 * obstacle + k];
+    }
+    return load;
+}
+
+dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
+{
+    const forces load = run_load(s);
+    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s), s->seen + run_unknowns(s->model));
+}
+
+double dem_simulation_residual(const dem_simulation *s)
+{
+    const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
+    const dem_index v = run_unknowns(s->model);
+    return known ? diagnostics_residual(s->model, s->options.mass_damping, s->path.y1, s->path.y1 + v, s->path.f1 + v)
+                 : (double)INFINITY;
+}
+
+const dem_record *dem_simulation_record(const dem_simulation *s)
+{
+    return s->has_record ? s->record : NULL;
+}
+
+const dem_model *dem_simulation_model(const dem_simulation *s)
+{
+    return s->model;
+}
+
+dem_options dem_simulation_options(const dem_simulation *s)
+{
+    return s->options;
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Another motion in the place of the one that a simulation has come to: the step in hand ends where it is seen. */
+#include <string.h>
+
+#include "base/status.h"
+#include "forces/diagnostics.h"
+#include "simulation/query.h"
+
+/* Which components of a node may not be changed. */
+static int held(const dem_simulation *s, dem_index i)
+{
+    if (s->model->inverse_mass[i] == 0.0) return DEM_COMPONENT_X | DEM_COMPONENT_Y;
+    return s->boundaries.held != NULL ? s->boundaries.held[i] : 0;
+}
+
+/* Whether one of both arrays may be put in the place of `now`. */
+static dem_status check(const dem_simulation *s, const char *what, const double *wanted, const double *now)
+{
+    for (dem_index k = 0; wanted != NULL && k < 2 * s->model->lattice.n_nodes; k++) {
+        const dem_index i = k / 2;
+        CHECK(isfinite(wanted[k]), DEM_ERROR_ARGUMENT, "the %s (%g, %g) of node %lld is not finite", what,
+              wanted[2 * i], wanted[2 * i + 1], (long long)i);
+        CHECK(!(held(s, i) & (DEM_COMPONENT_X << k % 2)) || wanted[k] == now[k], DEM_ERROR_ARGUMENT,
+              "the %s (%.17g, %.17g) of node %lld, which is fixed or prescribed, is not (%.17g, %.17g)", what,
+              wanted[2 * i], wanted[2 * i + 1], (long long)i, now[2 * i], now[2 * i + 1]);
+    }
+    return DEM_OK;
+}
+
+static double mechanical_energy(const dem_simulation *s, const double *y)
+{
+    const dem_energy e = diagnostics_energy(s->model, s->options.gravity, y, y + run_unknowns(s->model));
+    return dem_energy_motion(e) + e.gravity;
+}
+
+/* Puts x and v into a state, and what that takes into its books. */
+static void put(const dem_simulation *s, const double *x, const double *v, double *y)
+{
+    const size_t size = 2 * (size_t)s->model->lattice.n_nodes * sizeof *y;
+    double *work = y + (run_totals_of(s, y) - y) + RUN_WORK;
+    const double before = mechanical_energy(s, y);
+    if (x != NULL) memmove(y, x, size); /* what is seen may be handed back */
+    if (v != NULL) memmove(y + run_unknowns(s->model), v, size);
+    *work += mechanical_energy(s, y) - before;
+}
+
+dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const double *v)
+{
+    dem_state seen;
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
+    CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
+    dem_simulation_state(s, &seen); /* with contacts and books of that time */
+    TRY(check(s, "place", x, seen.x));
+    TRY(check(s, "velocity", v, seen.v));
+    if (x != NULL) TRY(contact_admissible(&s->contact, x));
+    if (s->seen != s->frame) memcpy(s->frame, s->seen, 2 * (size_t)run_unknowns(s->model) * sizeof *s->frame);
+    put(s, x, v, s->frame);
+    s->events += s->in_hand ? s->queue.n_stops : 0;
+    s->t = s->seen_t;
+    s->path = (path){0};
+    s->in_hand = s->at_event = s->started = s->has_record = false;
+    TRY(contact_forget(&s->contact));
+    TRY(engine_restart(&s->engine, s->t, s->frame));
+    s->y = engine_state(&s->engine);
+    view_at(s, s->t, s->y);
+    return DEM_OK;
+}

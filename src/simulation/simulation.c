@@ -1,0 +1,486 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The moving state and the time loop. An accepted step is first taken (`path` is then in hand), shown to the
+ * observers whose frames fall into it, and committed: its end becomes the state, the contacts change, and the next
+ * step is taken. An advance to t_end stops within a step in hand, which the next advance goes on with: t_end is
+ * never stepped to. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/record.h"
+#include "base/status.h"
+#include "forces/diagnostics.h"
+#include "simulation/checkpoint.h"
+#include "simulation/options.h"
+#include "simulation/query.h"
+
+enum {
+    between_looks = 16, /* accepted steps, for overlaps */
+    most_attempts = 30  /* at a step whose contacts reject it */
+};
+
+static const double safety = 0.9, least_factor = 0.1; /* of the next step after one that contacts have rejected */
+
+/* ---- what the integrator asks ---- */
+
+static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
+{
+    const double *v = y + run_unknowns(s->model);
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
+        if (!isfinite(v[2 * i]) || !isfinite(v[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
+            return status_fail(DEM_ERROR_INTEGRATOR,
+                               "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i,
+                               y[2 * i], y[2 * i + 1], t);
+    return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
+}
+
+/* Rates of the books: [2 n_books] behind the accelerations. */
+static void fill_rates(dem_simulation *s, const double *y, double *rate, double work)
+{
+    double *impulse = rate + 2 * run_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
+    for (dem_index k = 0; k < 2 * run_books(s->model); k++) rate[k] = 0.0;
+    contact_account(&s->contact, y, impulse);
+    if (s->damped)
+        total[RUN_DAMPING] =
+            diagnostics_damping_power(s->model, &s->contact.sites.scene.rule.load, y, y + run_unknowns(s->model));
+    total[RUN_WORK] = work;
+    total[RUN_TIME] = 1.0;
+}
+
+/* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
+ *                                                                                                        (3), (4) */
+static int derivative(double t, const double *y, double *u, double *a, void *context)
+{
+    dem_simulation *s = context;
+    const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const double *v = y + n;
+    const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
+    const double sum = kernel_accelerate(&s->kernel, &s->contact.sites.scene.rule.load, &nodes);
+    for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
+    contact_constrain(&s->contact, y, a);
+    const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
+    fill_rates(s, y, a + n_real, s->coupling != NULL ? work + coupling_power(s->coupling, v) : work);
+    if (coupling_failed(s->coupling)) return 2;
+    if (isfinite(sum)) return 0;
+    (void)name_culprit(s, t, y, a);
+    return 1;
+}
+
+/* Where nothing but springs, triangles and weight acts. */
+static int leap(const motion_leap *step, void *context)
+{
+    dem_simulation *s = context;
+    const forces *load = &s->contact.sites.scene.rule.load;
+    const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const sweep_leap nodes = {
+        .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
+    const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .leap = &nodes};
+    if (!kernel_may_leap(&s->kernel, load) || s->contact.sites.reactions.n_groups > 0) return -1;
+    const double sum = kernel_accelerate(&s->kernel, load, &y);
+    contact_constrain(&s->contact, y.x, y.a);
+    fill_rates(s, y.x, y.a + n_real, 0.0);
+    if (isfinite(sum)) return 0;
+    (void)name_culprit(s, step->t1, y.x, y.a);
+    return 1;
+}
+
+static void guards(double t, const double *y, double *g, void *context)
+{
+    dem_simulation *s = context;
+    contact_guards(&s->contact, t, y, g);
+}
+
+static double stiffening(const double *y, void *context)
+{
+    dem_simulation *s = context;
+    return kernel_stiffening(&s->kernel, y);
+}
+
+/* An event at which the whole body has stopped. */
+static dem_status hear_event(void *context, const dem_event *event)
+{
+    dem_simulation *s = context;
+    view_at(s, s->t, s->y);
+    return audience_event(&s->audience, s, event);
+}
+
+/* Events inside the step in hand, up to t. */
+static dem_status tell_events(dem_simulation *s, double t)
+{
+    dem_status status = DEM_OK;
+    if (!audience_hears_events(&s->audience)) return DEM_OK;
+    while (s->told < s->n_inside && s->queue.events[s->told].t <= t) {
+        const dem_event event = s->queue.events[s->told++];
+        view_inside(s, event.t);
+        status = status_first(status, audience_event(&s->audience, s, &event));
+    }
+    return status;
+}
+
+static dem_status tell_step(dem_simulation *s)
+{
+    view_at(s, s->t, s->y);
+    return audience_step(&s->audience, s);
+}
+
+static dem_status tell_frames(dem_simulation *s, double t_end)
+{
+    double t;
+    for (int k = 0; (k = audience_due(&s->audience, s->path.end, t_end, &t)) >= 0;) {
+        TRY(tell_events(s, t));
+        view_inside(s, t);
+        TRY(audience_frame(&s->audience, k, s));
+    }
+    return DEM_OK;
+}
+
+/* ---- the loop ---- */
+
+/* Nothing goes on that a force from outside has not been there for. */
+static dem_status heed(const dem_simulation *s, dem_status status)
+{
+    return coupling_failed(s->coupling) ? DEM_STOPPED : status;
+}
+
+/* Keeps the state with its contacts, which are about to change at once. */
+static dem_status take_refuge(dem_simulation *s)
+{
+    if (s->coupling == NULL) return DEM_OK;
+    if (s->refuge == NULL) TRY(dem_record_create(&s->refuge));
+    TRY(recall_put(s, s->refuge));
+    s->has_refuge = true;
+    return DEM_OK;
+}
+
+/* The force from outside has failed: back to the last state that it was there for. */
+static dem_status fall_back(dem_simulation *s)
+{
+    dem_status status = DEM_OK;
+    if (s->in_hand) queue_undo(&s->queue);
+    s->in_hand = s->at_event = false;
+    if (s->has_refuge)
+        status = recall_get(s, s->refuge);
+    else
+        status = engine_restart(&s->engine, s->t, s->y);
+    s->has_refuge = false;
+    view_at(s, s->t, s->y);
+    return status_first(status, coupling_report(s->coupling));
+}
+
+/* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
+ * too long. */
+static double shortening(const queue *q, dem_status status)
+{
+    const double error = queue_error(q);
+    if (status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR) return least_factor;
+    return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
+}
+
+/* Takes back a step that will not do: the next goes from its start. */
+static dem_status give_up(dem_simulation *s, dem_status status)
+{
+    if (status == DEM_OK)
+        status = status_fail(DEM_ERROR_INTEGRATOR,
+                             "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
+                             s->t);
+    return status_first(status, engine_restart(&s->engine, s->t, s->y));
+}
+
+/* A step with all contact events inside it, which may reject it. */
+static dem_status take_local_step(dem_simulation *s)
+{
+    bool rooted;
+    double *y1, *f1;
+    for (int attempt = 1;; attempt++) {
+        TRY(engine_step(&s->engine, &s->path, &rooted));
+        engine_end(&s->engine, &y1, &f1);
+        queue_start(&s->queue, &s->path, y1, f1, s->frame);
+        const dem_status status = heed(s, queue_show(&s->queue, s->path.t1));
+        const double factor = shortening(&s->queue, status);
+        if (status == DEM_OK && factor == 1.0) return DEM_OK;
+        queue_undo(&s->queue);
+        if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return give_up(s, status);
+        TRY(engine_redo(&s->engine, factor));
+    }
+}
+
+/* A step to the first contact event in it. */
+static dem_status take_step_to_event(dem_simulation *s)
+{
+    bool rooted;
+    TRY(engine_step(&s->engine, &s->path, &rooted));
+    s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
+    return heed(s, DEM_OK);
+}
+
+static dem_status take_step(dem_simulation *s)
+{
+    TRY(run_is_local(s) ? take_local_step(s) : take_step_to_event(s));
+    s->n_inside = s->queue.n_events;
+    s->told = 0;
+    s->in_hand = true;
+    return DEM_OK;
+}
+
+/* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
+static dem_status go_on(dem_simulation *s, dem_status status)
+{
+    TRY(heed(s, DEM_OK));
+    s->has_refuge = false;
+    status = status_first(status, engine_restart(&s->engine, s->t, s->y));
+    return status == DEM_ERROR_CONTACT ? status : status_first(status, tell_step(s));
+}
+
+static void look_for_overlaps(dem_simulation *s)
+{
+    overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
+    s->unlooked = 0;
+}
+
+/* The end of the step in hand becomes the state.  \return whether vertex contacts were put back */
+static bool settle_step(dem_simulation *s)
+{
+    const path *p = &s->path;
+    engine_settle(&s->engine, p);
+    s->y = engine_state(&s->engine);
+    const bool moved = contact_straighten(&s->contact, p->end, s->y);
+    contact_follow(&s->contact, p, s->y);
+    s->step = p->end - s->t;
+    s->t = p->end;
+    s->in_hand = false;
+    s->unrecorded++;
+    if (++s->unlooked >= between_looks) look_for_overlaps(s);
+    return moved;
+}
+
+static dem_status commit_step_to_event(dem_simulation *s)
+{
+    const contact_listener listener = {hear_event, s};
+    if (s->at_event) TRY(take_refuge(s));
+    const bool moved = settle_step(s);
+    if (!s->at_event && moved) TRY(engine_restart(&s->engine, s->t, s->y));
+    if (!s->at_event) return tell_step(s);
+    s->events++;
+    return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
+}
+
+static dem_status commit_local_step(dem_simulation *s)
+{
+    TRY(tell_events(s, s->path.t1));
+    TRY(heed(s, queue_show(&s->queue, s->path.t1)));
+    const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
+    s->events += s->queue.n_stops;
+    TRY(engine_bound(&s->engine, queue_reach(&s->queue)));
+    if (moved)
+        TRY(engine_restart(&s->engine, s->t, s->y));
+    else if (corrected)
+        TRY(engine_resume(&s->engine));
+    return tell_step(s);
+}
+
+static dem_status commit_step(dem_simulation *s)
+{
+    return run_is_local(s) ? commit_local_step(s) : commit_step_to_event(s);
+}
+
+/* Contacts of the initial state come before the first step, when the observers are there to be told. */
+static dem_status start(dem_simulation *s)
+{
+    const contact_listener listener = {hear_event, s};
+    TRY(take_refuge(s));
+    const dem_status status = go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
+    s->started = !coupling_failed(s->coupling);
+    return status;
+}
+
+static bool wants_record(const dem_simulation *s)
+{
+    const dem_index every = s->options.record_steps;
+    return every > 0 && (!s->has_record || s->unrecorded >= every);
+}
+
+/* A run goes on from its record as one does that is resumed. */
+static dem_status take_record(dem_simulation *s)
+{
+    s->has_record = false;
+    TRY(recall_put(s, s->record));
+    TRY(recall_get(s, s->record));
+    s->has_record = true;
+    view_at(s, s->t, s->y);
+    return audience_record(&s->audience, s, s->record);
+}
+
+static dem_status advance(dem_simulation *s, double t_end)
+{
+    if (!s->started) TRY(start(s));
+    for (;;) {
+        if (!s->in_hand && wants_record(s)) TRY(take_record(s));
+        if (!s->in_hand) TRY(take_step(s));
+        TRY(heed(s, tell_frames(s, t_end)));
+        if (t_end < s->path.end) break;
+        TRY(commit_step(s));
+    }
+    TRY(tell_events(s, t_end));
+    view_inside(s, t_end);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_advance(dem_simulation *s, double t_end)
+{
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
+    CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
+          t_end, s->seen_t);
+    s->advanced = s->advancing = true;
+    const dem_status status = advance(s, t_end);
+    s->advancing = false;
+    return coupling_failed(s->coupling) ? fall_back(s) : status;
+}
+
+/* ---- set-up ---- */
+
+static dem_status allocate(dem_simulation *s)
+{
+    const size_t n = 2 * (size_t)run_unknowns(s->model);
+    s->y = s->initial = aligned_zeros(n);
+    s->frame = malloc(n * sizeof *s->frame);
+    s->contacts = calloc(2 * (size_t)(s->model->n_sites + s->model->surface.n_edges) + 1, sizeof *s->contacts);
+    s->measures = calloc(1, sizeof *s->measures);
+    CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+          (long long)s->model->lattice.n_nodes);
+    return DEM_OK;
+}
+
+static contact_rule rule_of(const dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const dem_options *o = &s->options;
+    return (contact_rule){.skin = o->skin,
+                          .position_error = o->rtol * o->spacing,
+                          .rest_speed = o->rest_speed,
+                          .window = o->window,
+                          .max_step = o->max_step,
+                          .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
+                          .max_impacts = o->max_impacts,
+                          .vertices = o->vertices != 0,
+                          .n_books = run_books(model),
+                          .n_threads = o->threads,
+                          .load = run_load(s)};
+}
+
+static dem_status set_up(dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const dem_options *o = &s->options;
+    const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
+    TRY(boundaries_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice, model->obstacles.n));
+    s->options.boundaries = NULL;
+    TRY(coupling_create(&s->coupling, o, model->lattice.n_nodes));
+    TRY(options_fill(&s->options, model, &s->boundaries));
+    TRY(allocate(s));
+    memcpy(s->y, model->lattice.position, block);
+    memcpy(s->y + run_unknowns(model), model->lattice.velocity, block);
+    boundaries_begin(&s->boundaries, s->y + run_unknowns(model));
+    TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
+    s->options.kernel = s->kernel.kind;
+    const contact_rule rule = rule_of(s);
+    s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
+    TRY(contact_create(&s->contact, model, &rule));
+    TRY(contact_admissible(&s->contact, s->y));
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
+    const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
+    if (run_is_local(s)) TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
+    const motion problem = {.n_nodes = model->lattice.n_nodes + run_books(model),
+                            .n_books = run_books(model),
+                            .n_guards =
+                                model->obstacles.n > 0 && !run_is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
+                            .prescribes = boundaries_move(&s->boundaries),
+                            .derivative = derivative,
+                            .leap = s->boundaries.n == 0 ? leap : NULL,
+                            .guards = guards,
+                            .stiffening = stiffening,
+                            .context = s,
+                            .method = o->method,
+                            .position_error = o->rtol * o->spacing,
+                            .velocity_error = o->rtol * o->v_scale,
+                            .max_step = o->max_step,
+                            .fixed_step = o->fixed_step,
+                            .bulk = s->kernel.bulk,
+                            .n_threads = s->kernel.n_threads};
+    TRY(engine_create(&s->engine, &problem, 0.0, s->y));
+    s->y = engine_state(&s->engine);
+    free(s->initial);
+    s->initial = NULL;
+    TRY(dem_record_create(&s->record));
+    TRY(overlap_create(&s->overlap, &model->lattice));
+    look_for_overlaps(s);
+    view_at(s, 0.0, s->y);
+    return DEM_OK;
+}
+
+static dem_status resume(dem_simulation *s, const dem_record *record)
+{
+    TRY(recall_get(s, record));
+    if (coupling_failed(s->coupling)) return coupling_report(s->coupling);
+    s->started = s->has_record = true;
+    view_at(s, s->t, s->y);
+    return record_copy(s->record, record);
+}
+
+static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options,
+                         const dem_record *record)
+{
+    CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
+          out == NULL ? "out" : (model == NULL ? "model" : "options"));
+    TRY(options_check(options));
+    dem_simulation *s = calloc(1, sizeof *s);
+    CHECK_MEMORY(s);
+    s->model = model;
+    s->options = *options;
+    dem_status status = set_up(s);
+    if (status == DEM_OK && record != NULL) status = resume(s, record);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        dem_simulation_destroy(s);
+    return status;
+}
+
+dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
+{
+    return create(out, model, options, NULL);
+}
+
+dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
+                                 const dem_record *record)
+{
+    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: record is NULL");
+    return create(out, model, options, record);
+}
+
+void dem_simulation_destroy(dem_simulation *s)
+{
+    if (s == NULL) return;
+    engine_destroy(&s->engine);
+    kernel_destroy(&s->kernel);
+    queue_destroy(&s->queue);
+    contact_destroy(&s->contact);
+    boundaries_free(&s->boundaries);
+    coupling_destroy(s->coupling);
+    overlap_destroy(&s->overlap);
+    free(s->initial);
+    free(s->frame);
+    free(s->contacts);
+    free(s->measures);
+    dem_record_destroy(s->record);
+    dem_record_destroy(s->refuge);
+    free(s);
+}
+
+dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observer)
+{
+    CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
+          s == NULL ? "simulation" : "observer");
+    CHECK(!s->advanced, DEM_ERROR_ARGUMENT, "observers come before the first advance");
+    return audience_add(&s->audience, observer, engine_counts(&s->engine).steps > 0 ? s->t : -1.0);
+}

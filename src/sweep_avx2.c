@@ -1,6 +1,0 @@
-/* SPDX-License-Identifier: BSD-3-Clause */
-#include "lanes_avx2.h"
-
-#define SWEEP       sweep_avx2
-#define SWEEP_GUARD sweep_guard_avx2
-#include "sweep_body.h"

@@ -1,6 +1,0 @@
-/* SPDX-License-Identifier: BSD-3-Clause */
-#include "lanes_avx512.h"
-
-#define SWEEP       sweep_avx512
-#define SWEEP_GUARD sweep_guard_avx512
-#include "sweep_body.h"

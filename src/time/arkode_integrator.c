@@ -1,0 +1,447 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* ERKStep in one-step mode. Nothing is left to ARKODE's defaults, which differ between its versions. */
+#include "time/arkode_integrator.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/status.h"
+#include "time/arkode_compat.h"
+#include "time/butcher.h"
+#include "time/nvector.h"
+
+enum {
+    max_retries = 10,
+    most_vectors = 20 /* of ARKODE and here, but for the stages */
+};
+
+static const double no_weight = 1e-100;
+
+struct integrator {
+    motion problem;
+    method_table table;
+    SUNContext sundials;
+    void *arkode;
+    arkode_controller controller;
+    arkode_errors errors;
+    vector_space *space;
+    N_Vector y;              /* what ARKODE returns */
+    N_Vector y0, y1, f0, f1; /* the accepted step for the path; y0 is the last accepted state */
+    N_Vector weights;        /* of the error, the same at all times */
+    double *inside;          /* [4 n] state at a root function's time */
+    double *guards;          /* [n_guards] values of the guards at guards_t */
+    double guards_t;         /* s; NAN: none */
+    double t;                /* last accepted time, of y0 */
+    double t1;               /* end of the step that y1, f0, f1 hold */
+    bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
+    bool at_end;             /* the path was handed out: y1 is the start of the next step */
+    double asked;            /* s, what ARKODE is told to begin with after a restart; 0: nothing */
+    bool knows_f0;           /* f0 is that of y0, */
+    bool gives_f0;           /* and what ARKODE is given when it asks for it */
+    bool refused;            /* the last derivative cannot be had, whatever the step */
+    dem_counts counts;
+    char message[256]; /* ARKODE's last complaint */
+};
+
+/* ---- callbacks ---- */
+
+static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
+{
+    integrator *I = user;
+    if (I->gives_f0 && t == I->t && vector_values(y) == vector_values(I->y0)) {
+        vector_share(I->f0, f);
+        return 0;
+    }
+    I->counts.evaluations++;
+    double *u = vector_fresh(f), *a = u + 2 * I->problem.n_nodes;
+    const int flag = I->problem.derivative(t, vector_values(y), u, a, I->problem.context);
+    I->refused = flag > 1;
+    return flag == 0 ? 0 : -1;
+}
+
+/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation they are the stored ones: no
+ * number is copied. */
+static int fetch_step(integrator *I)
+{
+    double now;
+    if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
+    if (I->holds_step && I->t1 == now) return 0;
+    if (ARKodeGetDky(I->arkode, now, 0, I->y1) != ARK_SUCCESS) return -1;
+    if (ARKodeGetDky(I->arkode, now, 1, I->f1) != ARK_SUCCESS) return -1;
+    if (!I->knows_f0 && ARKodeGetDky(I->arkode, I->t, 1, I->f0) != ARK_SUCCESS) return -1;
+    I->knows_f0 = true;
+    I->t1 = now;
+    I->holds_step = true;
+    return 0;
+}
+
+static path held_path(const integrator *I)
+{
+    return (path){.n_nodes = I->problem.n_nodes,
+                  .t0 = I->t,
+                  .t1 = I->t1,
+                  .end = I->t1,
+                  .y0 = vector_values(I->y0),
+                  .f0 = vector_values(I->f0),
+                  .y1 = vector_values(I->y1),
+                  .f1 = vector_values(I->f1)};
+}
+
+/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in
+ * for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
+static int call_guards(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+{
+    integrator *I = user;
+    double now;
+    const double *state = vector_values(y);
+    if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
+    if (t > I->t && t < now) {
+        if (fetch_step(I) != 0) return -1;
+        const path step = held_path(I);
+        path_state(&step, t, I->inside);
+        state = I->inside;
+    }
+    const size_t size = (size_t)I->problem.n_guards * sizeof *g;
+    if (t == I->guards_t) { /* ARKODE asks at the end of a step, and again as the next one starts there */
+        memcpy(g, I->guards, size);
+        return 0;
+    }
+    I->problem.guards(t, state, g, I->problem.context);
+    for (dem_index k = 0; k < I->problem.n_guards; k++)
+        if (!isfinite(g[k])) return -1;
+    memcpy(I->guards, g, size);
+    I->guards_t = t;
+    return 0;
+}
+
+static int call_weights(N_Vector y, N_Vector weights, void *user)
+{
+    const integrator *I = user;
+    (void)y;
+    vector_share(I->weights, weights);
+    return 0;
+}
+
+static void keep_message(const char *message, void *user)
+{
+    integrator *I = user;
+    (void)snprintf(I->message, sizeof I->message, "%s", message);
+}
+
+/* ---- set-up ---- */
+
+static dem_status allocate(integrator *I)
+{
+    const dem_index n = 4 * I->problem.n_nodes;
+    N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
+    CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
+    CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
+    I->inside = aligned_zeros((size_t)n);
+    I->space = vector_space_create(n, I->problem.bulk, I->problem.n_threads, most_vectors + I->table.stages);
+    bool complete = I->inside != NULL && I->space != NULL;
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
+        *vectors[k] = vector_create(I->space, I->sundials);
+        complete = *vectors[k] != NULL;
+    }
+    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)I->problem.n_nodes);
+    return DEM_OK;
+}
+
+/* The norm is a mean over all, books too, which have no part in the error. */
+static void fill_weights(integrator *I)
+{
+    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_books;
+    const double share = sqrt((double)n / (double)n_real);
+    double *w = vector_fresh(I->weights);
+    for (dem_index k = 0; k < 4 * n; k++) w[k] = no_weight;
+    for (dem_index k = 0; k < 2 * n_real; k++) w[k] = share / I->problem.position_error;
+    for (dem_index k = 2 * n; k < 2 * (n + n_real); k++) w[k] = share / I->problem.velocity_error;
+}
+
+/* The state from which the next step goes. */
+static void start_from(integrator *I, double t, const double *y)
+{
+    if (y != vector_values(I->y0)) memcpy(vector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    vector_share(I->y0, I->y);
+    I->t = t;
+    I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;
+}
+
+/* The order that ARKODE is told limits the degree of its interpolant, and nothing else: below 4 it would not hold the
+ * derivatives at both ends of a step. */
+static int set_table(integrator *I)
+{
+    method_table *t = &I->table;
+    ARKodeButcherTable table = ARKodeButcherTable_Create(t->stages, t->order < 4 ? 4 : t->order, t->embedded_order,
+                                                         t->c, t->a, t->b, t->embedded_order > 0 ? t->d : NULL);
+    if (table == NULL) return -1;
+    const int failed = ERKStepSetTable(I->arkode, table);
+    ARKodeButcherTable_Free(table);
+    return failed;
+}
+
+/* The first step after the restart that follows. */
+static int ask_step(integrator *I, double h)
+{
+    I->asked = h;
+    return ARKodeSetInitStep(I->arkode, h);
+}
+
+static int set_adaptivity(integrator *I)
+{
+    void *a = I->arkode;
+    const double h = I->problem.fixed_step;
+    if (h > 0.0) return ARKodeSetFixedStep(a, h);
+    int failed = arkode_use_pi(I->sundials, a, &I->controller);
+    failed |= ARKodeSetSafetyFactor(a, 0.9);
+    failed |= ARKodeSetErrorBias(a, 1.0);
+    failed |= ARKodeSetMaxGrowth(a, 10.0);
+    failed |= ARKodeSetMinReduction(a, 0.1);
+    failed |= ARKodeSetFixedStepBounds(a, 1.0, 1.0); /* else growth below 1.5 is ignored and the step count is luck */
+    failed |= ARKodeSetMaxFirstGrowth(a, 10.0);
+    failed |= ARKodeSetMaxEFailGrowth(a, 0.3);
+    failed |= ARKodeSetSmallNumEFails(a, 2);
+    failed |= ARKodeSetMaxErrTestFails(a, 30);
+    failed |= ask_step(I, 0.1 * I->problem.max_step);
+    failed |= ARKodeSetMinStep(a, 1e-9 * I->problem.max_step);
+    failed |= ARKodeSetMaxStep(a, I->problem.max_step);
+    return failed;
+}
+
+static dem_status set_guards(integrator *I)
+{
+    const dem_index n = I->problem.n_guards;
+    if (n == 0) return DEM_OK;
+    I->guards_t = NAN;
+    I->guards = malloc((size_t)n * sizeof *I->guards);
+    CHECK(I->guards != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
+    int *falling = malloc((size_t)n * sizeof *falling);
+    CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
+    for (dem_index k = 0; k < n; k++) falling[k] = -1;
+    int failed = ARKodeRootInit(I->arkode, (int)n, call_guards);
+    failed |= ARKodeSetRootDirection(I->arkode, falling);
+    failed |= ARKodeSetNoInactiveRootWarn(I->arkode);
+    free(falling);
+    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its root functions: %s", I->message);
+    return DEM_OK;
+}
+
+static dem_status set_up(integrator *I, double t, const double *y)
+{
+    TRY(method_load(&I->table, I->problem.method));
+    CHECK(I->table.embedded_order > 0 || I->problem.fixed_step > 0.0, DEM_ERROR_ARGUMENT,
+          "a method without error estimate needs a fixed step");
+    CHECK(I->problem.n_guards <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld guards are too many for ARKODE",
+          (long long)I->problem.n_guards);
+    TRY(allocate(I));
+    fill_weights(I);
+    start_from(I, t, y);
+    I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
+    CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
+    int failed = arkode_listen(I->arkode, &I->errors);
+    failed |= ARKodeSetUserData(I->arkode, I);
+    failed |= set_table(I);
+    failed |=
+        ARKodeSetInterpolantDegree(I->arkode, 3); /* 4 and more would call the derivative at every root iteration */
+    failed |= ARKodeWFtolerances(I->arkode, call_weights);
+    failed |= ARKodeSetMaxNumSteps(I->arkode, -1);
+    failed |= ARKodeSetMaxHnilWarns(I->arkode, -1);
+    failed |= set_adaptivity(I);
+    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its settings: %s", I->message);
+    return set_guards(I);
+}
+
+/* ---- public ---- */
+
+dem_status integrator_create(integrator **out, const motion *problem, double t, const double *y)
+{
+    integrator *I = calloc(1, sizeof *I);
+    CHECK_MEMORY(I);
+    I->problem = *problem;
+    I->errors = (arkode_errors){keep_message, I};
+    const dem_status status = set_up(I, t, y);
+    if (status == DEM_OK)
+        *out = I;
+    else
+        integrator_destroy(I);
+    return status;
+}
+
+void integrator_destroy(integrator *I)
+{
+    if (I == NULL) return;
+    if (I->arkode != NULL) ARKodeFree(&I->arkode);
+    arkode_free_controller(I->controller);
+    N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+        if (vectors[k] != NULL) N_VDestroy(vectors[k]);
+    vector_space_free(I->space);
+    if (I->sundials != NULL) SUNContext_Free(&I->sundials);
+    free(I->inside);
+    free(I->guards);
+    free(I);
+}
+
+/* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. */
+static dem_status retry(integrator *I, double *h)
+{
+    if (*h == 0.0 && ARKodeGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
+    *h *= 0.1;
+    I->counts.retries++;
+    CHECK(ask_step(I, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    return integrator_restart(I, I->t, vector_values(I->y0));
+}
+
+static const char *cause(const integrator *I, int flag)
+{
+    switch (flag) {
+    case ARK_TOO_MUCH_ACC:
+        return "rounding alone is more than rtol allows";
+    case ARK_ERR_FAILURE:
+        return I->problem.fixed_step > 0.0 ? "it may be too long" : "no step is short enough for rtol";
+    case ARK_RTFUNC_FAIL:
+        return "a guard is not finite";
+    default:
+        return I->message;
+    }
+}
+
+static dem_status fail_step(integrator *I, int flag)
+{
+    return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
+}
+
+/* From the end of the path handed out. */
+static void go_on(integrator *I)
+{
+    if (!I->at_end) return;
+    vector_share(I->y1, I->y0);
+    vector_share(I->f1, I->f0);
+    I->t = I->t1;
+    I->at_end = I->gives_f0 = false;
+}
+
+/* ARKODE begins anew from the state, of which the derivative may be known. */
+static dem_status reset(integrator *I)
+{
+    vector_share(I->y0, I->y);
+    I->at_end = I->holds_step = false;
+    I->gives_f0 = I->knows_f0;
+    I->guards_t = NAN;
+    CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
+          "ARKODE does not restart at t = %.9g s: %s", I->t, I->message);
+    return DEM_OK;
+}
+
+void integrator_end(integrator *I, double **y1, double **f1)
+{
+    *y1 = vector_shared(I->y1);
+    *f1 = vector_shared(I->f1);
+}
+
+dem_status integrator_redo(integrator *I, double factor)
+{
+    I->counts.steps--;
+    I->counts.rejected++;
+    CHECK(ask_step(I, factor * (I->t1 - I->t)) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    return reset(I);
+}
+
+void integrator_settle(integrator *I, const path *step)
+{
+    if (step->end == step->t1) {
+        go_on(I);
+        return;
+    }
+    path_state(step, step->end, vector_fresh(I->y));
+    vector_share(I->y, I->y0);
+    I->t = step->end;
+    I->at_end = I->knows_f0 = false;
+}
+
+double *integrator_state(const integrator *I)
+{
+    return vector_shared(I->y0);
+}
+
+dem_status integrator_step(integrator *I, path *step, bool *rooted)
+{
+    go_on(I);
+    double reached, h = 0.0;
+    int flag = ARK_RHSFUNC_FAIL;
+    for (int attempt = 0; attempt <= max_retries; attempt++) {
+        I->holds_step = false;
+        if (I->problem.fixed_step > 0.0)
+            (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, vector_values(I->y0)));
+        flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
+        if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
+        if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)
+            return DEM_ERROR_INTEGRATOR; /* message: derivative's */
+        TRY(retry(I, &h));
+    }
+    if (flag != ARK_SUCCESS && flag != ARK_ROOT_RETURN) return fail_step(I, flag);
+    CHECK(fetch_step(I) == 0, DEM_ERROR_INTEGRATOR, "ARKODE does not give the step: %s", I->message);
+    I->counts.steps++;
+    I->asked = 0.0;
+    I->at_end = true;
+    *rooted = flag == ARK_ROOT_RETURN;
+    *step = held_path(I);
+    if (*rooted) step->end = reached;
+    return DEM_OK;
+}
+
+dem_status integrator_restart(integrator *I, double t, const double *y)
+{
+    start_from(I, t, y);
+    return reset(I);
+}
+
+double integrator_next_step(const integrator *I)
+{
+    double next = 0.0;
+    if (I->problem.fixed_step > 0.0) return 0.0;
+    if (I->asked > 0.0) return I->asked;
+    return ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS ? next : 0.0;
+}
+
+dem_status integrator_renew(integrator *I, const engine_start *from)
+{
+    start_from(I, from->t, from->y);
+    I->guards_t = NAN;
+    I->counts = (dem_counts){.steps = from->counts.steps,
+                             .rejected = from->counts.rejected,
+                             .evaluations = from->counts.evaluations,
+                             .retries = from->counts.retries};
+    int failed = ERKStepReInit(I->arkode, call_derivative, I->t, I->y);
+    if (!(I->problem.fixed_step > 0.0)) failed |= ask_step(I, fmin(from->next_step, I->problem.max_step));
+    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE does not begin anew at t = %.9g s: %s", I->t, I->message);
+    return DEM_OK;
+}
+
+dem_status integrator_bound(integrator *I, double longest)
+{
+    double next;
+    if (isfinite(longest) && ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS && next > longest)
+        CHECK(ask_step(I, longest) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    return DEM_OK;
+}
+
+dem_status integrator_resume(integrator *I)
+{
+    return reset(I);
+}
+
+dem_counts integrator_counts(const integrator *I)
+{
+    dem_counts counts = I->counts;
+    long rejected = 0;
+    if (ARKodeGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected += rejected;
+    return counts;
+}
+
+const char *dem_version_sundials(void)
+{
+    return SUNDIALS_VERSION;
+}

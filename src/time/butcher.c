@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Coefficients are read from SUNDIALS, but for RK4's. */
+#include "time/butcher.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h> /* ARKODE's header needs it */
+#include <string.h>
+
+#include <arkode/arkode_butcher_erk.h>
+#include <sundials/sundials_version.h>
+
+#include "base/status.h"
+
+/* A table in SUNDIALS, and the first version that has it, 100 major + minor. */
+typedef struct method_row {
+    const char *name, *table;
+    int since;
+} method_row;
+
+static const method_row rows[] = {
+    [DEM_METHOD_FEHLBERG45] = {"fehlberg45", "ARKODE_FEHLBERG_6_4_5", 604},
+    [DEM_METHOD_DOPRI45] = {"dopri45", "ARKODE_DORMAND_PRINCE_7_4_5", 604},
+    [DEM_METHOD_CASHKARP45] = {"cashkarp45", "ARKODE_CASH_KARP_6_4_5", 604},
+    [DEM_METHOD_ZONNEVELD34] = {"zonneveld34", "ARKODE_ZONNEVELD_5_3_4", 604},
+    [DEM_METHOD_BS23] = {"bs23", "ARKODE_BOGACKI_SHAMPINE_4_2_3", 604},
+    [DEM_METHOD_HEUN12] = {"heun12", "ARKODE_HEUN_EULER_2_1_2", 604},
+    [DEM_METHOD_SAYFYABURUB34] = {"sayfyaburub34", "ARKODE_SAYFY_ABURUB_6_3_4", 604},
+    [DEM_METHOD_ARK23] = {"ark23", "ARKODE_ARK324L2SA_ERK_4_2_3", 604},
+    [DEM_METHOD_ARK34] = {"ark34", "ARKODE_ARK436L2SA_ERK_6_3_4", 604},
+    [DEM_METHOD_ARK34B] = {"ark34b", "ARKODE_ARK437L2SA_ERK_7_3_4", 604},
+    [DEM_METHOD_ARK45] = {"ark45", "ARKODE_ARK548L2SA_ERK_8_4_5", 604},
+    [DEM_METHOD_ARK45B] = {"ark45b", "ARKODE_ARK548L2SAb_ERK_8_4_5", 604},
+    [DEM_METHOD_VERNER56] = {"verner56", "ARKODE_VERNER_8_5_6", 604},
+    [DEM_METHOD_VERNER67] = {"verner67", "ARKODE_VERNER_10_6_7", 607},
+    [DEM_METHOD_VERNER78] = {"verner78", "ARKODE_VERNER_13_7_8", 607},
+    [DEM_METHOD_VERNER89] = {"verner89", "ARKODE_VERNER_16_8_9", 607},
+    [DEM_METHOD_FEHLBERG78] = {"fehlberg78", "ARKODE_FEHLBERG_13_7_8", 604},
+    [DEM_METHOD_KNOTHWOLKE3] = {"knothwolke3", "ARKODE_KNOTH_WOLKE_3_3", 604},
+    [DEM_METHOD_RK4] = {"rk4", NULL, 0},
+    [DEM_METHOD_VERLET] = {"verlet", NULL, 0},
+};
+static const int n_rows = sizeof rows / sizeof rows[0];
+
+static double *entry(method_table *t, int i, int j)
+{
+    return &t->a[i * t->stages + j];
+}
+
+static const method_table rk4 = {.stages = 4,
+                                 .order = 4,
+                                 .a = {0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0},
+                                 .b = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
+                                 .c = {0.0, 0.5, 0.5, 1.0}};
+
+static dem_status read_table(method_table *out, const method_row *row)
+{
+    CHECK(100 * SUNDIALS_VERSION_MAJOR + SUNDIALS_VERSION_MINOR >= row->since, DEM_ERROR_ARGUMENT,
+          "method '%s' needs SUNDIALS %d.%d or later, this is " SUNDIALS_VERSION, row->name, row->since / 100,
+          row->since % 100);
+    ARKodeButcherTable table = ARKodeButcherTable_LoadERKByName(row->table);
+    CHECK(table != NULL && table->stages < METHOD_STAGES, DEM_ERROR_ARGUMENT, "SUNDIALS gives no table %s", row->table);
+    const size_t size = (size_t)table->stages * sizeof(double);
+    *out = (method_table){.stages = table->stages, .order = table->q};
+    for (int i = 0; i < table->stages; i++) memcpy(entry(out, i, 0), table->A[i], size);
+    memcpy(out->b, table->b, size);
+    memcpy(out->c, table->c, size);
+    if (table->d != NULL) {
+        out->embedded_order = table->p;
+        memcpy(out->d, table->d, size);
+    }
+    ARKodeButcherTable_Free(table);
+    return DEM_OK;
+}
+
+/* Whether the last stage is the solution, so that its derivative is the first of the next step. */
+static bool ends_with_solution(method_table *t)
+{
+    for (int j = 0; j < t->stages; j++)
+        if (fabs(*entry(t, t->stages - 1, j) - t->b[j]) > 1e-14) return false;
+    return true;
+}
+
+/* SUNDIALS before 6.7 takes any last stage at the end of the step for the solution, and loses order where it is not
+ * (LLNL/sundials #311). One stage more, the solution, makes it true, and costs nothing: ARKODE would call for that
+ * derivative all the same. */
+static void append_solution(method_table *t)
+{
+    const int n = t->stages;
+    method_table longer = {.stages = n + 1, .order = t->order, .embedded_order = t->embedded_order};
+    for (int i = 0; i < n; i++) memcpy(entry(&longer, i, 0), entry(t, i, 0), (size_t)n * sizeof(double));
+    memcpy(entry(&longer, n, 0), t->b, (size_t)n * sizeof(double));
+    memcpy(longer.b, t->b, (size_t)n * sizeof(double));
+    memcpy(longer.c, t->c, (size_t)n * sizeof(double));
+    memcpy(longer.d, t->d, (size_t)n * sizeof(double));
+    longer.c[n] = 1.0;
+    *t = longer;
+}
+
+static const method_row *row_of(dem_method method)
+{
+    return (int)method >= 0 && (int)method < n_rows ? &rows[method] : NULL;
+}
+
+dem_status method_load(method_table *out, dem_method method)
+{
+    const method_row *row = row_of(method);
+    CHECK(row != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)method);
+    CHECK(method != DEM_METHOD_VERLET, DEM_ERROR_ARGUMENT, "method '%s' has no table", row->name);
+    if (method == DEM_METHOD_RK4)
+        *out = rk4;
+    else
+        TRY(read_table(out, row));
+    if (out->c[out->stages - 1] == 1.0 && !ends_with_solution(out)) append_solution(out);
+    return DEM_OK;
+}
+
+/* ---- stability ---- */
+
+/* |R(i z)| of y' = i omega y, z = omega h:  Y_j = 1 + i z sum of a_jk Y_k,  R = 1 + i z sum of b_j Y_j. */
+static double table_growth(method_table *t, double z)
+{
+    double re[METHOD_STAGES], im[METHOD_STAGES], sum_re = 1.0, sum_im = 0.0;
+    for (int j = 0; j < t->stages; j++) {
+        re[j] = 1.0;
+        im[j] = 0.0;
+        for (int k = 0; k < j; k++) {
+            re[j] -= z * *entry(t, j, k) * im[k];
+            im[j] += z * *entry(t, j, k) * re[k];
+        }
+        sum_re -= z * t->b[j] * im[j];
+        sum_im += z * t->b[j] * re[j];
+    }
+    return hypot(sum_re, sum_im);
+}
+
+/* Of a step of Verlet the eigenvalues have the product 1 and the sum 2 - z^2. */
+static double verlet_growth(double z)
+{
+    const double half = 0.5 * z * z - 1.0;
+    return z > 2.0 ? half + sqrt(half * half - 1.0) : 1.0;
+}
+
+/* Largest z below which growth exceeds 1 by no more than `allowed`, to 1e-3; 0 where it does from the start. */
+static double largest_step(method_table *t, double allowed)
+{
+    const double rounding = 1e-13, step = 1e-3;
+    double z = step;
+    bool moves = false; /* growth is not 1 to rounding */
+    for (; z < 20.0; z += step) {
+        const double over = table_growth(t, z) - 1.0;
+        if (over > fmax(allowed, rounding)) break;
+        moves = moves || fabs(over) > rounding;
+    }
+    return moves ? z - step : 0.0;
+}
+
+static dem_method_traits traits_of(const char *name, method_table *t)
+{
+    return (dem_method_traits){.name = name,
+                               .order = t->order,
+                               .evaluations = t->stages - (ends_with_solution(t) ? 1 : 0),
+                               .adaptive = t->embedded_order > 0,
+                               .stable = largest_step(t, 0.0),
+                               .usable = largest_step(t, 1e-3)};
+}
+
+dem_status dem_method_describe(dem_method_traits *out, dem_method method)
+{
+    const method_row *row = row_of(method);
+    method_table table;
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_method_describe: out is NULL");
+    CHECK(row != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)method);
+    if (method == DEM_METHOD_VERLET) {
+        *out = (dem_method_traits){.name = row->name, .order = 2, .evaluations = 1, .stable = 2.0, .usable = 2.0};
+        return DEM_OK;
+    }
+    TRY(method_load(&table, method));
+    *out = traits_of(row->name, &table);
+    return DEM_OK;
+}
+
+dem_status dem_method_find(dem_method *out, const char *name)
+{
+    CHECK(out != NULL && name != NULL, DEM_ERROR_ARGUMENT, "dem_method_find: %s is NULL", out == NULL ? "out" : "name");
+    for (int k = 0; k < n_rows; k++)
+        if (strcmp(rows[k].name, name) == 0) {
+            *out = (dem_method)k;
+            return DEM_OK;
+        }
+    return status_fail(DEM_ERROR_ARGUMENT, "no method is called '%s'", name);
+}
+
+double dem_method_growth(dem_method method, double omega_h)
+{
+    method_table table;
+    if (method == DEM_METHOD_VERLET) return verlet_growth(omega_h);
+    return method_load(&table, method) == DEM_OK ? table_growth(&table, omega_h) : (double)NAN;
+}

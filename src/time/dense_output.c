@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Quintic Hermite interpolation of x'' = a, written as the cubic of the velocities plus a bump that closes the
+ * positions. */
+#include "time/dense_output.h"
+
+#include <float.h>
+#include <string.h>
+
+/* Coefficients at s = (t - t0)/h.  With v(s) the cubic through v0, h a0, v1, h a1 and C its integral over the step,
+ *   x(s) = x0 + h int_0^s v + D B(s),  v += D B'(s)/h,  D = x1 - x0 - h C,  B = 10 s^3 - 15 s^4 + 6 s^5. */
+typedef struct basis {
+    double h, s;
+    double v0, a0, v1, a1;     /* of the velocity */
+    double iv0, ia0, iv1, ia1; /* of its integral */
+    double bump, slope;        /* B, B' */
+} basis;
+
+static basis basis_at(const path *p, double t)
+{
+    const double h = p->t1 - p->t0, s = (t - p->t0) / h, s2 = s * s, s3 = s2 * s;
+    return (basis){.h = h,
+                   .s = s,
+                   .v0 = 1.0 - s2 * (3.0 - 2.0 * s),
+                   .a0 = s * (1.0 - s) * (1.0 - s),
+                   .v1 = s2 * (3.0 - 2.0 * s),
+                   .a1 = -s2 * (1.0 - s),
+                   .iv0 = s - s3 * (1.0 - 0.5 * s),
+                   .ia0 = s2 * (0.5 - s * (2.0 / 3.0 - 0.25 * s)),
+                   .iv1 = s3 * (1.0 - 0.5 * s),
+                   .ia1 = -s3 * (1.0 / 3.0 - 0.25 * s),
+                   .bump = s3 * (10.0 - s * (15.0 - 6.0 * s)),
+                   .slope = 30.0 * s2 * (1.0 - s) * (1.0 - s)};
+}
+
+/* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the
+ * bump's slope would turn into velocity when h is tiny. */
+static inline double defect(const path *p, dem_index k, double h)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double x0 = p->y0[k], x1 = p->y1[k], v0 = p->y0[n + k], v1 = p->y1[n + k];
+    const double d = x1 - x0 - h * (0.5 * (v0 + v1) + h * (p->f0[n + k] - p->f1[n + k]) / 12.0);
+    return fabs(d) > 4.0 * DBL_EPSILON * fmax(fabs(x0), fabs(x1)) ? d : 0.0;
+}
+
+/* From y0 with slope f0 to y1. */
+static inline double parabola(const basis *b, double y0, double f0, double y1)
+{
+    return y0 + b->s * (b->h * f0 + b->s * (y1 - y0 - b->h * f0));
+}
+
+static inline double position(const path *p, const basis *b, dem_index k)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = b->h;
+    if (p->parabolic) return parabola(b, p->y0[k], p->y0[n + k], p->y1[k]);
+    return p->y0[k] + h * (b->iv0 * p->y0[n + k] + b->iv1 * p->y1[n + k]) +
+           h * h * (b->ia0 * p->f0[n + k] + b->ia1 * p->f1[n + k]) + b->bump * defect(p, k, h);
+}
+
+static inline double velocity(const path *p, const basis *b, dem_index k)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = b->h;
+    if (p->parabolic) return parabola(b, p->y0[n + k], p->f0[n + k], p->y1[n + k]);
+    return b->v0 * p->y0[n + k] + b->v1 * p->y1[n + k] + h * (b->a0 * p->f0[n + k] + b->a1 * p->f1[n + k]) +
+           b->slope * defect(p, k, h) / h;
+}
+
+static bool turned(const path *p, dem_index i)
+{
+    return p->trail != NULL && trail_has(p->trail, i);
+}
+
+vec2 path_position(const path *p, double t, dem_index i)
+{
+    if (t == p->t1) return vec2_at(p->y1, i);
+    if (turned(p, i)) return trail_position(p->trail, t, i);
+    if (t == p->t0) return vec2_at(p->y0, i);
+    const basis b = basis_at(p, t);
+    return (vec2){position(p, &b, 2 * i), position(p, &b, 2 * i + 1)};
+}
+
+vec2 path_velocity(const path *p, double t, dem_index i)
+{
+    const dem_index n = p->n_nodes;
+    if (t == p->t1) return vec2_at(p->y1, n + i);
+    if (turned(p, i)) return trail_velocity(p->trail, t, i);
+    if (t == p->t0) return vec2_at(p->y0, n + i);
+    const basis b = basis_at(p, t);
+    return (vec2){velocity(p, &b, 2 * i), velocity(p, &b, 2 * i + 1)};
+}
+
+/* As if no event inside had changed it. */
+static void interpolate(const path *p, double t, double *y)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const basis b = basis_at(p, t);
+    for (dem_index k = 0; k < n; k++) {
+        y[k] = position(p, &b, k);
+        y[n + k] = velocity(p, &b, k);
+    }
+}
+
+void path_state(const path *p, double t, double *y)
+{
+    if (t == p->t0 || t == p->t1)
+        memcpy(y, t == p->t0 ? p->y0 : p->y1, 4 * (size_t)p->n_nodes * sizeof *y);
+    else
+        interpolate(p, t, y);
+    for (dem_index i = 0; i < p->n_nodes && p->trail != NULL && t != p->t1; i++) {
+        if (!trail_has(p->trail, i)) continue;
+        vec2_put(y, i, trail_position(p->trail, t, i));
+        vec2_put(y, p->n_nodes + i, trail_velocity(p->trail, t, i));
+    }
+}
+
+/* The same in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
+static void quintic(const path *p, dem_index i, trail_motion *m)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = p->t1 - p->t0, per_h = 1.0 / h;
+    for (int d = 0; d < 2; d++) {
+        const dem_index k = 2 * i + d;
+        const double bump = 30.0 * per_h * defect(p, k, h), jump = p->y1[n + k] - p->y0[n + k];
+        const double a0 = h * p->f0[n + k], a1 = h * p->f1[n + k];
+        const double v[TRAIL_TERMS] = {
+            p->y0[n + k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump, bump, 0.0};
+        m->c[0][d] = p->y0[k];
+        for (int q = 0; q < TRAIL_TERMS; q++) m->c[q][2 + d] = v[q];
+        for (int q = 1; q < TRAIL_TERMS; q++) m->c[q][d] = h / q * v[q - 1];
+    }
+}
+
+static void parabolas(const path *p, dem_index i, trail_motion *m)
+{
+    const dem_index n = 2 * p->n_nodes;
+    const double h = p->t1 - p->t0;
+    for (int d = 0; d < 2; d++) {
+        const dem_index k = 2 * i + d;
+        m->c[0][d] = p->y0[k];
+        m->c[1][d] = h * p->y0[n + k];
+        m->c[2][d] = p->y1[k] - m->c[0][d] - m->c[1][d];
+        m->c[0][2 + d] = p->y0[n + k];
+        m->c[1][2 + d] = h * p->f0[n + k];
+        m->c[2][2 + d] = p->y1[n + k] - m->c[0][2 + d] - m->c[1][2 + d];
+    }
+}
+
+trail_motion path_motion(const path *p, dem_index i)
+{
+    trail_motion m = {.from = p->t0};
+    if (p->parabolic)
+        parabolas(p, i, &m);
+    else
+        quintic(p, i, &m);
+    return m;
+}

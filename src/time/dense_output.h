@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The motion within one accepted step: the quintic that matches position, velocity and acceleration at both ends; or
+ * parabolas, of a method of order 2. */
+#ifndef DEM_TIME_DENSE_OUTPUT_H
+#define DEM_TIME_DENSE_OUTPUT_H
+
+#include <stdbool.h>
+
+#include "time/changed_motion.h"
+
+typedef struct path {
+    dem_index n_nodes;
+    double t0, t1;    /* the accepted step, s */
+    double end;       /* the motion holds up to here, t0 <= end <= t1: an event cuts it short */
+    const double *y0; /* [4 n] state (x, v) at t0 */
+    const double *f0; /* [4 n] its derivative, of which the second half is read, accelerations */
+    const double *y1, *f1;
+    bool parabolic;     /* positions through x0, v0, x1 and velocities through v0, a0, v1: the way of Verlet's method */
+    const trail *trail; /* how nodes go on from events inside, up to y1; NULL: there were none */
+} path;
+
+vec2 path_position(const path *p, double t, dem_index i);
+vec2 path_velocity(const path *p, double t, dem_index i);
+
+/** The motion of a node over the whole step, as if no event inside had changed it. */
+trail_motion path_motion(const path *p, dem_index i);
+
+/** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at t0 has
+ *  changed there. */
+void path_state(const path *p, double t, double *y);
+
+#endif

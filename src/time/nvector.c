@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Counted buffers. There is one more than vectors, so that one is always free: no operation can fail for memory. */
+#include "time/nvector.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/aligned.h"
+#include "base/threads.h"
+
+enum { most_terms = 32, n_sampled = 16 };
+
+typedef struct buffer {
+    int users;
+    struct buffer *next; /* of the free ones */
+    double *values;
+} buffer;
+
+typedef struct content {
+    vector_space *space;
+    buffer *buffer;
+    struct content *next; /* of the free ones */
+} content;
+
+struct vector_space {
+    dem_index length;
+    const bulk *bulk;
+    int n_threads;
+    bulk_sum *sums;  /* [n_threads] */
+    buffer *buffers; /* the first free one */
+    content *contents;
+};
+
+static content *content_of(N_Vector v)
+{
+    return v->content;
+}
+
+/* ---- buffers ---- */
+
+static bool add_buffer(vector_space *s)
+{
+    buffer *b = calloc(1, sizeof *b);
+    if (b != NULL) b->values = aligned_reals((size_t)s->length);
+    if (b == NULL || b->values == NULL) {
+        free(b);
+        return false;
+    }
+    b->next = s->buffers;
+    s->buffers = b;
+    return true;
+}
+
+/* For one vector more. */
+static bool add_content(vector_space *s)
+{
+    content *c = calloc(1, sizeof *c);
+    if (c == NULL || !add_buffer(s)) {
+        free(c);
+        return false;
+    }
+    *c = (content){.space = s, .next = s->contents};
+    s->contents = c;
+    return true;
+}
+
+static void leave(vector_space *s, buffer *b)
+{
+    if (--b->users > 0) return;
+    b->next = s->buffers;
+    s->buffers = b;
+}
+
+static buffer *take(vector_space *s)
+{
+    buffer *b = s->buffers;
+    s->buffers = b->next;
+    b->users = 1;
+    return b;
+}
+
+double *vector_fresh(N_Vector v)
+{
+    content *c = content_of(v);
+    if (c->buffer->users > 1) {
+        leave(c->space, c->buffer);
+        c->buffer = take(c->space);
+    }
+    return c->buffer->values;
+}
+
+const double *vector_values(N_Vector v)
+{
+    return content_of(v)->buffer->values;
+}
+
+double *vector_shared(N_Vector v)
+{
+    return content_of(v)->buffer->values;
+}
+
+void vector_share(N_Vector from, N_Vector to)
+{
+    content *c = content_of(to);
+    buffer *b = content_of(from)->buffer;
+    b->users++;
+    leave(c->space, c->buffer);
+    c->buffer = b;
+}
+
+/* ---- what ARKODE calls ---- */
+
+static void fill(double value, N_Vector z)
+{
+    const content *c = content_of(z);
+    double *to = vector_fresh(z);
+    for (dem_index k = 0; k < c->space->length; k++) to[k] = value;
+}
+
+/* Numbers to write that are those of none of the operands, which all hold theirs until they are written. */
+static double *apart_from(N_Vector z, const double *const *in, int n)
+{
+    content *c = content_of(z);
+    for (int p = 0; p < n; p++)
+        if (in[p] == c->buffer->values && c->buffer->users == 1) {
+            buffer *old = c->buffer;
+            c->buffer = take(c->space);
+            leave(c->space, old);
+            break;
+        }
+    return vector_fresh(z);
+}
+
+static void combine_share(const vector_space *s, int t, double *out, int n, const double *c, const double *const *in)
+{
+    const dem_index first = threads_share(s->length, s->n_threads, t);
+    const double *from[most_terms];
+    for (int k = 0; k < n; k++) from[k] = in[k] + first;
+    s->bulk->combine(out + first, n, c, from, threads_share(s->length, s->n_threads, t + 1) - first);
+}
+
+static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
+{
+    double factor[most_terms];
+    const double *in[most_terms];
+    const vector_space *s = content_of(z)->space;
+    int m = 0, last = 0;
+    for (int k = 0; k < n; k++) {
+        if (c[k] == 0.0) continue;
+        if (m == most_terms) return -1;
+        last = k;
+        factor[m] = c[k];
+        in[m++] = vector_values(x[k]);
+    }
+    if (m == 0) {
+        fill(0.0, z);
+        return 0;
+    }
+    if (m == 1 && factor[0] == 1.0) {
+        vector_share(x[last], z);
+        return 0;
+    }
+    double *out = apart_from(z, in, m);
+    THREADS_RUN(s->n_threads, t, combine_share(s, t, out, m, factor, in));
+    return 0;
+}
+
+static void add(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
+{
+    (void)combine(2, (sunrealtype[]){a, b}, (N_Vector[]){x, y}, z);
+}
+
+static void scale(sunrealtype a, N_Vector x, N_Vector z)
+{
+    (void)combine(1, &a, &x, z);
+}
+
+/* 1, 2^-20, 2^-40, ...: that takes numbers of this size to 32 at most. */
+static double scale_of(double size)
+{
+    double scale = 1.0;
+    while (size * scale > 32.0) scale *= 0x1p-20;
+    return scale;
+}
+
+static void square_share(const vector_space *s, int t, const double *x, const double *w, double scale)
+{
+    const dem_index first = threads_share(s->length, s->n_threads, t);
+    s->sums[t] = (bulk_sum){0};
+    s->bulk->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
+}
+
+static bulk_sum square(const vector_space *s, const double *x, const double *w, double scale)
+{
+    bulk_sum sum = {0};
+    THREADS_RUN(s->n_threads, t, square_share(s, t, x, w, scale));
+    for (int t = 0; t < s->n_threads; t++) bulk_add(&sum, &s->sums[t]);
+    return sum;
+}
+
+/* Sums are exact within a range of sizes. Ranges are tried from a sample on: the least that holds all counts. */
+static sunrealtype norm(N_Vector x, N_Vector w)
+{
+    const vector_space *s = content_of(x)->space;
+    const double *values = vector_values(x), *weights = vector_values(w);
+    double largest = 0.0, scale = 1.0;
+    for (dem_index k = 0; k < s->length; k += s->length / n_sampled + 1)
+        largest = fmax(largest, fabs(values[k] * weights[k]));
+    for (;;) {
+        scale = scale_of(largest);
+        const bulk_sum sum = square(s, values, weights, scale);
+        if (!isfinite(sum.largest)) return INFINITY;
+        largest = sqrt(sum.largest) / scale;
+        if (scale_of(largest) == scale) return sqrt(bulk_value(&sum) / (double)s->length) / scale;
+    }
+}
+
+/* ARKODE asks for these and calls none of them, as weights and the first step are given. */
+
+static sunrealtype largest(N_Vector x)
+{
+    const double *a = vector_values(x);
+    double most = 0.0;
+    for (dem_index k = 0; k < content_of(x)->space->length; k++) most = fmax(most, fabs(a[k]));
+    return most;
+}
+
+static void divide(N_Vector x, N_Vector y, N_Vector z)
+{
+    const double *a = vector_values(x), *b = vector_values(y);
+    double *to = vector_fresh(z);
+    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = a[k] / b[k];
+}
+
+static void take_size(N_Vector x, N_Vector z)
+{
+    const double *a = vector_values(x);
+    double *to = vector_fresh(z);
+    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = fabs(a[k]);
+}
+
+static void invert(N_Vector x, N_Vector z)
+{
+    const double *a = vector_values(x);
+    double *to = vector_fresh(z);
+    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = 1.0 / a[k];
+}
+
+static void add_constant(N_Vector x, sunrealtype c, N_Vector z)
+{
+    const double *a = vector_values(x);
+    double *to = vector_fresh(z);
+    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = a[k] + c;
+}
+
+/* ---- making and freeing ---- */
+
+static N_Vector_ID kind_of(N_Vector v)
+{
+    (void)v;
+    return SUNDIALS_NVEC_CUSTOM;
+}
+
+static N_Vector clone(N_Vector v)
+{
+    return vector_create(content_of(v)->space, v->sunctx);
+}
+
+static void destroy(N_Vector v)
+{
+    content *c = content_of(v);
+    leave(c->space, c->buffer);
+    c->next = c->space->contents;
+    c->space->contents = c;
+    v->content = NULL;
+    N_VFreeEmpty(v);
+}
+
+static void set_operations(N_Vector_Ops ops)
+{
+    ops->nvgetvectorid = kind_of;
+    ops->nvclone = clone;
+    ops->nvdestroy = destroy;
+    ops->nvconst = fill;
+    ops->nvlinearsum = add;
+    ops->nvscale = scale;
+    ops->nvlinearcombination = combine;
+    ops->nvwrmsnorm = norm;
+    ops->nvmaxnorm = largest;
+    ops->nvdiv = divide;
+    ops->nvabs = take_size;
+    ops->nvinv = invert;
+    ops->nvaddconst = add_constant;
+}
+
+N_Vector vector_create(vector_space *s, SUNContext context)
+{
+    if (s->contents == NULL && !add_content(s)) return NULL;
+    N_Vector v = N_VNewEmpty(context);
+    if (v == NULL) return NULL;
+    content *c = s->contents;
+    s->contents = c->next;
+    c->buffer = take(s);
+    v->content = c;
+    set_operations(v->ops);
+    return v;
+}
+
+vector_space *vector_space_create(dem_index length, const bulk *operations, int n_threads, int n_vectors)
+{
+    vector_space *s = calloc(1, sizeof *s);
+    if (s == NULL) return NULL;
+    *s = (vector_space){.length = length, .bulk = operations, .n_threads = n_threads};
+    s->sums = calloc((size_t)n_threads, sizeof *s->sums);
+    bool complete = s->sums != NULL && add_buffer(s);
+    for (int k = 0; k < n_vectors && complete; k++) complete = add_content(s);
+    if (complete) return s;
+    vector_space_free(s);
+    return NULL;
+}
+
+void vector_space_free(vector_space *s)
+{
+    if (s == NULL) return;
+    while (s->buffers != NULL) {
+        buffer *b = s->buffers;
+        s->buffers = b->next;
+        free(b->values);
+        free(b);
+    }
+    while (s->contents != NULL) {
+        content *c = s->contents;
+        s->contents = c->next;
+        free(c);
+    }
+    free(s->sums);
+    free(s);
+}

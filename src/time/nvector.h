@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Vectors for SUNDIALS. A copy shares its numbers with the original until one of both is given others, so that what
+ * ARKODE keeps of a step costs nothing; linear combinations are one pass; norms do not depend on the order of their
+ * sums, nor anything on the number of threads. */
+#ifndef DEM_TIME_NVECTOR_H
+#define DEM_TIME_NVECTOR_H
+
+#include <sundials/sundials_nvector.h>
+
+#include "base/array_ops.h"
+
+typedef struct vector_space vector_space;
+
+/** Borrows the operations. NULL without memory, else there is enough for n_vectors, clones too: N_VClone() of SUNDIALS
+ *  6 crashes without. Free with vector_space_free(), after its vectors. */
+vector_space *vector_space_create(dem_index length, const bulk *operations, int n_threads, int n_vectors);
+void vector_space_free(vector_space *s);
+
+/** A vector of the space, of no certain numbers; NULL without memory. For N_VDestroy(). */
+N_Vector vector_create(vector_space *s, SUNContext context);
+
+/** Its numbers, to read. */
+const double *vector_values(N_Vector v);
+
+/** Its numbers, all of them to be written. */
+double *vector_fresh(N_Vector v);
+
+/** Its numbers, some of them to be changed, also for those who share them. */
+double *vector_shared(N_Vector v);
+
+/** From now on `to` has the numbers of `from`. */
+void vector_share(N_Vector from, N_Vector to);
+
+#endif

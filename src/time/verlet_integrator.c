@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A step h from (x0, v0) with a0:  v' = v0 + h/2 a0,  x1 = x0 + h v',  a1 = a(x1, v' + h/2 a0),  v1 = v' + h/2 a1. (5)
+ * Forces that depend on the velocity see it extrapolated: that keeps the order 2 and one evaluation a step. */
+#include "time/verlet_integrator.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/status.h"
+#include "base/threads.h"
+
+struct verlet {
+    motion problem;
+    double *arrays;                    /* [5][4 n] those that follow */
+    double *y0, *f0, *y1, *f1, *state; /* ends of the step with derivatives; a state inside */
+    double *values;                    /* [3][n_guards] those that follow */
+    double *low, *high, *trial;        /* guards at both ends of a bracket and inside */
+    double t, t1;                      /* s, of y0, y1 */
+    bool has_f0, has_low;              /* f0 is that of y0, low the guards there */
+    bool at_end;                       /* the path was handed out: y1 is the start of the next step */
+    dem_counts counts;
+};
+
+static dem_status allocate(verlet *V)
+{
+    const size_t n = 4 * (size_t)V->problem.n_nodes, n_guards = (size_t)V->problem.n_guards;
+    V->arrays = aligned_zeros(5 * n);
+    V->values = calloc(3 * n_guards + 1, sizeof *V->values);
+    CHECK(V->arrays && V->values, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+          (long long)V->problem.n_nodes);
+    V->y0 = V->arrays;
+    V->f0 = V->arrays + n;
+    V->y1 = V->arrays + 2 * n;
+    V->f1 = V->arrays + 3 * n;
+    V->state = V->arrays + 4 * n;
+    V->low = V->values;
+    V->high = V->values + n_guards;
+    V->trial = V->values + 2 * n_guards;
+    return DEM_OK;
+}
+
+dem_status verlet_create(verlet **out, const motion *problem, double t, const double *y)
+{
+    CHECK(problem->fixed_step > 0.0, DEM_ERROR_ARGUMENT, "Verlet's method needs a fixed step");
+    verlet *V = calloc(1, sizeof *V);
+    CHECK_MEMORY(V);
+    V->problem = *problem;
+    const dem_status status = allocate(V);
+    if (status != DEM_OK) {
+        verlet_destroy(V);
+        return status;
+    }
+    verlet_restart(V, t, y);
+    *out = V;
+    return DEM_OK;
+}
+
+void verlet_destroy(verlet *V)
+{
+    if (V == NULL) return;
+    free(V->arrays);
+    free(V->values);
+    free(V);
+}
+
+void verlet_restart(verlet *V, double t, const double *y)
+{
+    if (y != V->y0) memcpy(V->y0, y, 4 * (size_t)V->problem.n_nodes * sizeof *y);
+    V->t = t;
+    V->has_f0 = V->has_low = V->at_end = false;
+}
+
+void verlet_renew(verlet *V, const engine_start *from)
+{
+    verlet_restart(V, from->t, from->y);
+    V->counts = (dem_counts){.steps = from->counts.steps, .evaluations = from->counts.evaluations};
+}
+
+static void swap(double **a, double **b)
+{
+    double *const kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* The end of the last step becomes the start of the next. */
+static void go_on(verlet *V)
+{
+    if (!V->at_end) return;
+    swap(&V->y0, &V->y1);
+    swap(&V->f0, &V->f1);
+    swap(&V->low, &V->high);
+    V->t = V->t1;
+    V->at_end = false;
+}
+
+void verlet_end(verlet *V, double **y1, double **f1)
+{
+    *y1 = V->y1;
+    *f1 = V->f1;
+}
+
+void verlet_settle(verlet *V, const path *step)
+{
+    if (step->end < step->t1) {
+        path_state(step, step->end, V->state);
+        swap(&V->y1, &V->state);
+        V->t1 = step->end;
+    }
+    go_on(V);
+    V->has_f0 = step->end == step->t1;
+    V->has_low = V->has_low && V->has_f0;
+}
+
+double *verlet_state(const verlet *V)
+{
+    return V->y0;
+}
+
+static int evaluate(verlet *V, double t, const double *y, double *f)
+{
+    double *u = V->problem.prescribes ? f : NULL, *a = f + 2 * V->problem.n_nodes;
+    V->counts.evaluations++;
+    return V->problem.derivative(t, y, u, a, V->problem.context);
+}
+
+/* A part of the numbers of positions, and of velocities. */
+typedef struct stretch {
+    dem_index at, size;
+} stretch;
+
+static stretch share_of(const verlet *V, int t)
+{
+    const dem_index n = 2 * V->problem.n_nodes, at = threads_share(n, V->problem.n_threads, t);
+    return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
+}
+
+static void drift_stretch(verlet *V, double h, stretch s)
+{
+    const dem_index n = 2 * V->problem.n_nodes;
+    const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
+    V->problem.bulk->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
+}
+
+static void kick_stretch(verlet *V, double h, stretch s)
+{
+    const dem_index at = 2 * V->problem.n_nodes + s.at;
+    V->problem.bulk->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
+}
+
+/* A velocity that the derivative does not take over as it is, is prescribed. */
+static void kick_free(verlet *V, double h)
+{
+    const dem_index n = 2 * V->problem.n_nodes;
+    double *v1 = V->y1 + n;
+    for (dem_index k = 0; k < n; k++)
+        v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
+}
+
+/* All nodes at once where that can be, and the books: 0, 1 on failure, or -1. */
+static int leap(verlet *V, double h)
+{
+    const motion *p = &V->problem;
+    const motion_leap step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
+    const stretch books = {2 * (p->n_nodes - p->n_books), 2 * p->n_books};
+    if (p->leap == NULL) return -1;
+    drift_stretch(V, h, books);
+    const int flag = p->leap(&step, p->context);
+    if (flag < 0) return flag;
+    V->counts.evaluations++;
+    kick_stretch(V, h, books);
+    return flag;
+}
+
+static int kick_drift_kick(verlet *V, double h)
+{
+    V->t1 = V->t + h;
+    const int flag = leap(V, h);
+    if (flag >= 0) return flag;
+    THREADS_RUN(V->problem.n_threads, t, drift_stretch(V, h, share_of(V, t)));
+    if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
+    if (V->problem.prescribes)
+        kick_free(V, h);
+    else
+        THREADS_RUN(V->problem.n_threads, t, kick_stretch(V, h, share_of(V, t)));
+    return 0;
+}
+
+/* ---- roots ---- */
+
+static dem_status look(verlet *V, double t, const double *y, double *g)
+{
+    if (V->problem.n_guards == 0) return DEM_OK;
+    V->problem.guards(t, y, g, V->problem.context);
+    for (dem_index k = 0; k < V->problem.n_guards; k++)
+        CHECK(isfinite(g[k]), DEM_ERROR_INTEGRATOR, "guard %lld is not finite at t = %.9g s", (long long)k, t);
+    return DEM_OK;
+}
+
+static bool falls(double before, double after)
+{
+    return before > 0.0 && after <= 0.0;
+}
+
+/* Where the first of the guards that fall between both ends would be 0 if they were straight; 1 if none falls. */
+static double first_secant(const verlet *V, const double *low, const double *high)
+{
+    double share = 1.0;
+    for (dem_index k = 0; k < V->problem.n_guards; k++)
+        if (falls(low[k], high[k])) share = fmin(share, low[k] / (low[k] - high[k]));
+    return share;
+}
+
+static bool any_falls(const verlet *V, const double *low, const double *high)
+{
+    for (dem_index k = 0; k < V->problem.n_guards; k++)
+        if (falls(low[k], high[k])) return true;
+    return false;
+}
+
+/* Shortens the step to the first root: secants, and the middle after one that did not halve the bracket. */
+static dem_status find_root(verlet *V, path *step)
+{
+    double low = step->t0, high = step->t1;
+    bool secant = true;
+    const double width = 100.0 * DBL_EPSILON * (fabs(high) + high - low);
+    while (high - low > width) {
+        const double share = secant ? first_secant(V, V->low, V->high) : 0.5, whole = high - low;
+        const double t = fmin(fmax(low + share * whole, low + 0.5 * width), high - 0.5 * width);
+        path_state(step, t, V->state);
+        TRY(look(V, t, V->state, V->trial));
+        if (any_falls(V, V->low, V->trial)) {
+            high = t;
+            swap(&V->high, &V->trial);
+        } else {
+            low = t;
+            swap(&V->low, &V->trial);
+        }
+        secant = high - low <= 0.5 * whole;
+    }
+    step->end = high;
+    return DEM_OK;
+}
+
+/* ---- the step ---- */
+
+dem_status verlet_step(verlet *V, path *step, bool *rooted)
+{
+    go_on(V);
+    if (!V->has_f0 && evaluate(V, V->t, V->y0, V->f0) != 0) return DEM_ERROR_INTEGRATOR; /* message: derivative's */
+    V->has_f0 = true;
+    if (!V->has_low) TRY(look(V, V->t, V->y0, V->low));
+    if (kick_drift_kick(V, motion_fixed_step(&V->problem, V->y0)) != 0) return DEM_ERROR_INTEGRATOR;
+    TRY(look(V, V->t1, V->y1, V->high));
+    *step = (path){.n_nodes = V->problem.n_nodes,
+                   .parabolic = true,
+                   .t0 = V->t,
+                   .t1 = V->t1,
+                   .end = V->t1,
+                   .y0 = V->y0,
+                   .f0 = V->f0,
+                   .y1 = V->y1,
+                   .f1 = V->f1};
+    *rooted = any_falls(V, V->low, V->high);
+    V->has_low = !*rooted; /* of the end, when that is the start */
+    if (*rooted) TRY(find_root(V, step));
+    V->counts.steps++;
+    V->at_end = true;
+    return DEM_OK;
+}
+
+dem_counts verlet_counts(const verlet *V)
+{
+    return V->counts;
+}

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* array_ops.c, of every instruction set that the machine has: against sums written out, and each other. */
+#include "unit/close.h"
+
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+
+#include "base/array_ops.h"
+
+enum { most = 10000, n_inputs = 20 };
+
+static const bulk *const tables[] = {&bulk_portable,
+#ifdef DEM_X86_KERNELS
+                                     &bulk_avx2, &bulk_avx512
+#endif
+};
+static const dem_kernel kinds[] = {DEM_KERNEL_PORTABLE, DEM_KERNEL_AVX2, DEM_KERNEL_AVX512};
+static const int n_tables = sizeof tables / sizeof tables[0];
+
+static const dem_index sizes[] = {0, 1, 7, 8, 9, 63, 4096, 4097, most};
+static const int n_sizes = sizeof sizes / sizeof sizes[0];
+
+static double in[n_inputs][most], out[most + 1], other[most + 1];
+
+static int fill(void **state)
+{
+    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    (void)state;
+    for (int p = 0; p < n_inputs; p++)
+        for (dem_index k = 0; k < most; k++) in[p][k] = 2.0 * gsl_rng_uniform(r) - 1.0;
+    gsl_rng_free(r);
+    return 0;
+}
+
+/* Equal to the bit: from the first term on. What lies behind the end is not touched. */
+static void combinations_are_sums_from_the_first_term_on(void **state)
+{
+    double c[n_inputs];
+    const double *from[n_inputs];
+    (void)state;
+    for (int p = 0; p < n_inputs; p++) {
+        c[p] = 1.0 / (1.0 + p);
+        from[p] = in[p];
+    }
+    for (int t = 0; t < n_tables; t++)
+        for (int n = 1; n <= n_inputs && dem_kernel_check(kinds[t]) == DEM_OK; n++)
+            for (int s = 0; s < n_sizes; s++) {
+                out[sizes[s]] = 77.0;
+                tables[t]->combine(out, n, c, from, sizes[s]);
+                for (dem_index k = 0; k < sizes[s]; k++) {
+                    double sum = c[0] * in[0][k];
+                    for (int p = 1; p < n; p++) sum += c[p] * in[p][k];
+                    assert_close(out[k], sum, 0.0);
+                }
+                assert_close(out[sizes[s]], 77.0, 0.0);
+            }
+}
+
+static double value(const bulk *b, const double *x, const double *w, double scale, dem_index size)
+{
+    bulk_sum sum = {0};
+    b->square(&sum, x, w, scale, size);
+    return bulk_value(&sum);
+}
+
+/* Each square is off by 2^-61, and a sum in long double by less. */
+static void squares_add_up(void **state)
+{
+    (void)state;
+    for (int t = 0; t < n_tables; t++)
+        for (int s = 0; s < n_sizes && dem_kernel_check(kinds[t]) == DEM_OK; s++) {
+            long double sum = 0.0L;
+            for (dem_index k = 0; k < sizes[s]; k++) {
+                const double e = 8.0 * in[0][k] * in[1][k];
+                sum += (long double)(e * e);
+            }
+            const double tolerance = (double)(sizes[s] + 1) * 0x1p-61 + (double)sum * 0x1p-52;
+            assert_close(value(tables[t], in[0], in[1], 8.0, sizes[s]), (double)sum, tolerance);
+        }
+}
+
+/* Backwards, and in parts that are added in another order: the same bits. */
+static void the_order_of_squares_does_not_matter(void **state)
+{
+    (void)state;
+    for (dem_index k = 0; k < most; k++) {
+        out[k] = in[0][most - 1 - k];
+        other[k] = in[1][most - 1 - k];
+    }
+    for (int t = 0; t < n_tables; t++) {
+        bulk_sum parts[3] = {{0}}, sum = {0};
+        const dem_index ends[] = {0, 1234, 5555, most};
+        if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
+        for (int p = 0; p < 3; p++)
+            tables[t]->square(&parts[p], in[0] + ends[p], in[1] + ends[p], 1.0, ends[p + 1] - ends[p]);
+        for (int p = 2; p >= 0; p--) bulk_add(&sum, &parts[p]);
+        assert_close(bulk_value(&sum), value(&bulk_portable, in[0], in[1], 1.0, most), 0.0);
+        assert_close(bulk_value(&sum), value(tables[t], out, other, 1.0, most), 0.0);
+    }
+}
+
+/* 32^2 is the largest square that may be added; its sums are exact, and so are those of squares down to 2^-60. */
+static void squares_of_all_sizes_are_exact(void **state)
+{
+    const double numbers[] = {32.0, 0x1p-10, 0x1p-30, 3.0 * 0x1p-29};
+    (void)state;
+    for (int q = 0; q < 4; q++)
+        for (dem_index k = 0; k < most; k++) {
+            out[k] = numbers[q];
+            other[k] = 1.0;
+            if (k == most - 1)
+                for (int t = 0; t < n_tables; t++)
+                    if (dem_kernel_check(kinds[t]) == DEM_OK)
+                        assert_close(value(tables[t], out, other, 1.0, most), most * numbers[q] * numbers[q], 0.0);
+        }
+}
+
+static void the_largest_square_is_known_and_what_is_no_number_is_told(void **state)
+{
+    (void)state;
+    for (int t = 0; t < n_tables; t++)
+        for (dem_index at = 0; at < 5000; at += 501) {
+            bulk_sum sum = {0};
+            if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
+            const double kept = in[0][at];
+            in[0][at] = -40.0;
+            tables[t]->square(&sum, in[0], in[2], 1.0, most);
+            assert_close(sum.largest, fmax(1600.0 * in[2][at] * in[2][at], sum.largest), 0.0);
+            in[0][at] = (double)NAN;
+            sum = (bulk_sum){0};
+            tables[t]->square(&sum, in[0], in[2], 1.0, most);
+            assert_true(isnan(sum.largest) != 0);
+            in[0][at] = (double)INFINITY;
+            sum = (bulk_sum){0};
+            tables[t]->square(&sum, in[0], in[2], 1.0, most);
+            assert_false(sum.largest <= BULK_LARGEST);
+            in[0][at] = kept;
+        }
+}
+
+static void verlets_step_is_drift_and_kick(void **state)
+{
+    const double h = 0.3, *const start[3] = {in[0], in[1], in[2]};
+    (void)state;
+    for (int t = 0; t < n_tables; t++)
+        for (int s = 0; s < n_sizes && dem_kernel_check(kinds[t]) == DEM_OK; s++) {
+            tables[t]->drift(out, other, start, h, sizes[s]);
+            for (dem_index k = 0; k < sizes[s]; k++) {
+                assert_close(out[k], in[0][k] + h * (in[1][k] + 0.5 * h * in[2][k]), 0.0);
+                assert_close(other[k], in[1][k] + h * in[2][k], 1e-15);
+            }
+            tables[t]->kick(other, in[2], in[3], h, sizes[s]);
+            for (dem_index k = 0; k < sizes[s]; k++)
+                assert_close(other[k], in[1][k] + 0.5 * h * (in[2][k] + in[3][k]), 1e-15);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(combinations_are_sums_from_the_first_term_on),
+        cmocka_unit_test(squares_add_up),
+        cmocka_unit_test(the_order_of_squares_does_not_matter),
+        cmocka_unit_test(squares_of_all_sizes_are_exact),
+        cmocka_unit_test(the_largest_square_is_known_and_what_is_no_number_is_told),
+        cmocka_unit_test(verlets_step_is_drift_and_kick),
+    };
+    return cmocka_run_group_tests(tests, fill, NULL);
+}

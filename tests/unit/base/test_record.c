@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* record.c and publish.c: entries in memory, and files that are whole or refused. */
+#include "verification/support.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/record.h"
+
+#define FILE_NAME "test_record.checkpoint"
+#define PREVIOUS  FILE_NAME ".prev"
+
+/* An entry of 5 and one of 0 bytes, and the numbers 1 to 1000. */
+static dem_record *make(void)
+{
+    dem_record *record;
+    double numbers[1000];
+    for (int k = 0; k < 1000; k++) numbers[k] = k + 1.0;
+    assert_ok(dem_record_create(&record));
+    assert_ok(dem_record_put(record, "word", "spring", 5));
+    assert_ok(dem_record_put(record, "nothing", NULL, 0));
+    assert_ok(dem_record_put(record, "numbers", numbers, sizeof numbers));
+    return record;
+}
+
+static void check(const dem_record *record)
+{
+    char word[5];
+    double numbers[1000];
+    size_t size;
+    assert_ok(dem_record_get(record, "word", word, 5));
+    assert_memory_equal(word, "sprin", 5);
+    assert_ok(dem_record_get(record, "nothing", NULL, 0));
+    assert_ok(dem_record_get(record, "numbers", numbers, sizeof numbers));
+    for (int k = 0; k < 1000; k++) assert_close(numbers[k], k + 1.0, 0.0);
+    assert_non_null(dem_record_find(record, "nothing", &size));
+    assert_int_equal(size, 0);
+    assert_int_equal((uintptr_t)dem_record_find(record, "numbers", &size) % 8, 0);
+    assert_int_equal(size, sizeof numbers);
+}
+
+/* ---- entries ---- */
+
+static void entries_are_copied_replaced_and_found(void **state)
+{
+    dem_record *record = make(), *other;
+    int number = 3;
+    size_t size = 1;
+    (void)state;
+    check(record);
+    assert_ok(dem_record_put(record, "word", &number, sizeof number));
+    number = 4;
+    assert_ok(dem_record_get(record, "word", &number, sizeof number));
+    assert_int_equal(number, 3);
+    assert_ok(dem_record_put(record, "word", "springs", 5));
+    assert_null(dem_record_find(record, "words", &size));
+    assert_int_equal(size, 0);
+    assert_ok(dem_record_create(&other));
+    assert_ok(record_copy(other, record));
+    dem_record_destroy(record);
+    check(other);
+    dem_record_destroy(other);
+    dem_record_destroy(NULL);
+}
+
+static void refuse(dem_status got, dem_status status, const char *message)
+{
+    assert_int_equal(got, status);
+    assert_string_equal(dem_status_message(), message);
+}
+
+static void what_is_no_entry_is_refused(void **state)
+{
+    dem_record *record = make();
+    int number = 0;
+    (void)state;
+    refuse(dem_record_get(record, "words", &number, 4), DEM_ERROR_IO, "the record has no words");
+    refuse(dem_record_get(record, "word", &number, 4), DEM_ERROR_IO, "the record has 5 bytes of word, 4 are expected");
+    refuse(dem_record_put(record, "", &number, 4), DEM_ERROR_ARGUMENT, "\"\" cannot name an entry: 1 to 31 characters");
+    refuse(dem_record_put(record, "0123456789012345678901234567890_", &number, 4), DEM_ERROR_ARGUMENT,
+           "\"0123456789012345678901234567890_\" cannot name an entry: 1 to 31 characters");
+    refuse(dem_record_put(record, "word", NULL, 4), DEM_ERROR_ARGUMENT, "dem_record_put: an argument is NULL");
+    refuse(dem_record_get(record, "word", NULL, 4), DEM_ERROR_ARGUMENT, "dem_record_get: an argument is NULL");
+    refuse(dem_record_create(NULL), DEM_ERROR_ARGUMENT, "dem_record_create: out is NULL");
+    refuse(dem_record_write(NULL, "x"), DEM_ERROR_ARGUMENT, "dem_record_write: record is NULL");
+    refuse(dem_record_read(&record, NULL), DEM_ERROR_ARGUMENT, "dem_record_read: path is NULL");
+    refuse(dem_publish(NULL, "x"), DEM_ERROR_ARGUMENT, "dem_publish: part is NULL");
+    check(record);
+    dem_record_destroy(record);
+}
+
+/* ---- files ---- */
+
+static long size_of(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 ? (long)about.st_size : -1;
+}
+
+static void a_file_holds_all_and_the_one_before_is_kept(void **state)
+{
+    dem_record *record = make(), *back;
+    (void)state;
+    (void)unlink(FILE_NAME);
+    (void)unlink(PREVIOUS);
+    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_int_equal(size_of(PREVIOUS), -1);
+    assert_ok(dem_record_read(&back, FILE_NAME));
+    check(back);
+    dem_record_destroy(back);
+    assert_int_equal(size_of(FILE_NAME), 64 + 3 * 40 + 8 + 8000);
+    assert_ok(dem_record_put(record, "more", "12345678", 8));
+    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_int_equal(size_of(PREVIOUS), 64 + 3 * 40 + 8 + 8000);
+    assert_int_equal(size_of(FILE_NAME), 64 + 4 * 40 + 16 + 8000);
+    assert_int_equal(size_of(FILE_NAME ".part"), -1);
+    assert_ok(dem_record_read(&back, PREVIOUS));
+    check(back);
+    dem_record_destroy(back);
+    dem_record_destroy(record);
+}
+
+static void put_file(const unsigned char *bytes, size_t size)
+{
+    FILE *file = fopen("test_record.bad", "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void refuse_file(const unsigned char *bytes, size_t size, const char *message)
+{
+    dem_record *record = NULL;
+    put_file(bytes, size);
+    refuse(dem_record_read(&record, "test_record.bad"), DEM_ERROR_IO, message);
+    assert_null(record);
+}
+
+/* Every bit counts, and every byte that lacks or is too many. */
+static void damaged_files_are_refused(void **state)
+{
+    dem_record *record, *back;
+    unsigned char bytes[512];
+    (void)state;
+    assert_ok(dem_record_create(&record));
+    assert_ok(dem_record_put(record, "word", "spring", 6));
+    assert_ok(dem_record_put(record, "number", "12345678", 8));
+    assert_ok(dem_record_write(record, FILE_NAME));
+    const size_t size = (size_t)size_of(FILE_NAME);
+    FILE *file = fopen(FILE_NAME, "rb");
+    assert_non_null(file);
+    assert_int_equal(fread(bytes, 1, sizeof bytes, file), size);
+    (void)fclose(file);
+    for (size_t k = 0; k < 8 * size; k++) {
+        bytes[k / 8] ^= (unsigned char)(1u << k % 8);
+        put_file(bytes, size);
+        assert_int_equal(dem_record_read(&back, "test_record.bad"), DEM_ERROR_IO);
+        bytes[k / 8] ^= (unsigned char)(1u << k % 8);
+    }
+    for (size_t k = 0; k < size; k++) {
+        put_file(bytes, k);
+        assert_int_equal(dem_record_read(&back, "test_record.bad"), DEM_ERROR_IO);
+    }
+    refuse_file(bytes, 10, "test_record.bad: is no checkpoint, or has been cut short");
+    bytes[size] = 0;
+    refuse_file(bytes, size + 1, "test_record.bad: has 161 bytes, 160 were written");
+    bytes[size - 1] ^= 1;
+    refuse_file(bytes, size, "test_record.bad: is damaged");
+    bytes[size - 1] ^= 1;
+    bytes[12] = 2;
+    refuse_file(bytes, size, "test_record.bad: has format 2, this version reads 1");
+    bytes[12] = 1;
+    bytes[8] = 1;
+    bytes[11] = 4;
+    refuse_file(bytes, size, "test_record.bad: was written on a machine of another byte order");
+    bytes[0] = 'D';
+    refuse_file(bytes, size, "test_record.bad: is no checkpoint");
+    dem_record_destroy(record);
+}
+
+static void files_that_are_none_are_refused(void **state)
+{
+    dem_record *record = make(), *back;
+    (void)state;
+    refuse(dem_record_read(&back, "no/file"), DEM_ERROR_IO, "no/file: cannot be opened (No such file or directory)");
+    refuse(dem_record_read(&back, "/tmp"), DEM_ERROR_IO, "/tmp: is not a regular file");
+    refuse(dem_record_write(record, "no/file"), DEM_ERROR_IO,
+           "no/file.part: cannot be opened for writing (No such file or directory)");
+    refuse(dem_record_write(record, "/dev/full/x"), DEM_ERROR_IO,
+           "/dev/full/x.part: cannot be opened for writing (Not a directory)");
+    refuse(dem_publish("no/file", "no/other"), DEM_ERROR_IO,
+           "no/file: cannot be opened to sync it (No such file or directory)");
+    put_file((const unsigned char *)"x", 1);
+    refuse(dem_publish("test_record.bad", "no/file"), DEM_ERROR_IO,
+           "test_record.bad: cannot be renamed to no/file (No such file or directory)");
+    assert_ok(dem_publish("test_record.bad", "test_record.good"));
+    assert_int_equal(size_of("test_record.good"), 1);
+    dem_record_destroy(record);
+}
+
+/* RLIMIT_FSIZE stands in for a full disk; what is short comes to the disk as the file is closed. */
+static void a_disk_that_is_full_leaves_the_file_of_before(void **state)
+{
+    dem_record *record = make(), *little;
+    struct rlimit kept, small;
+    (void)state;
+    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_ok(dem_record_create(&little));
+    assert_ok(dem_record_put(little, "word", "spring", 5));
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
+    small = kept;
+    small.rlim_cur = 10;
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const dem_status status = dem_record_write(little, FILE_NAME);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
+    (void)signal(SIGXFSZ, handler);
+    refuse(status, DEM_ERROR_IO, FILE_NAME ".part: cannot be written (File too large)");
+    dem_record_destroy(little);
+    dem_record_destroy(record);
+    assert_ok(dem_record_read(&record, FILE_NAME));
+    check(record);
+    dem_record_destroy(record);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(entries_are_copied_replaced_and_found),
+        cmocka_unit_test(what_is_no_entry_is_refused),
+        cmocka_unit_test(a_file_holds_all_and_the_one_before_is_kept),
+        cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(files_that_are_none_are_refused),
+        cmocka_unit_test(a_disk_that_is_full_leaves_the_file_of_before),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* status.c, status.h: the message of the last failure, how a failure travels, the version. */
+#include "unit/close.h"
+
+#include <pthread.h>
+#include <string.h>
+
+#include "base/status.h"
+
+static void a_failure_stores_its_text_and_gives_its_status_back(void **state)
+{
+    (void)state;
+    assert_int_equal(status_fail(DEM_ERROR_CONTACT, "node %d at %g m", 7, 0.25), DEM_ERROR_CONTACT);
+    assert_string_equal(dem_status_message(), "node 7 at 0.25 m");
+    assert_int_equal(status_fail(DEM_ERROR_IO, "gone"), DEM_ERROR_IO);
+    assert_string_equal(dem_status_message(), "gone");
+}
+
+static void a_message_too_long_is_cut_and_terminated(void **state)
+{
+    char text[2000];
+    (void)state;
+    memset(text, 'a', sizeof text - 1);
+    text[sizeof text - 1] = '\0';
+    (void)status_fail(DEM_ERROR_MODEL, "%s", text);
+    assert_int_equal(strlen(dem_status_message()), 511);
+    assert_memory_equal(dem_status_message(), text, 511);
+    (void)status_fail(DEM_ERROR_MODEL, "short");
+    assert_string_equal(dem_status_message(), "short");
+}
+
+static void *fail_elsewhere(void *seen)
+{
+    const char **before = seen;
+    *before = strcmp(dem_status_message(), "") == 0 ? "empty" : "not empty";
+    (void)status_fail(DEM_ERROR_MEMORY, "elsewhere");
+    return NULL;
+}
+
+static void each_thread_has_a_message_of_its_own_that_starts_empty(void **state)
+{
+    pthread_t thread;
+    const char *before = NULL;
+    (void)state;
+    (void)status_fail(DEM_ERROR_MODEL, "here");
+    assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, &before), 0);
+    assert_int_equal(pthread_join(thread, NULL), 0);
+    assert_string_equal(before, "empty");
+    assert_string_equal(dem_status_message(), "here");
+}
+
+static dem_status pass_up(dem_status status, int *reached)
+{
+    TRY(status);
+    *reached = 1;
+    return DEM_OK;
+}
+
+static void try_returns_what_is_not_ok_and_goes_on_otherwise(void **state)
+{
+    int reached = 0;
+    (void)state;
+    assert_int_equal(pass_up(DEM_STOPPED, &reached), DEM_STOPPED);
+    assert_int_equal(pass_up(DEM_ERROR_IO, &reached), DEM_ERROR_IO);
+    assert_int_equal(reached, 0);
+    assert_int_equal(pass_up(DEM_OK, &reached), DEM_OK);
+    assert_int_equal(reached, 1);
+}
+
+static dem_status check_positive(double number)
+{
+    CHECK(number > 0.0, DEM_ERROR_ARGUMENT, "must be > 0, got %g", number);
+    return DEM_OK;
+}
+
+static dem_status check_memory(const void *pointer)
+{
+    CHECK_MEMORY(pointer);
+    return DEM_OK;
+}
+
+static void check_fails_with_its_message_unless_the_condition_holds(void **state)
+{
+    (void)state;
+    (void)status_fail(DEM_ERROR_IO, "earlier");
+    assert_int_equal(check_positive(1.0), DEM_OK);
+    assert_string_equal(dem_status_message(), "earlier");
+    assert_int_equal(check_positive(-2.0), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "must be > 0, got -2");
+    assert_int_equal(check_memory(""), DEM_OK);
+    assert_int_equal(check_memory(NULL), DEM_ERROR_MEMORY);
+    assert_string_equal(dem_status_message(), "out of memory");
+}
+
+static void the_version_is_the_one_of_the_build(void **state)
+{
+    (void)state;
+    assert_string_equal(dem_version(), DEM_VERSION);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_failure_stores_its_text_and_gives_its_status_back),
+        cmocka_unit_test(a_message_too_long_is_cut_and_terminated),
+        cmocka_unit_test(each_thread_has_a_message_of_its_own_that_starts_empty),
+        cmocka_unit_test(try_returns_what_is_not_ok_and_goes_on_otherwise),
+        cmocka_unit_test(check_fails_with_its_message_unless_the_condition_holds),
+        cmocka_unit_test(the_version_is_the_one_of_the_build),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* broad_phase.c: who sleeps, until when, and who wakes in time. */
+#include "unit/scene.h"
+
+static const double skin = scene_skin, masses[4] = {2.0, 2.0, 2.0, 2.0}, max_step = 0.01; /* as in scene.h */
+
+static const double floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
+static const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = 0.5};
+
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0};
+static const dem_obstacle roof = {.n_points = 3, .points = roof_points, .restitution = 0.5};
+
+static void open_nodes(scene *s, dem_index n, const double *x)
+{
+    scene_open(s, n, x, masses, 0, NULL, &plane, 1);
+}
+
+/* With the first node, which may touch, at this speed. */
+static void look(scene *s, double speed)
+{
+    double v[8] = {speed};
+    watch_look(&s->c.watch, &s->c.sites, s->y, v);
+    assert_close(s->c.watch.speed, speed, 0.0);
+}
+
+static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
+{
+    const double x[6] = {0.0, 1.0, 1.0, 1.0, 2.0, 1.0};
+    const unsigned char fixed[3] = {0, 0, 1};
+    dem_lattice lattice;
+    scene s;
+    (void)state;
+    support_lattice(&lattice, 3, x, masses, 2, (dem_index[]){0, 1, 1, 2}, 1.0, 1.0, fixed);
+    lattice.flags[0] = 0;
+    scene_start(&s, &lattice, &plane, 1);
+    dem_lattice_free(&lattice);
+    scene_put(&s, 0, 0.0, 1.0, 50.0, 0.0);
+    scene_put(&s, 1, 1.0, 1.0, 3.0, -4.0);
+    assert_close(watch_speed(&s.c.sites, scene_v(&s)), 5.0, 1e-15);
+    scene_close(&s);
+}
+
+/* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty skins, go off what is clear. */
+static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **state)
+{
+    const double far = 0.125 + 20.0 * skin, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
+    scene s;
+    (void)state;
+    open_nodes(&s, 3, x);
+    look(&s, 10.0);
+    assert_int_equal(s.c.watch.n, 1);
+    assert_int_equal(s.c.watch.awake[0], 0);
+    for (dem_index k = 0; k < 3; k++) {
+        assert_int_equal(s.c.sites.list[k].asleep, k > 0);
+        assert_close(s.c.sites.list[k].wake, x[2 * k + 1] - 20.0 * skin, 1e-15);
+    }
+    scene_close(&s);
+}
+
+static void what_is_closed_never_sleeps(void **state)
+{
+    const double x[4] = {0.0, 0.0, 1.0, 3.0};
+    scene s;
+    (void)state;
+    open_nodes(&s, 2, x);
+    assert_ok(scene_take_up(&s));
+    assert_int_equal(s.c.watch.n, 1);
+    assert_int_equal(s.c.watch.awake[0], 0);
+    scene_close(&s);
+}
+
+/* The node falls from 3 m while nothing looks at it until the way that the fastest may have gone is enough. */
+static void a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough(void **state)
+{
+    const double x[4] = {0.0, 3.0, 2.0, 9.0};
+    scene s;
+    (void)state;
+    open_nodes(&s, 2, x);
+    look(&s, 1.0);
+    const contact_site *site = &s.c.sites.list[0];
+    assert_true(site->asleep);
+    s.c.watch.travelled = 2.9;
+    s.y[1] = 0.5;
+    look(&s, 1.0);
+    assert_close(site->wake, 3.0 - 20.0 * skin, 1e-15); /* not looked at */
+    assert_true(watch_wakes(&s.c.watch, site, 0.1));
+    assert_false(watch_wakes(&s.c.watch, site, 0.09));
+    s.c.watch.travelled = 2.99;
+    look(&s, 1.0);
+    assert_true(site->asleep);
+    assert_close(site->wake, 2.99 + 0.5 - 20.0 * skin, 1e-15);
+    s.c.watch.travelled = 3.49;
+    s.y[1] = 0.01;
+    look(&s, 1.0);
+    assert_false(site->asleep);
+    assert_int_equal(s.c.watch.n, 1);
+    scene_close(&s);
+}
+
+/* An accepted step of h counts twice its length times the larger of the speeds at its ends. */
+static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
+{
+    const double x[2] = {0.0, 3.0};
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_nodes(&s, 1, x);
+    scene_put(&s, 0, 0.0, 3.0, 0.0, -1.0);
+    look(&s, 1.0);
+    scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, 0.01, &f);
+    assert_false(contact_check(&s.c, &f.path, false, f.scratch));
+    contact_follow(&s.c, &f.path, f.y1);
+    assert_close(s.c.watch.travelled, 2.0 * 0.01 * 1.1, 1e-16);
+    scene_close(&s);
+}
+
+/* Body far above: its edges sleep as its nodes do, and wake before the ridge can be reached. */
+static void edges_sleep_too(void **state)
+{
+    scene s;
+    (void)state;
+    scene_open_triangle(&s, masses, -1.0, 1.2, &roof, 1);
+    look(&s, 10.0);
+    assert_int_equal(s.c.watch.n, 0);
+    for (dem_index i = 0; i < 3; i++) s.y[2 * i + 1] -= 1.1;
+    s.c.watch.travelled = 1.1;
+    look(&s, 10.0);
+    assert_int_equal(s.c.watch.n, 1);
+    assert_int_equal(s.c.watch.awake[0], scene_edge(&s, 0, 1));
+    scene_close(&s);
+}
+
+/* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the
+ * crossing is found all the same, and the node strikes. */
+static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(void **state)
+{
+    const double x[2] = {0.0, 2e-4};
+    scene s;
+    scene_flight f;
+    double y[4];
+    (void)state;
+    open_nodes(&s, 1, x);
+    assert_ok(scene_take_up(&s));
+    assert_int_equal(s.c.watch.n, 0); /* at rest nothing is in reach */
+    scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, max_step, &f);
+    assert_true(f.y1[1] < 0.0);
+    assert_true(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_close(f.path.end, sqrt(2.0 * (2e-4 + skin) / scene_gravity), 1e-13);
+    path_state(&f.path, f.path.end, y);
+    contact_follow(&s.c, &f.path, y);
+    memcpy(s.y, y, sizeof y);
+    assert_int_equal(s.c.sites.list[0].behind[0], -1);
+    assert_ok(scene_resolve(&s, f.path.end));
+    assert_int_equal(s.n_impacts, 1);
+    scene_close(&s);
+}
+
+/* 1.044 m from the free end at (4, 0), below it, a node is in front; a little less to the left it is inside: it has
+ * come round the end, awake or not. One that may have touched since it was seen to be clear has not. */
+static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void **state)
+{
+    const double x[4] = {4.3, -1.0, -3.0, 3.0}, travelled[4] = {1.04, 1.05, 1.04, 1.04};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const bool comes_round = k == 0 || k == 3;
+        scene s;
+        open_nodes(&s, 2, x);
+        look(&s, 1.0);
+        assert_int_equal(s.c.watch.n, 0);
+        s.y[0] = 3.5;
+        s.y[1] = -0.5;
+        s.c.watch.travelled = travelled[k];
+        if (k == 2) sites_disturb(&s.c.sites.list[0]);
+        if (k == 3) s.c.sites.list[0].asleep = false;
+        look(&s, 1.0);
+        assert_int_equal(s.c.sites.list[0].behind[0], comes_round ? 0 : -1);
+        assert_int_equal(s.c.sites.books.counts.behind, comes_round);
+        if (!comes_round) assert_false(s.c.sites.list[0].asleep);
+        s.y[1] = 0.5;
+        look(&s, 1.0);
+        assert_int_equal(s.c.sites.list[0].behind[0], -1);
+        assert_int_equal(s.c.sites.books.counts.behind, 0);
+        scene_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_fastest_of_the_nodes_that_may_touch_counts),
+        cmocka_unit_test(a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes),
+        cmocka_unit_test(what_is_closed_never_sleeps),
+        cmocka_unit_test(a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough),
+        cmocka_unit_test(a_step_counts_as_twice_what_the_fastest_goes),
+        cmocka_unit_test(edges_sleep_too),
+        cmocka_unit_test(a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it),
+        cmocka_unit_test(a_node_found_inside_has_come_round_a_free_end_and_may_come_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,660 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* candidate.c: gaps and guards of one contact site in each of its states, and what is due. Numbers are worked out by
+ * hand; tolerances of 1e-15 to 1e-13 are rounding. */
+#include "unit/scene.h"
+
+static const double skin = 1e-3;
+
+/* A floor of 4 m and, 3 m above its end, a ceiling; bodies live between them. */
+static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {6.0, 3.0, 3.0, 3.0};
+static const dem_obstacle room[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.5},
+                                     {.n_points = 2, .points = ceiling_points, .restitution = 0.5}};
+static const dem_obstacle rough = {
+    .n_points = 2, .points = floor_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
+
+/* A groove of 90 degrees with its bottom in the origin. */
+static const double groove_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
+static const dem_obstacle groove = {.n_points = 3, .points = groove_points, .restitution = 0.0};
+
+static void set_rule(scene *s)
+{
+    s->c.sites.scene.rule.skin = skin;
+    s->c.sites.scene.rule.max_step = 0.1;
+}
+
+/* One node of 2 kg. */
+static const contact_scene *open_node(scene *s, const dem_obstacle *obstacles, dem_index n)
+{
+    const double x[2] = {1.0, 1.0}, mass = 2.0;
+    scene_open(s, 1, x, &mass, 0, NULL, obstacles, n);
+    set_rule(s);
+    return &s->c.sites.scene;
+}
+
+static contact_site free_site(void)
+{
+    return (contact_site){.node = 0, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+}
+
+static contact_site closed_site(dem_index feature, int sign)
+{
+    contact_site site = free_site();
+    site.n_closed = 1;
+    site.closed[0] = (contact_touch){.feature = feature, .sign = sign};
+    return site;
+}
+
+static contact_site held_site(void)
+{
+    contact_site site = closed_site(0, 1);
+    site.n_closed = 2;
+    site.closed[1] = (contact_touch){.feature = 1, .sign = 1};
+    site.closed[0].held = site.closed[1].held = true;
+    return site;
+}
+
+/* State of one node and the forces in its contacts. */
+typedef struct node_state {
+    double x[2], v[2];
+    reaction force[2];
+} node_state;
+
+static void check_guards(const contact_scene *world, const contact_site *site, const node_state *s,
+                         const double expected[SITE_GUARDS])
+{
+    double guards[SITE_GUARDS] = {77.0, 77.0, 77.0, 77.0};
+    site_guards(world, site, s->force, s->x, s->v, guards);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+}
+
+/* ---- guards of a node ---- */
+
+static void check_free(const contact_scene *world, const contact_site *site, double x, double y, double guard)
+{
+    const node_state s = {{x, y}, {0.0, 0.0}, {{0.0, 0.0}, {0.0, 0.0}}};
+    check_guards(world, site, &s, (double[]){guard, 1.0, 1.0, 1.0});
+}
+
+static void a_free_site_watches_its_gap_down_to_the_skin(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2);
+    const contact_site site = free_site();
+    check_free(world, &site, 1.0, 0.25, 0.25 + skin);
+    check_free(world, &site, 1.0, 0.0, skin);
+    check_free(world, &site, 1.0, -skin, 0.0);
+    check_free(world, &site, 1.0, -0.1, -0.1 + skin);
+    check_free(world, &site, 5.0, 2.5, 0.5 + skin); /* the ceiling is nearer */
+    scene_close(&s);
+}
+
+static void far_from_everything_its_guard_is_finite(void **state)
+{
+    scene s, empty;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
+    const contact_site site = free_site();
+    check_free(world, &site, -50.0, 1.0, 1.0 + skin);
+    check_free(nothing, &site, 0.0, 0.0, 1.0 + skin);
+    scene_close(&s);
+    scene_close(&empty);
+}
+
+static void a_site_behind_an_obstacle_does_not_see_it(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2);
+    contact_site site = free_site();
+    site.behind[0] = 0;
+    check_free(world, &site, 3.5, -0.2, 1.0 + skin);
+    check_free(world, &site, 3.5, 2.5, 0.5 + skin);
+    site = closed_site(1, 1);
+    site.behind[0] = 0;
+    const node_state at = {{3.5, 3.0}, {0.0, 0.0}, {{-20.0, 0.0}, {0.0, 0.0}}};
+    check_guards(world, &site, &at, (double[]){1.0 + skin, -20.0, 0.5 + skin, 1.0});
+    scene_close(&s);
+}
+
+/* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + skin; 3 m to the ceiling count as 1. Without
+ * friction the speed of sliding does not matter. */
+static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2);
+    const contact_site on_floor = closed_site(0, 1), on_ceiling = closed_site(1, 1);
+    const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
+    const double expected[5][SITE_GUARDS] = {{1.0 + skin, 20.0, 1.5 + skin, 1.0},
+                                             {1.0 + skin, 20.0, 0.25 + skin, 1.0},
+                                             {1.0 + skin, 20.0, -0.5 + skin, 1.0},
+                                             {0.25 + skin, 20.0, 0.5 + skin, 1.0},
+                                             {1.0 + skin, 20.0, 1.0 + skin, 1.0}};
+    for (int k = 0; k < 5; k++) {
+        const node_state at = {{x[k], y[k]}, {-3.0, 0.0}, {{20.0, 0.0}, {-7.0, -7.0}}};
+        check_guards(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
+    }
+    scene_close(&s);
+}
+
+/* The tangent of the floor is (1, 0). */
+static void a_site_that_slides_with_friction_watches_its_speed_too(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site along = closed_site(0, 1), against = closed_site(0, -1);
+    const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
+    const node_state backwards = {{3.0, 0.0}, {-0.5, 0.0}, {{20.0, 10.0}, {0.0, 0.0}}};
+    check_guards(world, &along, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, 0.75});
+    check_guards(world, &along, &backwards, (double[]){1.0 + skin, 20.0, 1.0 + skin, -0.5});
+    check_guards(world, &against, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, -0.75});
+    check_guards(world, &against, &backwards, (double[]){1.0 + skin, 20.0, 1.0 + skin, 0.5});
+    scene_close(&s);
+}
+
+/* mu = 1/2: 20 N allow 10 N, either way. The end of the floor is of no matter to it. */
+static void a_sticking_site_watches_its_grip(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site site = closed_site(0, 0);
+    const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
+    for (int k = 0; k < 4; k++) {
+        const node_state at = {{4.5, 0.0}, {0.0, 0.0}, {{20.0, tangent[k]}, {-7.0, -7.0}}};
+        check_guards(world, &site, &at, (double[]){1.0 + skin, 20.0, grip[k], 1.0});
+    }
+    scene_close(&s);
+}
+
+static void a_held_site_watches_both_reactions(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &groove, 1);
+    const contact_site site = held_site();
+    const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
+    const node_state second = {{0.0, 0.0}, {0.0, 0.0}, {{14.0, 0.0}, {-2.0, 0.0}}};
+    check_guards(world, &site, &first, (double[]){1.0 + skin, 3.0, 1.0, 1.0});
+    check_guards(world, &site, &second, (double[]){1.0 + skin, -2.0, 1.0, 1.0});
+    scene_close(&s);
+}
+
+static double grip(const contact_scene *world, const contact_site *site)
+{
+    const reaction force = {20.0, -4.0};
+    const double x[2] = {1.0, 0.0}, v[2] = {0.0, 0.0};
+    const touch_frame f = touch_frame_at(world, site, 0, x, v);
+    return site_grip(world, site, 0, &f, &force, x);
+}
+
+static void only_what_sticks_by_friction_has_a_grip(void **state)
+{
+    scene s, t;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1), *corner = open_node(&t, &groove, 1);
+    const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1), held = held_site();
+    assert_close(grip(world, &sticks), 6.0, 1e-14);
+    assert_true(isinf(grip(world, &slides)) != 0);
+    assert_true(isinf(grip(corner, &held)) != 0);
+    scene_close(&s);
+    scene_close(&t);
+}
+
+static bool turns(const contact_scene *world, int sign, double speed)
+{
+    const contact_site site = closed_site(0, sign);
+    const double x[2] = {1.0, 0.0}, v[2] = {speed, 0.0};
+    const touch_frame f = touch_frame_at(world, &site, 0, x, v);
+    return site_turns(world, &site, 0, &f, v);
+}
+
+static void what_slides_with_friction_turns_when_it_goes_the_other_way(void **state)
+{
+    scene s, smooth;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1), *without = open_node(&smooth, room, 1);
+    assert_false(turns(world, 1, 1e-6));
+    assert_false(turns(world, 1, 0.0));
+    assert_true(turns(world, 1, -1e-6));
+    assert_false(turns(world, -1, -1e-6));
+    assert_true(turns(world, -1, 1e-6));
+    assert_false(turns(world, 0, 1e-6));
+    assert_false(turns(without, 1, -1.0));
+    scene_close(&s);
+    scene_close(&smooth);
+}
+
+/* ---- ends and what is due ---- */
+
+static int end_passed(const contact_scene *world, double x, double vx)
+{
+    const contact_site site = closed_site(0, 1);
+    const double at[2] = {x, 0.0}, v[2] = {vx, 0.0};
+    return site_end_passed(world, &site, 0, at, v);
+}
+
+static void an_end_is_passed_by_the_skin_heading_out(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2);
+    assert_int_equal(end_passed(world, 2.0, 5.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 0.99 * skin, 1.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 1.0), 1);
+    assert_int_equal(end_passed(world, 4.1, 1.0), 1);
+    assert_int_equal(end_passed(world, 4.1, -1.0), 0);
+    assert_int_equal(end_passed(world, -1.01 * skin, -1.0), -1);
+    assert_int_equal(end_passed(world, -0.1, -1.0), -1);
+    assert_int_equal(end_passed(world, -0.1, 1.0), 0);
+    scene_close(&s);
+}
+
+static void at_rest_the_force_tells_where_it_heads(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2);
+    double *gravity = s.c.sites.scene.rule.load.gravity;
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
+    gravity[0] = 1.0;
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 1);
+    assert_int_equal(end_passed(world, -1.01 * skin, 0.0), 0);
+    gravity[0] = -1.0;
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
+    assert_int_equal(end_passed(world, -1.01 * skin, 0.0), -1);
+    scene_close(&s);
+}
+
+static void what_sticks_passes_no_end(void **state)
+{
+    scene s;
+    const double at[2] = {4.5, 0.0}, v[2] = {1.0, 0.0};
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1);
+    assert_int_equal(site_end_passed(world, &sticks, 0, at, v), 0);
+    assert_int_equal(site_end_passed(world, &slides, 0, at, v), 1);
+    scene_close(&s);
+}
+
+static bool due(const contact_scene *world, const contact_site *site, const node_state *s)
+{
+    return site_due(world, site, s->force, s->x, s->v);
+}
+
+static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, room, 2);
+    const contact_site site = closed_site(0, 1);
+    node_state at = {{2.0, 0.0}, {1.0, 0.0}, {{20.0, 0.0}, {0.0, 0.0}}};
+    assert_false(due(world, &site, &at));
+    at.force[0].normal = 0.0;
+    assert_true(due(world, &site, &at));
+    at.force[0].normal = 1e-9;
+    assert_false(due(world, &site, &at));
+    at.x[0] = 4.0 + 1.01 * skin;
+    assert_true(due(world, &site, &at));
+    at.v[0] = -1.0;
+    assert_false(due(world, &site, &at));
+    at.x[0] = 3.5;
+    at.x[1] = 3.0 + 1.01 * skin;
+    assert_true(due(world, &site, &at));
+    at.x[1] = 3.0 + 0.99 * skin;
+    assert_false(due(world, &site, &at));
+    scene_close(&s);
+}
+
+static void with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &rough, 1);
+    const contact_site slides = closed_site(0, 1), sticks = closed_site(0, 0);
+    node_state at = {{2.0, 0.0}, {1e-3, 0.0}, {{20.0, -10.0}, {0.0, 0.0}}};
+    assert_false(due(world, &slides, &at));
+    at.v[0] = -1e-3;
+    assert_true(due(world, &slides, &at));
+    at.v[0] = 0.0;
+    at.force[0].tangent = -9.99;
+    assert_false(due(world, &sticks, &at));
+    at.force[0].tangent = -10.01;
+    assert_true(due(world, &sticks, &at));
+    at.force[0].tangent = 10.01;
+    assert_true(due(world, &sticks, &at));
+    scene_close(&s);
+}
+
+static void a_held_site_is_due_when_either_reaction_ceases(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_scene *world = open_node(&s, &groove, 1);
+    const contact_site site = held_site();
+    node_state at = {{0.0, 0.0}, {0.0, 0.0}, {{1.0, 0.0}, {1.0, 0.0}}};
+    assert_false(due(world, &site, &at));
+    at.force[0].normal = -0.01;
+    assert_true(due(world, &site, &at));
+    at.force[0].normal = 1.0;
+    at.force[1].normal = -0.01;
+    assert_true(due(world, &site, &at));
+    scene_close(&s);
+}
+
+/* ---- edges ---- */
+
+/* A roof with its ridge in the origin, and one beside it with its ridge at (0.75, -0.25); the former with friction. */
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
+                    beside_points[6] = {0.5, -0.5, 0.75, -0.25, 4.0, -3.5};
+static const dem_obstacle roof = {.n_points = 3, .points = roof_points},
+                          rough_roof = {.n_points = 3,
+                                        .points = roof_points,
+                                        .friction = 0.5,
+                                        .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle roofs[2] = {{.n_points = 3, .points = roof_points}, {.n_points = 3, .points = beside_points}};
+
+static const double masses[3] = {2.0, 2.0, 2.0};
+
+/* The lower edge, from node 0 at (x, y) 2 m along. */
+static contact_site *open_edge(scene *s, double x, double y, const dem_obstacle *obstacles, dem_index n)
+{
+    scene_open_triangle(s, masses, x, y, obstacles, n);
+    set_rule(s);
+    return &s->c.sites.list[scene_edge(s, 0, 1)];
+}
+
+static void check_edge(scene *s, const contact_site *edge, const double expected[SITE_GUARDS])
+{
+    const reaction force[2] = {{20.0, -4.0}, {8.0, 6.0}};
+    double guards[SITE_GUARDS];
+    site_guards(&s->c.sites.scene, edge, force, s->y, scene_v(s), guards);
+    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+}
+
+static void move_all(scene *s, double x, double y, double u)
+{
+    scene_put(s, 0, x, y, u, 0.0);
+    scene_put(s, 1, x + 2.0, y, u, 0.0);
+    scene_put(s, 2, x + 1.0, y + 1.0, u, 0.0);
+}
+
+/* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the skin beyond
+ * its ends. */
+static void a_free_edge_watches_the_convex_vertex_below_it(void **state)
+{
+    const double x[10] = {-1.5, -1.5, -1.5, -1.5, 0.99 * skin, 1.01 * skin, -2.0 - 0.99 * skin, -2.0 - 1.01 * skin,
+                          -1.0, -1.0};
+    const double y[10] = {0.25, 0.0, -skin, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51, -0.49};
+    const double gap[10] = {0.25, 0.0, -skin, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    for (int k = 0; k < 10; k++) {
+        move_all(&s, x[k], y[k], 0.0);
+        vec2_put(s.y, 2, (vec2){x[k] + 1.0, 10.0}); /* deep inside, the other edges are further */
+        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+    }
+    scene_close(&s);
+}
+
+/* From (-1.5, 0.5) to (0.1, 1.7), 2 m long at a slope of 3 to 4: the ridge is 0.8 * 1.625 m away and out of reach; once
+ * the edge is 1.125 m lower it is 0.8 * 0.5 m. */
+static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
+    scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
+    const contact_spot spot = site_spot(edge, s.y);
+    const contact_gap gap = site_gap(&s.c.sites.scene, edge, &spot);
+    assert_close(gap.distance, 0.8 * (-0.625 + 0.75 * 1.5), 1e-15);
+    assert_close(gap.place, (0.8 * 1.5 + 0.6 * 0.625) / 2.0, 1e-15);
+    assert_close(gap.normal.x, -0.6, 1e-15);
+    assert_close(gap.normal.y, 0.8, 1e-15);
+    assert_int_equal(gap.feature, 0);
+    assert_int_equal(touch_segment(&s.c.sites.scene, edge, gap.feature), 0);
+    scene_close(&s);
+}
+
+/* On the ridge of the first roof 0.5 m from its end; the second one's is 0.25 m below it. */
+static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
+{
+    scene s, rubbed;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.0, roofs, 2);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    move_all(&s, -1.5, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, 1.0}); /* the second ridge is beyond its end */
+    move_all(&s, -0.25, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, 0.25 + skin, 1.0});
+    move_all(&s, 0.125, 0.0, 0.75);
+    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, -0.125 + skin, 1.0});
+    scene_close(&s);
+    edge = open_edge(&rubbed, -1.5, 0.0, &rough_roof, 1);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = -1};
+    move_all(&rubbed, -1.5, 0.0, 0.75);
+    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, -0.75});
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 0, .place = 0.75};
+    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 6.0, 1.0}); /* 0.5 * 20 - 4 */
+    scene_close(&rubbed);
+}
+
+static void an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap(void **state)
+{
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
+    edge->n_closed = 2;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    edge->closed[1] = (contact_touch){.feature = 1, .sign = 1};
+    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.25 + skin, 1.0});
+    move_all(&s, -1.15, 0.0, 0.0); /* the second is 0.1 m from the end, the first 0.85 m */
+    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.1 + skin, 1.0});
+    scene_close(&s);
+}
+
+/* A body that goes right takes its start to the vertex. */
+static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **state)
+{
+    const double x[6] = {1.01 * skin, 1.01 * skin, 0.99 * skin, -2.0 - 1.01 * skin, -2.0 - 1.01 * skin, -1.0};
+    const double u[6] = {1.0, -1.0, 1.0, -1.0, 1.0, 1.0};
+    const int passed[6] = {-1, 0, 0, 1, 0, 0};
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    edge->n_closed = 1;
+    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    for (int k = 0; k < 6; k++) {
+        move_all(&s, x[k], 0.0, u[k]);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), passed[k]);
+    }
+    s.c.sites.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
+    for (int k = 0; k < 2; k++) {
+        move_all(&s, k == 0 ? 1.01 * skin : -2.0 - 1.01 * skin, 0.0, 0.0);
+        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
+    }
+    scene_close(&s);
+}
+
+/* The body's edge from node 1 at (2, 0) to node 2 at (1, 1) falls away by 45 degrees: what is 0.03 m above the lower
+ * edge's line is outside where x + y > 2, and inside the body where it is less. */
+static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **state)
+{
+    const double x[4] = {-1.99, -1.9, -0.01, -0.1}, gap[4] = {1.0, -0.03, 1.0, -0.03};
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    assert_int_equal(edge->next, 2);
+    assert_int_equal(edge->previous, 2);
+    for (int k = 0; k < 4; k++) {
+        move_all(&s, x[k], -0.03, 0.0);
+        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+    }
+    scene_close(&s);
+}
+
+static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(void **state)
+{
+    scene s;
+    (void)state;
+    contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    check_edge(&s, edge, (double[]){0.25 + skin, 1.0, 1.0, 1.0});
+    for (int k = 0; k < 2; k++) {
+        edge->behind[k] = 0;
+        check_edge(&s, edge, (double[]){1.0 + skin, 1.0, 1.0, 1.0});
+        edge->behind[k] = -1;
+    }
+    scene_close(&s);
+}
+
+/* ---- what is clear ---- */
+
+static double uniform(unsigned *seed, double low, double high)
+{
+    *seed = *seed * 1664525u + 1013904223u; /* Numerical Recipes' generator */
+    return low + (high - low) * (*seed >> 8) / 16777216.0;
+}
+
+/* A ragged line of 24 points, 0.3 m apart, with ridges of up to 0.3 m; and a plate that hangs above it. */
+static void open_ragged(scene *s, unsigned *seed, bool triangle)
+{
+    double points[48], plate[6] = {3.0, 1.5, 1.5, uniform(seed, 0.9, 1.5), 0.0, 1.5};
+    for (int k = 0; k < 24; k++) {
+        points[2 * k] = 0.3 * k - 3.0;
+        points[2 * k + 1] = uniform(seed, -0.15, 0.15);
+    }
+    const dem_obstacle ragged[2] = {{.n_points = 24, .points = points}, {.n_points = 3, .points = plate}};
+    if (triangle)
+        scene_open_triangle(s, masses, 0.0, 1.0, ragged, 2);
+    else
+        scene_open(s, 1, (double[]){0.0, 1.0}, masses, 0, NULL, ragged, 2);
+    set_rule(s);
+}
+
+/* The clearance less the way gone is never more than what is there, but for the margin of ten skins by which free ends
+ * count as longer; and it is of use: most of what is looked at is told by it. */
+static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
+{
+    unsigned seed = 7;
+    int inside = 0;
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        scene s;
+        dem_index nearest;
+        open_ragged(&s, &seed, false);
+        const contact_scene *world = &s.c.sites.scene;
+        const contact_site site = free_site();
+        const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
+        const contact_spot here = site_spot(&site, x);
+        const double clear = site_clearance(world, &site, &here, &nearest) - 10.0 * skin;
+        assert_int_equal(nearest, obstacles_gap(&world->model->obstacles, here.a, 10.0 * skin, -1, -1).segment);
+        for (int q = 0; q < 50; q++) {
+            const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
+            const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
+            const contact_spot there = {to, to, to, to};
+            assert_true(site_gap(world, &site, &there).distance >= clear - way - 1e-15 || clear < way);
+            inside += way < clear;
+        }
+        scene_close(&s);
+    }
+    assert_true(inside > 2000);
+}
+
+/* The same of an edge that turns and stretches: its ends go different ways. The ridges are steeper than it gets. */
+static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
+{
+    unsigned seed = 11;
+    int inside = 0;
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        scene s;
+        dem_index nearest;
+        open_ragged(&s, &seed, true);
+        const contact_scene *world = &s.c.sites.scene;
+        const contact_site edge = s.c.sites.list[scene_edge(&s, 0, 1)];
+        const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
+        const double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
+        const contact_spot here = site_spot(&edge, at);
+        const double clear = site_clearance(world, &edge, &here, &nearest);
+        for (int q = 0; q < 50; q++) {
+            double to[6], way = 0.0;
+            for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
+            for (int i = 0; i < 2; i++) way = fmax(way, vec2_norm(vec2_sub(vec2_at(to, i), vec2_at(at, i))));
+            const contact_spot there = site_spot(&edge, to);
+            assert_true(site_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
+            inside += way < clear;
+        }
+        scene_close(&s);
+    }
+    assert_true(inside > 2000);
+}
+
+/* Half the edge's length, 1 m, is as far as is looked; beyond that the distance of its node less its length counts. */
+static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(void **state)
+{
+    const double y[4] = {0.25, 0.9, 1.1, 5.0}, clear[4] = {0.25, 0.9, 1.0, sqrt(27.25) - 2.0};
+    scene s;
+    dem_index nearest;
+    (void)state;
+    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    for (int k = 0; k < 4; k++) {
+        move_all(&s, -1.5, y[k], 0.0);
+        const contact_spot spot = site_spot(edge, s.y);
+        assert_close(site_clearance(&s.c.sites.scene, edge, &spot, &nearest), clear[k], 1e-14);
+    }
+    scene_close(&s);
+}
+
+/* The ridge is 0.3 m beyond the end of the edge, and 0.4 m below it. */
+static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
+{
+    scene s;
+    (void)state;
+    const contact_site *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
+    const contact_spot spot = site_spot(edge, s.y);
+    assert_int_equal(site_gap(&s.c.sites.scene, edge, &spot).feature, -1);
+    assert_true(site_around(&s.c.sites.scene, edge, &spot, 0.5).feature >= 0);
+    assert_false(site_around(&s.c.sites.scene, edge, &spot, 0.29).feature >= 0);
+    assert_false(site_around(&s.c.sites.scene, edge, &spot, 0.39).feature >= 0);
+    scene_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_free_site_watches_its_gap_down_to_the_skin),
+        cmocka_unit_test(far_from_everything_its_guard_is_finite),
+        cmocka_unit_test(a_site_behind_an_obstacle_does_not_see_it),
+        cmocka_unit_test(a_sliding_site_watches_reaction_end_and_other_obstacles),
+        cmocka_unit_test(a_site_that_slides_with_friction_watches_its_speed_too),
+        cmocka_unit_test(a_sticking_site_watches_its_grip),
+        cmocka_unit_test(a_held_site_watches_both_reactions),
+        cmocka_unit_test(only_what_sticks_by_friction_has_a_grip),
+        cmocka_unit_test(what_slides_with_friction_turns_when_it_goes_the_other_way),
+        cmocka_unit_test(an_end_is_passed_by_the_skin_heading_out),
+        cmocka_unit_test(at_rest_the_force_tells_where_it_heads),
+        cmocka_unit_test(what_sticks_passes_no_end),
+        cmocka_unit_test(a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle),
+        cmocka_unit_test(with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip),
+        cmocka_unit_test(a_held_site_is_due_when_either_reaction_ceases),
+        cmocka_unit_test(a_free_edge_watches_the_convex_vertex_below_it),
+        cmocka_unit_test(the_gap_of_a_sloping_edge_is_along_its_normal),
+        cmocka_unit_test(a_closed_edge_watches_force_end_and_other_vertices),
+        cmocka_unit_test(an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap),
+        cmocka_unit_test(a_vertex_passes_an_edges_end_against_the_motion_of_the_body),
+        cmocka_unit_test(a_vertex_round_a_convex_corner_of_the_body_is_not_inside),
+        cmocka_unit_test(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices),
+        cmocka_unit_test(nothing_is_nearer_to_a_node_than_its_clearance),
+        cmocka_unit_test(no_vertex_is_nearer_to_an_edge_than_its_clearance),
+        cmocka_unit_test(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it),
+        cmocka_unit_test(a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* contact_point.c: frames of closed contacts, by hand and against differences of the distance in prescribed motions. */
+#include "unit/bench.h"
+
+#include <gsl/gsl_rng.h>
+
+static void check_vector(vec2 actual, double x, double y, double tolerance)
+{
+    assert_close(actual.x, x, tolerance);
+    assert_close(actual.y, y, tolerance);
+}
+
+/* ---- by hand ---- */
+
+/* A node of 4 kg 0.5 m in front of a segment of slope 3/4 that starts at (1, 2). */
+static void the_frame_of_a_node_is_that_of_its_segment(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    bench_mass(&b, 1, 4.0);
+    bench_touch(&b, 1, 0, 0.0, 1);
+    b.segments[2] = (segment){.start = {1.0, 2.0}, .normal = {-0.6, 0.8}, .tangent = {0.8, 0.6}, .length = 5.0};
+    vec2_put(b.x, 1, (vec2){1.0 + 1.6 - 0.3, 2.0 + 1.2 + 0.4}); /* 2 along, 0.5 up */
+    vec2_put(b.v, 1, (vec2){3.0, -7.0});
+    const touch_frame f = touch_frame_at(&b.scene, &b.sites[1], 0, b.x, b.v);
+    assert_int_equal(f.n, 1);
+    assert_int_equal(f.node[0], 1);
+    assert_close(f.weight[0], 1.0, 0.0);
+    check_vector(f.normal, -0.6, 0.8, 0.0);
+    check_vector(f.tangent, 0.8, 0.6, 0.0);
+    check_vector(f.velocity, 3.0, -7.0, 0.0);
+    assert_close(f.gap, 0.5, 1e-15); /* rounding of positions of order 1 */
+    assert_close(f.place, 2.0, 1e-15);
+    assert_close(touch_noise(&f, b.v), 0.0, 0.0);
+    assert_close(f.turning, 0.0, 0.0);
+    assert_close(f.keep[0], 0.0, 0.0);
+    assert_close(f.keep[1], 0.0, 0.0);
+    assert_close(f.mobility, 0.25, 0.0);
+}
+
+/* An edge from (1, 1) to (1, 5): the body on its left, at smaller x; the vertex 1 m along, 0.25 m inside. The point at
+ * a quarter has 3/4 of the first node's velocity; turning 2 rad/s clockwise, sliding 1.5 m/s along. */
+static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    bench_mass(&b, 0, 3.0);
+    bench_mass(&b, 1, 0.5);
+    vec2_put(b.x, 0, (vec2){1.0, 1.0});
+    vec2_put(b.x, 1, (vec2){1.0, 5.0});
+    vec2_put(b.v, 0, (vec2){0.0, 1.0});
+    vec2_put(b.v, 1, (vec2){8.0, 3.0});
+    const dem_index edge = bench_edge(&b, 0, 1);
+    const dem_index feature = bench_touch(&b, edge, 0, 0.0, -1)->feature;
+    b.vertices[feature].at = (vec2){0.75, 2.0};
+    const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    assert_int_equal(f.n, 2);
+    assert_int_equal(f.node[0], 0);
+    assert_int_equal(f.node[1], 1);
+    /* halves and quarters: exact */
+    assert_close(f.weight[0], 0.75, 0.0);
+    assert_close(f.weight[1], 0.25, 0.0);
+    check_vector(f.normal, -1.0, 0.0, 0.0);
+    check_vector(f.tangent, 0.0, 1.0, 0.0);
+    check_vector(f.velocity, 2.0, 1.5, 0.0);
+    assert_close(f.gap, -0.25, 0.0);
+    assert_close(f.place, 0.25, 0.0);
+    assert_close(f.turning, 2.0 * -2.0 * 1.5, 0.0);
+    assert_close(f.keep[0], f.turning, 1e-90); /* what draws back is of the order of 1/max_step = 1e-100 */
+    assert_close(f.mobility, 0.5625 / 3.0 + 0.0625 / 0.5, 1e-15); /* rounding */
+}
+
+static void a_fixed_node_has_no_mobility(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    b.inverse_mass[0] = 0.0;
+    vec2_put(b.x, 1, (vec2){1.0, 0.0});
+    const dem_index edge = bench_edge(&b, 0, 1);
+    bench_touch(&b, edge, 0, 0.5, 1);
+    assert_close(touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v).mobility, 0.25, 0.0);
+}
+
+/* The edge lies on the x axis, the vertex 0.02 m ahead of where it sticks and 0.01 m below; beta = 1/s for steps of
+ * 0.1 s. The point moves (-0.05, 0.3) m/s. */
+static void a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    b.scene.rule.max_step = 0.1;
+    vec2_put(b.x, 1, (vec2){1.0, 0.0});
+    for (int i = 0; i < 2; i++) vec2_put(b.v, i, (vec2){-0.05, 0.3});
+    const dem_index edge = bench_edge(&b, 0, 1);
+    contact_touch *touch = bench_touch(&b, edge, 0, 0.5, 0);
+    b.vertices[touch->feature].at = (vec2){0.52, -0.01};
+    touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    assert_close(f.keep[0], -(2.0 * 0.3 + 0.01), 1e-15); /* rounding of terms of order 1 */
+    assert_close(f.keep[1], -(2.0 * -0.05 - 0.02), 1e-15);
+    touch->sign = 1;
+    f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    assert_close(f.keep[0], -(2.0 * 0.3 + 0.01), 1e-15); /* it does not turn */
+    vec2_put(b.v, 0, (vec2){-0.05, 0.3 - 0.52});         /* by 1 rad/s now, about a point that moves as before */
+    vec2_put(b.v, 1, (vec2){-0.05, 0.3 + 0.48});
+    f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    assert_close(f.turning, -0.1, 1e-15);
+    assert_close(f.keep[0], -0.1 - (2.0 * 0.3 + 0.01), 1e-15);
+}
+
+/* ---- against differences ---- */
+
+/* Both ends move as polynomials of degree 3 in time. */
+typedef struct motion {
+    vec2 a[4], b[4];
+} motion;
+
+static vec2 poly(const vec2 c[4], double t)
+{
+    return vec2_along(vec2_along(vec2_along(c[0], t, c[1]), t * t, c[2]), t * t * t, c[3]);
+}
+
+typedef struct seen {
+    double height, place; /* of the edge above a fixed point, m; of that point along it, a fraction */
+} seen;
+
+static seen look(const motion *m, vec2 at, double t)
+{
+    const vec2 a = poly(m->a, t), ab = vec2_sub(poly(m->b, t), a), to = vec2_sub(at, a);
+    return (seen){vec2_cross(to, ab) / vec2_norm(ab), vec2_dot(to, ab) / vec2_dot(ab, ab)};
+}
+
+/* Central differences of order 6 with h = 0.01 s: truncation h^6 f^(7)/140, about 1e-11 for motions with rates of order
+ * 1/s; rounding 1e-16/h for the first and 1e-16 x 10/h^2 = 1e-11 for the second. */
+static const double step = 0.01, difference_tolerance = 1e-9;
+
+static void differentiate(const motion *m, vec2 at, seen *first, seen *second)
+{
+    static const double odd[4] = {0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
+    static const double even[4] = {-49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0};
+    const seen now = look(m, at, 0.0);
+    *first = (seen){0.0, 0.0};
+    *second = (seen){even[0] * now.height / (step * step), even[0] * now.place / (step * step)};
+    for (int k = 1; k < 4; k++) {
+        const seen after = look(m, at, k * step), before = look(m, at, -k * step);
+        first->height += odd[k] * (after.height - before.height) / step;
+        first->place += odd[k] * (after.place - before.place) / step;
+        second->height += even[k] * (after.height + before.height) / (step * step);
+        second->place += even[k] * (after.place + before.place) / (step * step);
+    }
+}
+
+static double any(gsl_rng *rng)
+{
+    return 2.0 * gsl_rng_uniform(rng) - 1.0;
+}
+
+/* An edge about 2 m long, and a point on it. */
+static void move_anyhow(gsl_rng *rng, motion *m, bench *b, dem_index edge, double place)
+{
+    for (int k = 0; k < 4; k++) {
+        m->a[k] = (vec2){any(rng), any(rng)};
+        m->b[k] = (vec2){any(rng), any(rng)};
+    }
+    m->b[0] = vec2_along(m->a[0], 2.0 / vec2_norm(m->b[0]), m->b[0]);
+    vec2_put(b->x, 0, m->a[0]);
+    vec2_put(b->x, 1, m->b[0]);
+    vec2_put(b->v, 0, m->a[1]);
+    vec2_put(b->v, 1, m->b[1]);
+    b->sites[edge].closed[0].place = place;
+    b->vertices[b->sites[edge].closed[0].feature].at = vec2_along(m->a[0], place, vec2_sub(m->b[0], m->a[0]));
+}
+
+/* g' = v_P.N and s' = -v_P.t/L; with the accelerations of the ends g'' = a_P.N - keep: 0 if a_P.N is what is asked. */
+static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void **state)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    bench b;
+    double largest = 0.0;
+    (void)state;
+    bench_open(&b, 2);
+    const dem_index edge = bench_edge(&b, 0, 1);
+    bench_touch(&b, edge, 0, 0.5, 1);
+    for (int k = 0; k < 2000; k++) {
+        motion m;
+        seen first, second;
+        move_anyhow(rng, &m, &b, edge, gsl_rng_uniform(rng));
+        b.sites[edge].closed[0].sign = k % 2 == 0 ? 1 : -1; /* has no say in it */
+        const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+        const vec2 at = b.vertices[b.sites[edge].closed[0].feature].at;
+        const vec2 a = vec2_along(vec2_scale(2.0 * f.weight[0], m.a[2]), 2.0 * f.weight[1], m.b[2]);
+        differentiate(&m, at, &first, &second);
+        assert_close(f.gap, look(&m, at, 0.0).height, 1e-15); /* rounding of positions of order 1 */
+        assert_close(f.place, look(&m, at, 0.0).place, 1e-15);
+        assert_close(vec2_dot(f.velocity, f.normal), first.height, difference_tolerance);
+        assert_close(-vec2_dot(f.velocity, f.tangent) / 2.0, first.place, difference_tolerance);
+        assert_close(vec2_dot(a, f.normal) - f.keep[0], second.height, difference_tolerance);
+        assert_close(f.turning, f.keep[0], 1e-90); /* 1/max_step */
+        largest = fmax(largest, fabs(f.keep[0]));
+    }
+    assert_true(largest > 1.0); /* turning was in it */
+    gsl_rng_free(rng);
+}
+
+/* A material point that is at rest and is not accelerated stays on the vertex: nothing is asked for, however the edge
+ * turns and stretches about it. */
+static void a_sticking_contact_asks_for_no_acceleration(void **state)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    const dem_index edge = bench_edge(&b, 0, 1);
+    bench_touch(&b, edge, 0, 0.5, 0);
+    for (int k = 0; k < 2000; k++) {
+        const double place = 0.1 + 0.8 * gsl_rng_uniform(rng);
+        motion m;
+        seen first, second;
+        move_anyhow(rng, &m, &b, edge, place);
+        for (int q = 1; q < 4; q++) m.b[q] = vec2_scale(-(1.0 - place) / place, m.a[q]); /* P does not move */
+        vec2_put(b.v, 1, m.b[1]);
+        const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+        differentiate(&m, b.vertices[b.sites[edge].closed[0].feature].at, &first, &second);
+        /* P stays where it is, so there is rounding only */
+        assert_close(first.height, 0.0, difference_tolerance);
+        assert_close(second.height, 0.0, difference_tolerance);
+        assert_close(first.place, 0.0, difference_tolerance);
+        assert_true(vec2_norm(f.velocity) <=
+                    touch_noise(&f, b.v)); /* what rounding leaves of it, and that is little: */
+        assert_true(touch_noise(&f, b.v) > 0.0 && touch_noise(&f, b.v) < 1e-12);
+        assert_close(f.turning, 0.0, 0.0);
+        assert_close(f.keep[0], 0.0, 1e-90); /* 1/max_step */
+        assert_close(f.keep[1], 0.0, 1e-90);
+    }
+    gsl_rng_free(rng);
+}
+
+/* Wherever its nodes are, and however its vertex lies, an edge that sticks touches with the same point of it. */
+static void a_sticking_contact_keeps_its_place(void **state)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    const dem_index edge = bench_edge(&b, 0, 1);
+    bench_touch(&b, edge, 0, 0.5, 0);
+    for (int k = 0; k < 100; k++) {
+        motion m;
+        move_anyhow(rng, &m, &b, edge, 0.375);
+        b.vertices[b.sites[edge].closed[0].feature].at = (vec2){any(rng), any(rng)};
+        const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+        const vec2 at = vec2_add(vec2_scale(0.625, m.a[0]), vec2_scale(0.375, m.b[0]));
+        assert_close(f.place, 0.375, 0.0);
+        assert_close(f.weight[0], 0.625, 0.0);
+        assert_close(f.weight[1], 0.375, 0.0);
+        /* rounding of lengths of order 1 */
+        assert_close(f.gap, vec2_dot(vec2_sub(at, b.vertices[b.sites[edge].closed[0].feature].at), f.normal), 1e-15);
+    }
+    gsl_rng_free(rng);
+}
+
+/* ---- what a contact is on ---- */
+
+static void a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    const dem_index edge = bench_edge(&b, 0, 1);
+    b.segments[3].obstacle = 2;
+    b.segments[5].obstacle = 1;
+    b.vertices[3] = (obstacle_vertex){.before = 5, .after = 0};
+    assert_int_equal(touch_segment(&b.scene, &b.sites[0], 3), 3);
+    assert_int_equal(touch_segment(&b.scene, &b.sites[edge], 3), 5);
+    assert_ptr_equal(touch_obstacle(&b.scene, &b.sites[0], 3), &b.list[2]);
+    assert_ptr_equal(touch_obstacle(&b.scene, &b.sites[edge], 3), &b.list[1]);
+    assert_false(site_is_edge(&b.sites[0]));
+    assert_true(site_is_edge(&b.sites[edge]));
+    assert_close(scene_margin(&b.scene), 1e-5, 1e-20); /* ten skins, rounded */
+    b.scene.rule.n_books = 7;
+    assert_int_equal(scene_velocities(&b.scene), 2 * (2 + 7));
+}
+
+static void only_coulombs_law_has_sustained_friction(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 1);
+    for (dem_index s = 0; s < 3; s++) b.segments[s].obstacle = s;
+    assert_close(touch_friction(&b.scene, &b.sites[0], 0), 0.0, 0.0);
+    assert_close(touch_friction(&b.scene, &b.sites[0], 1), 0.3, 0.0);
+    assert_close(touch_friction(&b.scene, &b.sites[0], 2), 0.0, 0.0); /* (10) */
+}
+
+static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 3);
+    vec2_put(b.x, 1, (vec2){0.25, 0.5});
+    vec2_put(b.x, 2, (vec2){4.25, 0.5});
+    contact_touch *node = bench_touch(&b, 1, 2, 0.5 * M_PI, 1);
+    node->force = 7.0;
+    node->friction = -3.0;
+    b.segments[2].index = 40;
+    dem_contact c = touch_describe(&b.scene, &b.sites[1], 0, b.x);
+    assert_int_equal(c.n_nodes, 1);
+    assert_int_equal(c.nodes[0], 1);
+    assert_int_equal(c.obstacle, 2);
+    assert_int_equal(c.segment, 40);
+    assert_int_equal(c.state, DEM_CONTACT_SLIP);
+    assert_close(c.weights[0], 1.0, 0.0);
+    check_vector((vec2){c.x[0], c.x[1]}, 0.25, 0.5, 0.0);
+    check_vector((vec2){c.normal[0], c.normal[1]}, 0.0, 1.0, 1e-16); /* the cosine of pi/2 */
+    assert_close(c.force, 7.0, 0.0);
+    assert_close(c.friction, -3.0, 0.0);
+    node->sign = 0;
+    assert_int_equal(touch_describe(&b.scene, &b.sites[1], 0, b.x).state, DEM_CONTACT_STICK);
+    node->sign = 1;
+    node->held = true;
+    assert_int_equal(touch_describe(&b.scene, &b.sites[1], 0, b.x).state, DEM_CONTACT_STICK);
+}
+
+static void the_second_contact_of_an_edge_tells_of_its_own_vertex(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 3);
+    vec2_put(b.x, 1, (vec2){0.25, 0.5});
+    vec2_put(b.x, 2, (vec2){4.25, 0.5});
+    const dem_index edge = bench_edge(&b, 1, 2);
+    bench_touch(&b, edge, 0, 0.5, 1);
+    bench_touch(&b, edge, 1, 0.75, -1)->force = 9.0;
+    const dem_contact c = touch_describe(&b.scene, &b.sites[edge], 1, b.x);
+    assert_int_equal(c.n_nodes, 2);
+    assert_int_equal(c.nodes[0], 1);
+    assert_int_equal(c.nodes[1], 2);
+    assert_close(c.weights[0], 0.25, 0.0);
+    assert_close(c.weights[1], 0.75, 0.0);
+    assert_int_equal(c.obstacle, 1);
+    assert_int_equal(c.segment, 2 * edge + 1);
+    assert_int_equal(c.state, DEM_CONTACT_SLIP);
+    check_vector((vec2){c.x[0], c.x[1]}, 3.25, 0.5, 0.0);
+    check_vector((vec2){c.normal[0], c.normal[1]}, 0.0, 1.0, 0.0);
+    assert_close(c.force, 9.0, 0.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_frame_of_a_node_is_that_of_its_segment),
+        cmocka_unit_test(the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body),
+        cmocka_unit_test(a_fixed_node_has_no_mobility),
+        cmocka_unit_test(a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps),
+        cmocka_unit_test(a_sliding_contact_stays_closed_under_the_acceleration_asked_for),
+        cmocka_unit_test(a_sticking_contact_asks_for_no_acceleration),
+        cmocka_unit_test(a_sticking_contact_keeps_its_place),
+        cmocka_unit_test(a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there),
+        cmocka_unit_test(only_coulombs_law_has_sustained_friction),
+        cmocka_unit_test(a_contact_tells_where_it_is_and_what_it_carries),
+        cmocka_unit_test(the_second_contact_of_an_edge_tells_of_its_own_vertex),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* contact_set.c: the list of sites, contacts that open and close, groups and corners, and what is noted of them.
+ * Numbers are worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
+#include "unit/scene.h"
+
+static const double g = scene_gravity, masses[6] = {1.0, 3.0, 2.0, 1.0, 3.0, 2.0};
+
+static const double floor_points[4] = {-8.0, 0.0, 8.0, 0.0};
+static const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = 0.5};
+
+/* A roof with its ridge in the origin, and one with its ridge at (1, 0). */
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
+                    beside_points[6] = {0.5, -0.5, 1.0, 0.0, 4.0, -3.0};
+static const dem_obstacle roofs[2] = {
+    {.n_points = 3, .points = roof_points},
+    {.n_points = 3, .points = beside_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB}};
+
+/* A groove of 90 degrees with its bottom in the origin. */
+static const double groove_points[6] = {-4.0, 4.0, 0.0, 0.0, 4.0, 4.0};
+static const dem_obstacle groove = {.n_points = 3, .points = groove_points},
+                          rough_groove = {.n_points = 3,
+                                          .points = groove_points,
+                                          .friction = 0.5,
+                                          .friction_law = DEM_FRICTION_COULOMB};
+
+/* A square of two triangles: nodes 0 (0, 0), 1 (1, 0), 2 (1, 1), 3 (0, 1). */
+static void open_square(scene *s, const dem_obstacle *obstacles, dem_index n)
+{
+    const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0};
+    const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
+    scene_open(s, 4, x, masses, 2, corners, obstacles, n);
+}
+
+static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
+{
+    assert_ok(sites_close(&s->c.sites, k, (contact_touch){.feature = feature, .sign = sign}));
+}
+
+/* ---- the list ---- */
+
+static void nodes_come_first_and_then_edges_that_know_their_neighbours(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const contact_sites *c = &s.c.sites;
+    assert_int_equal(c->n, 8);
+    for (dem_index k = 0; k < 4; k++) {
+        assert_int_equal(c->list[k].node, k);
+        assert_false(site_is_edge(&c->list[k]));
+        assert_int_equal(c->of_node[k], k);
+        const contact_site *edge = &c->list[scene_edge(&s, k, (k + 1) % 4)];
+        assert_int_equal(edge->previous, (k + 3) % 4);
+        assert_int_equal(edge->next, (k + 2) % 4);
+    }
+    for (dem_index k = 0; k < 8; k++) {
+        assert_int_equal(c->list[k].n_closed, 0);
+        assert_int_equal(c->list[k].behind[0], -1);
+        assert_int_equal(c->list[k].behind[1], -1);
+    }
+    scene_close(&s);
+}
+
+static void edges_are_sites_only_where_there_are_vertices_and_if_asked_for(void **state)
+{
+    scene flat, s;
+    contact without;
+    (void)state;
+    open_square(&flat, &plane, 1);
+    open_square(&s, roofs, 2);
+    assert_int_equal(flat.c.sites.n, 4);
+    contact_rule rule = s.c.sites.scene.rule;
+    rule.vertices = false;
+    assert_ok(contact_create(&without, s.model, &rule));
+    assert_int_equal(without.sites.n, 4);
+    contact_destroy(&without);
+    scene_close(&flat);
+    scene_close(&s);
+}
+
+static void a_node_that_may_not_touch_has_no_site(void **state)
+{
+    const double x[4] = {0.0, 1.0, 1.0, 1.0};
+    const unsigned char fixed[2] = {1, 0};
+    dem_lattice lattice;
+    scene s;
+    (void)state;
+    support_lattice(&lattice, 2, x, masses, 1, (dem_index[]){0, 1}, 1.0, 1.0, fixed);
+    scene_start(&s, &lattice, &plane, 1);
+    dem_lattice_free(&lattice);
+    assert_int_equal(s.c.sites.n, 1);
+    assert_int_equal(s.c.sites.of_node[0], -1);
+    assert_int_equal(s.c.sites.of_node[1], 0);
+    scene_close(&s);
+}
+
+/* ---- opening and closing ---- */
+
+static void closing_appends_and_opening_keeps_the_other(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const dem_index k = scene_edge(&s, 0, 1);
+    contact_site *edge = &s.c.sites.list[k];
+    edge->asleep = true;
+    close_contact(&s, k, 0, 1);
+    assert_false(edge->asleep);
+    close_contact(&s, k, 1, -1);
+    assert_int_equal(edge->n_closed, 2);
+    assert_int_equal(s.c.sites.reactions.n_groups, 1);
+    assert_ok(sites_open(&s.c.sites, k, 0));
+    assert_int_equal(edge->n_closed, 1);
+    assert_int_equal(edge->closed[0].feature, 1);
+    assert_int_equal(edge->closed[0].sign, -1);
+    assert_ok(sites_open(&s.c.sites, k, 0));
+    assert_int_equal(edge->n_closed, 0);
+    assert_int_equal(s.c.sites.reactions.n_groups, 0);
+    close_contact(&s, k, 0, 1);
+    close_contact(&s, k, 1, -1);
+    assert_ok(sites_open(&s.c.sites, k, 1));
+    assert_int_equal(edge->n_closed, 1);
+    assert_int_equal(edge->closed[0].feature, 0);
+    scene_close(&s);
+}
+
+/* Edge 0-1 joins its nodes; edge 2-3 is a group of its own until 1-2 closes as well. */
+static void contacts_that_share_nodes_are_one_group(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const contact_sites *c = &s.c.sites;
+    const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2), high = scene_edge(&s, 2, 3);
+    close_contact(&s, 0, 0, 1);
+    assert_false(sites_coupled(c, 0));
+    assert_true(sites_coupled(c, low)); /* though it is open itself */
+    assert_false(sites_coupled(c, right));
+    close_contact(&s, low, 0, 1);
+    close_contact(&s, high, 1, 1);
+    assert_int_equal(c->reactions.n_groups, 2);
+    assert_int_equal(c->reactions.group[0], c->reactions.group[low]);
+    assert_int_not_equal(c->reactions.group[high], c->reactions.group[low]);
+    assert_true(sites_coupled(c, 0));
+    assert_true(sites_coupled(c, 1)); /* a free node of a closed edge */
+    assert_true(sites_coupled(c, right));
+    assert_false(sites_coupled(c, high));
+    close_contact(&s, right, 1, 1);
+    assert_int_equal(c->reactions.n_groups, 1);
+    assert_int_equal(c->reactions.row[1] - c->reactions.row[0], 4);
+    assert_true(sites_coupled(c, high));
+    scene_close(&s);
+}
+
+/* ---- corners ---- */
+
+static void check_touch(const contact_touch *touch, bool held, int sign)
+{
+    assert_int_equal(touch->held, held);
+    assert_int_equal(touch->sign, sign);
+}
+
+/* One that stays when the other opens is at rest: with friction it sticks, without it slides. */
+static void a_node_on_two_segments_is_held_by_both(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        open_square(&s, k == 0 ? &groove : &rough_groove, 1);
+        contact_site *site = &s.c.sites.list[0];
+        close_contact(&s, 0, 0, k == 0 ? 1 : 0);
+        check_touch(&site->closed[0], false, k == 0 ? 1 : 0);
+        close_contact(&s, 0, 1, -1);
+        check_touch(&site->closed[0], true, 1);
+        check_touch(&site->closed[1], true, 1);
+        assert_ok(sites_open(&s.c.sites, 0, 0));
+        assert_int_equal(site->closed[0].feature, 1);
+        check_touch(&site->closed[0], false, k == 0 ? 1 : 0);
+        scene_close(&s);
+    }
+}
+
+/* A vertex in the notch between edges 0-1 and 1-2. */
+static void a_vertex_on_two_edges_that_meet_is_held_by_both(void **state)
+{
+    (void)state;
+    for (dem_index feature = 0; feature < 2; feature++) {
+        scene s;
+        open_square(&s, roofs, 2);
+        const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2);
+        close_contact(&s, low, feature, -1);
+        close_contact(&s, right, 1 - feature, 1);
+        check_touch(&s.c.sites.list[low].closed[0], false, -1); /* two different ones are no corner */
+        check_touch(&s.c.sites.list[right].closed[0], false, 1);
+        close_contact(&s, right, feature, -1);
+        check_touch(&s.c.sites.list[low].closed[0], true, 1);
+        check_touch(&s.c.sites.list[right].closed[0], false, 1);
+        check_touch(&s.c.sites.list[right].closed[1], true, 1);
+        assert_ok(sites_open(&s.c.sites, right, 1));
+        check_touch(&s.c.sites.list[low].closed[0], false, feature == 1 ? 0 : 1); /* the second roof is rough */
+        scene_close(&s);
+    }
+}
+
+static void a_vertex_on_opposite_edges_is_not_held(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const dem_index low = scene_edge(&s, 0, 1), high = scene_edge(&s, 2, 3);
+    close_contact(&s, low, 0, 1);
+    close_contact(&s, high, 0, 1);
+    check_touch(&s.c.sites.list[low].closed[0], false, 1);
+    check_touch(&s.c.sites.list[high].closed[0], false, 1);
+    scene_close(&s);
+}
+
+/* ---- behind ---- */
+
+static void what_a_node_is_behind_its_edges_know(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    contact_site *list = s.c.sites.list;
+    const dem_index before = scene_edge(&s, 0, 1), after = scene_edge(&s, 1, 2), far = scene_edge(&s, 2, 3);
+    for (dem_index k = 0; k < s.c.sites.n; k++) list[k].asleep = true;
+    sites_go_behind(&s.c.sites, 1, 1);
+    assert_int_equal(s.c.sites.books.counts.behind, 1);
+    assert_int_equal(list[1].behind[0], 1);
+    assert_int_equal(list[before].behind[0], -1);
+    assert_int_equal(list[before].behind[1], 1);
+    assert_int_equal(list[after].behind[0], 1);
+    assert_int_equal(list[after].behind[1], -1);
+    assert_int_equal(list[far].behind[0], -1);
+    assert_int_equal(list[far].behind[1], -1);
+    assert_false(list[1].asleep || list[before].asleep || list[after].asleep);
+    assert_true(list[far].asleep);
+    sites_go_behind(&s.c.sites, 1, -1);
+    assert_int_equal(s.c.sites.books.counts.behind, 0);
+    assert_int_equal(list[before].behind[1], -1);
+    assert_int_equal(list[after].behind[0], -1);
+    scene_close(&s);
+}
+
+/* ---- books and forces ---- */
+
+/* 2 kg on a spring of 100 N and 1 m, stretched to 1.5 m; moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's
+ * 50 (0.25^2 - 0.5^2). */
+static void a_move_books_the_energy_that_it_puts_in(void **state)
+{
+    const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
+    dem_lattice lattice;
+    scene s;
+    (void)state;
+    support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
+    scene_start(&s, &lattice, &plane, 1);
+    dem_lattice_free(&lattice);
+    scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
+    scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
+    s.c.sites.books.projection = 1.0;
+    sites_move(&s.c.sites, 1, (vec2){0.0, -0.25}, s.y);
+    assert_close(s.y[2], 0.0, 0.0);
+    assert_close(s.y[3], 1.25, 0.0);
+    assert_close(s.c.sites.books.projection, 1.0 - 5.0 - 9.375, 1e-13);
+    scene_close(&s);
+}
+
+/* The spring, stretched to 1.5 m, pulls node 0 up with 50 N against its 30 N of weight, and nothing holds it down; a
+ * sideways gravity of 0.5 m/s^2 does nothing to a smooth floor. */
+static void the_force_on_a_contact_is_elastic_and_weight(void **state)
+{
+    const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
+    dem_lattice lattice;
+    scene s;
+    (void)state;
+    support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
+    scene_start(&s, &lattice, &plane, 1);
+    dem_lattice_free(&lattice);
+    s.c.sites.scene.rule.load.gravity[0] = 0.5;
+    scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
+    scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
+    close_contact(&s, 0, 0, 1);
+    sites_weigh(&s.c.sites, 0, s.y, scene_v(&s));
+    const contact_touch *touch = &s.c.sites.list[0].closed[0];
+    assert_close(touch->force, 30.0 - 50.0, 1e-13);
+    assert_close(touch->friction, 0.0, 0.0);
+    scene_close(&s);
+}
+
+/* The rough roof's ridge under (1 - s, s) of edge 0-1, masses 1 and 3 kg, that slides with u: N from
+ * W N = g, W = (1 - s)^2/1 + s^2/3; friction -sign N/2. */
+static void a_sliding_edge_stores_force_and_friction(void **state)
+{
+    const double fraction = 0.25, W = 0.5625 + 0.0625 / 3.0, u = -0.8;
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const dem_index k = scene_edge(&s, 0, 1);
+    for (dem_index i = 0; i < 4; i++) {
+        const vec2 at = vec2_at(s.y, i);
+        scene_put(&s, i, at.x + 1.0 - fraction, at.y, u, 0.0);
+    }
+    close_contact(&s, k, 1, -1);
+    sites_weigh(&s.c.sites, k, s.y, scene_v(&s));
+    const contact_touch *touch = &s.c.sites.list[k].closed[0];
+    assert_close(touch->force, g / W, 1e-13);
+    assert_close(touch->friction, 0.5 * g / W, 1e-13);
+    scene_close(&s);
+}
+
+/* ---- events ---- */
+
+static void an_event_of_a_node_tells_where_it_is_and_how_it_moves(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, &rough_groove, 1);
+    scene_put(&s, 2, 3.0, 3.0, 0.5, -0.25);
+    const contact_moment now = {.t = 0.5, .x = s.y, .v = scene_v(&s)};
+    dem_event event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_PASS, &now);
+    assert_close(event.t, 0.5, 0.0);
+    assert_int_equal(event.kind, DEM_EVENT_PASS);
+    assert_int_equal(event.state, DEM_CONTACT_FREE);
+    assert_int_equal(event.node, 2);
+    assert_int_equal(event.other, -1);
+    assert_int_equal(event.obstacle, 0);
+    assert_int_equal(event.segment, 1);
+    const double expected[10] = {3.0, 3.0, -sqrt(0.5), sqrt(0.5), 0.5, -0.25, 0.5, -0.25, 0.0, 0.0};
+    const double actual[10] = {event.x[0],      event.x[1],     event.normal[0], event.normal[1], event.before[0],
+                               event.before[1], event.after[0], event.after[1],  event.weight,    event.energy};
+    for (int k = 0; k < 10; k++) assert_close(actual[k], expected[k], 1e-15);
+    close_contact(&s, 2, 1, 1);
+    event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_SLIP, &now);
+    assert_int_equal(event.state, DEM_CONTACT_SLIP);
+    s.c.sites.list[2].closed[0].sign = 0;
+    event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_STICK, &now);
+    assert_int_equal(event.state, DEM_CONTACT_STICK);
+    close_contact(&s, 2, 0, 1); /* held */
+    event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_CLOSE, &now);
+    assert_int_equal(event.state, DEM_CONTACT_STICK);
+    scene_close(&s);
+}
+
+/* The second roof's ridge, the end of its first segment, under 0.75 of edge 0-1; the velocity is 1/4 and 3/4 of the
+ * nodes'. */
+static void an_event_of_an_edge_tells_the_vertex_and_the_weight_of_its_second_node(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const dem_index k = scene_edge(&s, 0, 1);
+    scene_put(&s, 0, 0.25, 0.0, 0.5, 0.0);
+    scene_put(&s, 1, 1.25, 0.0, 0.5, -1.0);
+    const contact_moment now = {.t = 0.25, .x = s.y, .v = scene_v(&s)};
+    const dem_event event = sites_event(&s.c.sites, k, 1, DEM_EVENT_RELEASE, &now);
+    assert_int_equal(event.node, 0);
+    assert_int_equal(event.other, 1);
+    assert_int_equal(event.obstacle, 1);
+    assert_int_equal(event.segment, 0);
+    const double expected[7] = {0.75, 1.0, 0.0, 0.0, 1.0, 0.5, -0.75};
+    const double actual[7] = {event.weight,    event.x[0],      event.x[1],     event.normal[0],
+                              event.normal[1], event.before[0], event.before[1]};
+    for (int q = 0; q < 7; q++) assert_close(actual[q], expected[q], 1e-15);
+    scene_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_come_first_and_then_edges_that_know_their_neighbours),
+        cmocka_unit_test(edges_are_sites_only_where_there_are_vertices_and_if_asked_for),
+        cmocka_unit_test(a_node_that_may_not_touch_has_no_site),
+        cmocka_unit_test(closing_appends_and_opening_keeps_the_other),
+        cmocka_unit_test(contacts_that_share_nodes_are_one_group),
+        cmocka_unit_test(a_node_on_two_segments_is_held_by_both),
+        cmocka_unit_test(a_vertex_on_two_edges_that_meet_is_held_by_both),
+        cmocka_unit_test(a_vertex_on_opposite_edges_is_not_held),
+        cmocka_unit_test(what_a_node_is_behind_its_edges_know),
+        cmocka_unit_test(a_move_books_the_energy_that_it_puts_in),
+        cmocka_unit_test(the_force_on_a_contact_is_elastic_and_weight),
+        cmocka_unit_test(a_sliding_edge_stores_force_and_friction),
+        cmocka_unit_test(an_event_of_a_node_tells_where_it_is_and_how_it_moves),
+        cmocka_unit_test(an_event_of_an_edge_tells_the_vertex_and_the_weight_of_its_second_node),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* event_location.c: the first change of a site's contacts within a step, at times worked out by hand. Times are
+ * located to 100 units of rounding of t + h; each tolerance is twice that, or what rounding of 1e-16 m is at the speed
+ * of crossing. */
+#include "unit/scene.h"
+
+#include <float.h>
+
+static const double skin = 1e-3, g = scene_gravity, masses[3] = {2.0, 2.0, 2.0};
+static const vec2 nothing = {0.0, 0.0};
+
+static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0};
+static const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = 0.5};
+
+/* A roof with its ridge in the origin; the floor of a ledge that ends left of it. */
+static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}, ledge_points[4] = {-4.0, 0.0, -0.5, 0.0};
+static const dem_obstacle roof = {.n_points = 3, .points = roof_points};
+static const dem_obstacle roof_and_ledge[2] = {{.n_points = 3, .points = roof_points},
+                                               {.n_points = 2, .points = ledge_points}};
+
+static void open_node(scene *s, double x, double y, double u, double v)
+{
+    const double at[2] = {x, y};
+    scene_open(s, 1, at, masses, 0, NULL, &plane, 1);
+    s->c.sites.scene.rule.skin = skin;
+    s->y[2] = u;
+    s->y[3] = v;
+}
+
+static double crossing(const scene *s, dem_index k, const path *p)
+{
+    return search_crossing(&s->c.sites.scene, &s->c.sites.list[k], p, p->t0);
+}
+
+static void times_are_located_to_a_hundred_units_of_rounding(void **state)
+{
+    const path p = {.t0 = -3.0, .t1 = -2.5}, q = {.t0 = 6.0, .t1 = 8.0};
+    (void)state;
+    assert_close(search_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
+    assert_close(search_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
+}
+
+/* ---- a free node ---- */
+
+/* Falls from 0.2 m: at the skin's depth after sqrt(2 (0.2 + skin)/g). The end found is on the deep side. */
+static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
+{
+    const double start = 7.0, t = sqrt(2.0 * (0.2 + skin) / g);
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_node(&s, 1.0, 0.2, 0.3, 0.0);
+    scene_fly(&s, (vec2){0.0, -g}, start, 0.3, &f);
+    const double found = crossing(&s, 0, &f.path);
+    assert_close(found, start + t, 200.0 * DBL_EPSILON * (start + 0.3));
+    assert_true(path_position(&f.path, found, 0).y <= -skin);
+    f.path.end = start + 0.9 * t;
+    assert_true(isinf(crossing(&s, 0, &f.path)) != 0);
+    scene_close(&s);
+}
+
+static void a_crossing_just_before_the_end_is_found(void **state)
+{
+    const double t = sqrt(2.0 * (0.2 + skin) / g);
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_node(&s, 1.0, 0.2, 0.0, 0.0);
+    scene_fly(&s, (vec2){0.0, -g}, 0.0, 0.3, &f);
+    f.path.end = t * (1.0 + 1e-12);
+    assert_close(crossing(&s, 0, &f.path), t, 1e-13);
+    f.path.end = 1.2 * t; /* an eighth before this end it is deep already */
+    assert_close(crossing(&s, 0, &f.path), t, 1e-13);
+    scene_close(&s);
+}
+
+/* Thrown down against an upward pull: inside from 0.24 t1 to 0.76 t1, outside at both ends. */
+static void a_dip_within_the_step_is_found(void **state)
+{
+    const double depth = 0.05, a = 10.0, bottom = 0.2; /* y = -depth + a (t - bottom)^2/2 */
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
+    scene_fly(&s, (vec2){0.0, a}, 0.0, 2.0 * bottom, &f);
+    assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
+    assert_close(crossing(&s, 0, &f.path), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
+    scene_close(&s);
+}
+
+/* A parabola whose bottom, wherever between two of the eight samples, is a micrometre deeper than the skin for 1/500
+ * of the step; one that stays as much above it is none. Times to rounding over a vertical speed of 4.5 mm/s. */
+static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
+{
+    const double a = 10.0, end = 0.45;
+    (void)state;
+    for (int k = 0; k < 20; k++) {
+        const double depth = skin + (k % 2 == 0 ? 1e-6 : -1e-6), bottom = 0.172 + 0.0025 * k;
+        scene s;
+        scene_flight f;
+        open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
+        scene_fly(&s, (vec2){0.0, a}, 0.0, end, &f);
+        const double found = crossing(&s, 0, &f.path);
+        if (k % 2 == 0)
+            assert_close(found, bottom - sqrt(2.0 * (depth - skin) / a), 1e-12);
+        else
+            assert_true(isinf(found) != 0);
+        scene_close(&s);
+    }
+}
+
+/* Level with 1 m/s through the tip of the roof, 1 cm below it, in the first eighth of the step. That nothing was within
+ * 5 cm of its start says less about its gap than the roof does. */
+static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **state)
+{
+    const double at[2] = {-0.1, -0.01};
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
+    s.c.sites.list[0].clear = 0.05;
+    s.c.sites.list[0].clear_at[0] = vec2_at(at, 0);
+    scene_fly(&s, nothing, 0.0, 1.0, &f);
+    assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * skin, 1e-13);
+    scene_close(&s);
+}
+
+/* Up from the floor with 2 m/s through a plate at 0.3 m, a fifth of the way thick: the gap grows at both ends. */
+static void a_plate_between_two_ends_that_recede_is_found(void **state)
+{
+    const double points[10] = {2.0, 0.3, 0.0, 0.3, 0.0, 0.5, 2.0, 0.5, 2.0, 0.3}, at[2] = {1.0, 0.05};
+    const dem_obstacle floor_and_plate[2] = {plane, {.n_points = 5, .points = points}};
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
+    scene_fly(&s, nothing, 0.0, 0.5, &f);
+    assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + skin), 1e-13);
+    scene_close(&s);
+}
+
+static void a_site_out_of_reach_never_crosses(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_node(&s, 1.0, 0.9, 4.0, 0.0);
+    scene_fly(&s, nothing, 0.0, 0.1, &f);
+    assert_true(isinf(crossing(&s, 0, &f.path)) != 0);
+    scene_close(&s);
+}
+
+/* ---- a free edge ---- */
+
+/* Its node 0 at (-1.5, y): the ridge is over three quarters of it. */
+static dem_index open_edge(scene *s, double y)
+{
+    scene_open_triangle(s, masses, -1.5, y, &roof, 1);
+    s->c.sites.scene.rule.skin = skin;
+    return scene_edge(s, 0, 1);
+}
+
+static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
+{
+    const double start = 3.0, t = sqrt(2.0 * (0.1 + skin) / g);
+    scene s;
+    scene_flight f;
+    (void)state;
+    const dem_index k = open_edge(&s, 0.1);
+    scene_fly(&s, (vec2){0.0, -g}, start, 0.2, &f);
+    assert_close(crossing(&s, k, &f.path), start + t, 200.0 * DBL_EPSILON * (start + 0.2));
+    assert_true(isinf(crossing(&s, scene_edge(&s, 1, 2), &f.path)) != 0);
+    scene_close(&s);
+}
+
+/* Node 1 falls with 2 m/s from 0.3 m, node 0 stays there. With w = 2 t the edge's point over the ridge is 0.75 w - 0.3
+ * below it, along the normal that times 2/sqrt(4 + w^2): (4 * 0.5625 - skin^2) w^2 - 1.8 w + 0.36 - 4 skin^2 = 0. */
+static void a_turning_edge_meets_a_ridge_where_its_line_does(void **state)
+{
+    const double a = 2.25 - skin * skin, c = 0.36 - 4.0 * skin * skin;
+    const double w = (1.8 + sqrt(1.8 * 1.8 - 4.0 * a * c)) / (2.0 * a);
+    scene s;
+    scene_flight f;
+    (void)state;
+    const dem_index k = open_edge(&s, 0.3);
+    scene_put(&s, 1, 0.5, 0.3, 0.0, -2.0);
+    scene_fly(&s, nothing, 0.0, 0.3, &f);
+    assert_close(crossing(&s, k, &f.path), 0.5 * w, 1e-13);
+    scene_close(&s);
+}
+
+/* As for a node: 1 cm deep at the bottom, outside at both ends. */
+static void a_dip_of_an_edge_within_the_step_is_found(void **state)
+{
+    const double depth = 0.01, a = 10.0, bottom = 0.11;
+    scene s;
+    scene_flight f;
+    (void)state;
+    const dem_index k = open_edge(&s, -depth + 0.5 * a * bottom * bottom);
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
+    scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
+    assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
+    assert_close(crossing(&s, k, &f.path), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
+    scene_close(&s);
+}
+
+/* Down and left with 1 m/s each way: the ridge goes in through the edge 1 cm before its end, and is beyond that by the
+ * next sample. */
+static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
+    scene_fly(&s, nothing, 0.0, 1.0, &f);
+    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + skin, 1e-13);
+    scene_close(&s);
+}
+
+/* Near node 1, at s = 0.9, the edge dips while node 0 rises all the time: h + a t^2/2 - 0.9 a b t is lowest at 0.9 b,
+ * between two samples, where it is 1 mm deeper than the skin and nothing else would tell. */
+static void a_dip_at_one_end_of_a_turning_edge_is_found(void **state)
+{
+    const double a = 10.0, b = 0.1, low = 0.405 * a * b * b, depth = 2.0 * skin;
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open_triangle(&s, masses, -1.8, low - depth, &roof, 1);
+    s.c.sites.scene.rule.skin = skin;
+    scene_put(&s, 1, 0.2, low - depth, 0.0, -a * b);
+    scene_fly(&s, (vec2){0.0, a}, 0.0, 8.0 * 0.036, &f); /* samples at 0.072 and 0.108 */
+    const double found = crossing(&s, scene_edge(&s, 0, 1), &f.path);
+    assert_close(found, 0.09 - sqrt(2.0 * (depth - skin) / a),
+                 2e-4); /* the slope of the edge, 0.05, turns it a little */
+    scene_close(&s);
+}
+
+/* ---- closed contacts ---- */
+
+static double first_due(scene *s, dem_index k, scene_flight *f)
+{
+    double y[4 * SCENE_NODES];
+    const double *v = y + 2 * s->model->lattice.n_nodes;
+    reactions *r = &s->c.sites.reactions;
+    assert_ok(sites_regroup(&s->c.sites));
+    const double found = search_due(r, &s->c.sites.list[k], &f->path, f->path.t0, f->scratch);
+    for (int after = 0; after < 2; after++) { /* due there, and not a little before */
+        path_state(&f->path, found - (1 - after) * 4.0 * search_resolution(&f->path), y);
+        reactions_solve(r, r->group[k], y, v);
+        assert_int_equal(site_due(&s->c.sites.scene, &s->c.sites.list[k], r->force[k], y, v), after);
+    }
+    return found;
+}
+
+static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
+{
+    contact_site *site = &s->c.sites.list[k];
+    site->closed[site->n_closed++] = (contact_touch){.feature = feature, .sign = sign};
+}
+
+/* Slides from x = 3 with 2 m/s: beyond the end by the skin after half a second and the time for that. */
+static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    open_node(&s, 3.0, 0.0, 2.0, 0.0);
+    close_contact(&s, 0, 0, 1);
+    scene_fly(&s, nothing, 1.0, 0.7, &f);
+    assert_close(first_due(&s, 0, &f), 1.5 + 0.5 * skin, 200.0 * DBL_EPSILON * 2.4);
+    scene_close(&s);
+}
+
+/* The ridge is 0.5 m before the edge's end and the body goes left with 2 m/s: it passes the end by the skin. */
+static void a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    const dem_index k = open_edge(&s, 0.0);
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-2.0, 0.0});
+    close_contact(&s, k, 0, 1);
+    scene_fly(&s, nothing, 1.0, 0.4, &f);
+    assert_close(first_due(&s, k, &f), 1.0 + 0.5 * (0.5 + skin), 200.0 * DBL_EPSILON * 1.8);
+    scene_close(&s);
+}
+
+/* Node 0 on the ledge, the edge on the ridge at s: that takes m g/s for node 1, and so node 0 presses the ledge with
+ * m g - (1 - s) m g/s, which is nothing where s = 1/2. The body goes right with 2 m/s from s = 0.75. */
+static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **state)
+{
+    scene s;
+    scene_flight f;
+    (void)state;
+    scene_open_triangle(&s, masses, -1.5, 0.0, roof_and_ledge, 2);
+    s.c.sites.scene.rule.skin = skin;
+    for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, 0.0});
+    const dem_index k = scene_edge(&s, 0, 1);
+    close_contact(&s, 0, 2, 1);
+    close_contact(&s, k, 0, 1);
+    scene_fly(&s, nothing, 1.0, 0.35, &f);
+    assert_close(first_due(&s, 0, &f), 1.25, 200.0 * DBL_EPSILON * 1.7);
+    assert_int_equal(s.c.sites.reactions.group[0], s.c.sites.reactions.group[k]);
+    scene_close(&s);
+}
+
+/* A square 0 to 3, of which edge 0-1 is closed, and two more nodes: those of the group, and the edge's neighbours, are
+ * where the path has them; others are not looked at. */
+static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void **state)
+{
+    const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
+    const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
+    scene s;
+    scene_flight f;
+    double y[24];
+    (void)state;
+    scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
+    scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
+    close_contact(&s, scene_edge(&s, 0, 1), 0, 1);
+    assert_ok(sites_regroup(&s.c.sites));
+    path_state(&f.path, 0.3, y);
+    for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
+    search_state(&s.c.sites.reactions, 0, &f.path, 0.3, f.scratch);
+    for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);
+    scene_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(times_are_located_to_a_hundred_units_of_rounding),
+        cmocka_unit_test(a_fall_reaches_the_skin_at_the_time_of_free_fall),
+        cmocka_unit_test(a_crossing_just_before_the_end_is_found),
+        cmocka_unit_test(a_dip_within_the_step_is_found),
+        cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
+        cmocka_unit_test(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap),
+        cmocka_unit_test(a_plate_between_two_ends_that_recede_is_found),
+        cmocka_unit_test(a_site_out_of_reach_never_crosses),
+        cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
+        cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
+        cmocka_unit_test(a_dip_of_an_edge_within_the_step_is_found),
+        cmocka_unit_test(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found),
+        cmocka_unit_test(a_dip_at_one_end_of_a_turning_edge_is_found),
+        cmocka_unit_test(a_sliding_site_is_first_due_when_it_reaches_the_end),
+        cmocka_unit_test(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end),
+        cmocka_unit_test(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight),
+        cmocka_unit_test(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* ledger.c: sums of impulses by obstacle, counts by kind of event, and what the listener says. */
+#include "verification/support.h"
+
+#include "contact/ledger.h"
+
+enum { SCRIPT = 4 };
+
+/* A listener that says what it was told to say, and remembers what it heard. */
+typedef struct hearer {
+    dem_status says[SCRIPT];
+    int n_heard;
+    const dem_event *heard[SCRIPT];
+} hearer;
+
+static dem_status hear(void *context, const dem_event *event)
+{
+    hearer *h = context;
+    assert_true(h->n_heard < SCRIPT);
+    h->heard[h->n_heard] = event;
+    return h->says[h->n_heard++];
+}
+
+static void a_new_book_is_empty(void **state)
+{
+    contact_books b;
+    (void)state;
+    assert_ok(books_create(&b, 3));
+    for (int k = 0; k < 6; k++) {
+        assert_close(b.impulse[k], 0.0, 0.0);
+        assert_close(b.friction_impulse[k], 0.0, 0.0);
+    }
+    assert_close(b.impact, 0.0, 0.0);
+    assert_close(b.projection, 0.0, 0.0);
+    assert_int_equal(b.counts.impacts + b.counts.closings + b.counts.releases, 0);
+    books_destroy(&b);
+    assert_null(b.impulse);
+    assert_ok(books_create(&b, 0)); /* a model may have no obstacles */
+    books_destroy(&b);
+}
+
+static void impulses_add_up_for_each_obstacle_by_itself(void **state)
+{
+    static const double impulse[6] = {1.0, -2.0, 0.0, 0.0, 4.0, 8.0}, friction[6] = {0.5, 0.25, 0.0, 0.0, -1.0, 2.0};
+    contact_books b;
+    (void)state;
+    assert_ok(books_create(&b, 3));
+    books_add_impulse(&b, 0, (vec2){1.0, -2.0}, (vec2){0.5, 0.25});
+    books_add_impulse(&b, 2, (vec2){1.0, 3.0}, (vec2){-2.0, 1.5});
+    books_add_impulse(&b, 2, (vec2){3.0, 5.0}, (vec2){1.0, 0.5});
+    for (int k = 0; k < 6; k++) {
+        assert_close(b.impulse[k], impulse[k], 0.0); /* sums of small binary fractions are exact */
+        assert_close(b.friction_impulse[k], friction[k], 0.0);
+    }
+    books_destroy(&b);
+}
+
+static void enter(contact_books *b, dem_event_kind kind, dem_index other, int times)
+{
+    const contact_listener deaf = {0};
+    contact_moment now = {.listener = &deaf};
+    const dem_event event = {.kind = kind, .other = other};
+    for (int k = 0; k < times; k++) books_enter(b, &event, &now);
+    assert_int_equal(now.told, DEM_OK);
+}
+
+/* Every kind another number of times, so that no two can be exchanged unseen. */
+static void every_kind_of_event_has_its_count(void **state)
+{
+    contact_books b;
+    (void)state;
+    assert_ok(books_create(&b, 1));
+    enter(&b, DEM_EVENT_IMPACT, -1, 3);
+    enter(&b, DEM_EVENT_IMPACT, 0, 2); /* node 0 is a node: an edge on a vertex */
+    enter(&b, DEM_EVENT_RELEASE, -1, 7);
+    enter(&b, DEM_EVENT_SLIP, 4, 11);
+    enter(&b, DEM_EVENT_STICK, -1, 13);
+    enter(&b, DEM_EVENT_PASS, 4, 17);
+    assert_int_equal(b.counts.impacts, 5);
+    assert_int_equal(b.counts.vertex_impacts, 2);
+    assert_int_equal(b.counts.releases, 7);
+    assert_int_equal(b.counts.slips, 11);
+    assert_int_equal(b.counts.sticks, 13);
+    assert_int_equal(b.counts.passings, 17);
+    assert_int_equal(b.counts.closings, 0);
+    assert_int_equal(b.counts.early + b.counts.late + b.counts.events, 0); /* counted elsewhere */
+    books_destroy(&b);
+}
+
+static void a_close_event_is_told_but_counted_where_it_is_done(void **state)
+{
+    const dem_event event = {.kind = DEM_EVENT_CLOSE, .other = 4};
+    hearer h = {0};
+    const contact_listener listener = {hear, &h};
+    contact_moment now = {.listener = &listener};
+    const dem_counts none = {0};
+    contact_books b;
+    (void)state;
+    assert_ok(books_create(&b, 1));
+    books_enter(&b, &event, &now);
+    assert_memory_equal(&b.counts, &none, sizeof none);
+    assert_int_equal(h.n_heard, 1);
+    assert_ptr_equal(h.heard[0], &event);
+    books_destroy(&b);
+}
+
+/* The later ones are heard all the same, and do not replace the first. */
+static void the_first_status_other_than_ok_is_kept(void **state)
+{
+    const dem_event event = {.kind = DEM_EVENT_SLIP, .other = -1};
+    hearer h = {.says = {DEM_OK, DEM_STOPPED, DEM_ERROR_IO, DEM_OK}};
+    const contact_listener listener = {hear, &h};
+    contact_moment now = {.listener = &listener};
+    contact_books b;
+    (void)state;
+    assert_ok(books_create(&b, 1));
+    books_enter(&b, &event, &now);
+    assert_int_equal(now.told, DEM_OK);
+    for (int k = 1; k < SCRIPT; k++) {
+        books_enter(&b, &event, &now);
+        assert_int_equal(now.told, DEM_STOPPED);
+    }
+    assert_int_equal(h.n_heard, SCRIPT);
+    assert_int_equal(b.counts.slips, SCRIPT);
+    books_destroy(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_new_book_is_empty),
+        cmocka_unit_test(impulses_add_up_for_each_obstacle_by_itself),
+        cmocka_unit_test(every_kind_of_event_has_its_count),
+        cmocka_unit_test(a_close_event_is_told_but_counted_where_it_is_done),
+        cmocka_unit_test(the_first_status_other_than_ok_is_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

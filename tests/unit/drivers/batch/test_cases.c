@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* cases.c: lists and the pick of one. */
+#include "unit/close.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "cases.h"
+
+static char folder[] = "test_cases_XXXXXX", list[64], listed[72];
+
+static int make_list(void **state)
+{
+    (void)state;
+    if (mkdtemp(folder) == NULL) return 1;
+    (void)snprintf(list, sizeof list, "%s/list", folder);
+    (void)snprintf(listed, sizeof listed, "@%s", list);
+    FILE *file = fopen(list, "w");
+    return file == NULL || fputs("#c\n b #1 \r\n\n/d\ne", file) < 0 || fclose(file) != 0;
+}
+
+static int remove_list(void **state)
+{
+    (void)state;
+    return unlink(list) != 0 || rmdir(folder) != 0;
+}
+
+static command ask(const char **decks, size_t n, long index)
+{
+    return (command){.decks = decks, .n_decks = n, .index = index};
+}
+
+static void lists_stand_for_their_decks(void **state)
+{
+    (void)state;
+    const char *decks[] = {"a", listed, "f"};
+    char b[80], e[80];
+    (void)snprintf(b, sizeof b, "%s/b #1", folder);
+    (void)snprintf(e, sizeof e, "%s/e", folder);
+    const char *const expected[] = {"a", b, "/d", e, "f"};
+    for (long index = 0; index <= 5; index++) {
+        const command c = ask(decks, 3, index);
+        outcome o = {0};
+        cases all;
+        assert_true(cases_find(&all, &c, &o));
+        assert_int_equal(all.n, index == 0 ? 5 : 1);
+        for (size_t k = 0; k < all.n; k++)
+            assert_string_equal(all.paths[k], expected[index == 0 ? (long)k : index - 1]);
+        cases_free(&all);
+    }
+}
+
+static void what_is_not_there_is_a_fault(void **state)
+{
+    (void)state;
+    const char *decks[] = {listed, "@/no/list"};
+    const command past = ask(decks, 1, 4), missing = ask(decks, 2, 1);
+    outcome o = {0};
+    cases all;
+    assert_false(cases_find(&all, &past, &o));
+    assert_int_equal(o.code, EXIT_USAGE);
+    cases_free(&all);
+    o = (outcome){0};
+    assert_false(cases_find(&all, &missing, &o));
+    assert_int_equal(o.code, EXIT_INVALID);
+    cases_free(&all);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_stand_for_their_decks),
+                                       cmocka_unit_test(what_is_not_there_is_a_fault)};
+    return cmocka_run_group_tests(tests, make_list, remove_list);
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* checkpoint.c: what a later run may go on from. What runs write, tests/deck/test_resume.py looks at. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "checkpoint.h"
+#include "preview.h"
+
+static char folder[] = "test_checkpoint_XXXXXX", output[64], path[64], before[64], damaged[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (mkdtemp(folder) == NULL) return 1;
+    (void)snprintf(output, sizeof output, "%s/a.vtkhdf", folder);
+    (void)snprintf(path, sizeof path, "%s/a.checkpoint", folder);
+    (void)snprintf(before, sizeof before, "%s/a.checkpoint.prev", folder);
+    (void)snprintf(damaged, sizeof damaged, "%s/a.checkpoint.damaged", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder);
+}
+
+static int sweep(void **state)
+{
+    (void)state;
+    (void)unlink(path);
+    (void)unlink(before);
+    return 0;
+}
+
+static char course[] = "&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1000\n/\n";
+static const deck mine = {.course = course, .t_end = 2.0};
+
+static void leave(const char *text, const char *lineage, double t)
+{
+    dem_record *record;
+    assert_ok(dem_record_create(&record));
+    assert_ok(dem_record_put(record, "driver.course", text, strlen(text) + 1));
+    assert_ok(dem_record_put(record, "driver.lineage", lineage, strlen(lineage) + 1));
+    assert_ok(dem_record_put(record, "driver.time", &t, sizeof t));
+    assert_ok(dem_record_write(record, path));
+    dem_record_destroy(record);
+}
+
+static const char *versions(void)
+{
+    static char text[256];
+    preview_versions(text, sizeof text);
+    return text;
+}
+
+static void expect(checkpoint_state expected, bool anyway, const char *why)
+{
+    checkpoint_source source;
+    char reason[OUTPUT_REASON] = "";
+    assert_int_equal(checkpoint_find(&source, output, &mine, anyway, reason), expected);
+    if (strstr(reason, why) == NULL) fail_msg("'%s' is not in '%s'", why, reason);
+    checkpoint_source_free(&source);
+}
+
+static void none_is_found_where_there_is_none(void **state)
+{
+    (void)state;
+    expect(CHECKPOINT_NONE, false, "");
+}
+
+static void that_of_the_same_course_is_found(void **state)
+{
+    (void)state;
+    checkpoint_source source;
+    char reason[OUTPUT_REASON];
+    leave(course, versions(), 1.5);
+    assert_int_equal(checkpoint_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
+    assert_non_null(source.record);
+    assert_close(source.t, 1.5, 0.0);
+    assert_string_equal(source.lineage, versions());
+    checkpoint_source_free(&source);
+    assert_null(source.record);
+    leave(course, versions(), 2.0);
+    expect(CHECKPOINT_FOUND, false, "");
+    leave(course, versions(), 2.5);
+    expect(CHECKPOINT_OTHER, false, "the run is at 2.5 s already, beyond t_end = 2 s");
+}
+
+static void the_first_difference_is_named(void **state)
+{
+    (void)state;
+    leave("&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1001\n/\n", versions(), 1.0);
+    expect(CHECKPOINT_OTHER, true, "it is of has density = 1001 in &material, this one has density = 1000; move");
+    leave("&run\n    gravity = 0, -9.81\n/\n", versions(), 1.0);
+    expect(CHECKPOINT_OTHER, false, "has nothing in &run, this one has &material");
+    leave("&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1000\n/\n&body\n/\n", versions(), 1.0);
+    expect(CHECKPOINT_OTHER, false, "has &body in &material, this one has nothing");
+}
+
+static void another_version_is_refused_unless_it_will_do(void **state)
+{
+    (void)state;
+    checkpoint_source source;
+    char reason[OUTPUT_REASON], lineage[512];
+    leave(course, "dem 0.0.1\ndem 0.0.2", 1.0);
+    expect(CHECKPOINT_OTHER, false, "it is of 'dem 0.0.2', this is 'dem ");
+    assert_int_equal(checkpoint_find(&source, output, &mine, true, reason), CHECKPOINT_FOUND);
+    (void)snprintf(lineage, sizeof lineage, "dem 0.0.1\ndem 0.0.2\n%s", versions());
+    assert_string_equal(source.lineage, lineage);
+    leave(course, source.lineage, 1.0);
+    checkpoint_source_free(&source);
+    expect(CHECKPOINT_FOUND, false, "");
+}
+
+static void a_damaged_one_gives_way_to_the_one_before(void **state)
+{
+    (void)state;
+    checkpoint_source source;
+    char reason[OUTPUT_REASON];
+    leave(course, versions(), 1.0);
+    leave(course, versions(), 1.5);
+    assert_int_equal(truncate(path, 100), 0);
+    assert_int_equal(checkpoint_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
+    assert_close(source.t, 1.0, 0.0);
+    checkpoint_source_free(&source);
+    assert_int_equal(access(before, F_OK), 0);
+    assert_int_equal(rename(damaged, path), 0); /* where a new one cannot push it in the place of the one before */
+    assert_int_equal(truncate(before, 100), 0);
+    expect(CHECKPOINT_DAMAGED, false, "a.checkpoint");
+    assert_int_equal(access(path, F_OK), 0);
+    assert_int_equal(unlink(path), 0);
+    leave(course, versions(), 1.0);
+    assert_int_equal(rename(path, before), 0); /* as when the machine stopped between the two renames */
+    expect(CHECKPOINT_FOUND, false, "");
+}
+
+static void a_record_of_another_program_is_refused(void **state)
+{
+    (void)state;
+    dem_record *record;
+    assert_ok(dem_record_create(&record));
+    assert_ok(dem_record_put(record, "driver.course", course, 5)); /* without its end */
+    assert_ok(dem_record_write(record, path));
+    dem_record_destroy(record);
+    expect(CHECKPOINT_OTHER, true, "it is not of this program");
+}
+
+#define CASE(name) cmocka_unit_test_teardown(name, sweep)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        CASE(none_is_found_where_there_is_none),
+        CASE(that_of_the_same_course_is_found),
+        CASE(the_first_difference_is_named),
+        CASE(another_version_is_refused_unless_it_will_do),
+        CASE(a_damaged_one_gives_way_to_the_one_before),
+        CASE(a_record_of_another_program_is_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

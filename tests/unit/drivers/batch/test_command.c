@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* command.c: what the words mean. Those that are refused are in tests/deck/test_refused.py. */
+#include "unit/close.h"
+
+#include "command.h"
+
+static void words_come_in_any_order(void **state)
+{
+    (void)state;
+    char *words[] = {"dem_batch", "b.nml",   "--set", "run.t_end=1", "--check", "--outdir",    "f",
+                     "@list",     "--index", "3",     "--set",       "a(2).b=", "--overwrite", NULL};
+    command c;
+    assert_int_equal(command_parse(&c, 13, words), EXIT_DONE);
+    assert_int_equal(c.action, COMMAND_CHECK);
+    assert_string_equal(c.outdir, "f");
+    assert_int_equal(c.index, 3);
+    assert_true(c.overwrite);
+    assert_int_equal(c.n_decks, 2);
+    assert_string_equal(c.decks[0], "b.nml");
+    assert_string_equal(c.decks[1], "@list");
+    assert_int_equal(c.n_settings, 2);
+    assert_string_equal(c.settings[0].text, "run.t_end=1");
+    assert_int_equal(c.settings[1].number, 2);
+    command_free(&c);
+}
+
+static void without_words_it_runs_here(void **state)
+{
+    (void)state;
+    char *words[] = {"dem_batch", "a", NULL};
+    command c;
+    assert_int_equal(command_parse(&c, 2, words), EXIT_DONE);
+    assert_int_equal(c.action, COMMAND_RUN);
+    assert_string_equal(c.outdir, ".");
+    assert_int_equal(c.index, 0);
+    assert_false(c.overwrite);
+    command_free(&c);
+}
+
+static void what_is_wrong_is_usage(void **state)
+{
+    (void)state;
+    char *words[] = {"dem_batch", "a", "--index", "0", NULL};
+    command c;
+    assert_int_equal(command_parse(&c, 4, words), EXIT_USAGE);
+    command_free(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(words_come_in_any_order),
+                                       cmocka_unit_test(without_words_it_runs_here),
+                                       cmocka_unit_test(what_is_wrong_is_usage)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

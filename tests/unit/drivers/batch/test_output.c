@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* output.c: what a run finds in its folder, made by runs of one node. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <dem/trajectory.h>
+
+#include "decimal.h"
+#include "output.h"
+
+static char folder[] = "test_output_XXXXXX", path[64], part[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (mkdtemp(folder) == NULL || !output_path(path, sizeof path, folder, "a")) return 1;
+    (void)snprintf(part, sizeof part, "%s/a.part.vtkhdf", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(folder);
+}
+
+static int sweep(void **state)
+{
+    (void)state;
+    (void)unlink(path);
+    (void)unlink(part);
+    return 0;
+}
+
+static const deck mine = {.hash = 0x0123456789abcdef, .run_hash = 0xfedcba9876543210, .t_end = 1.0};
+
+/* What a run of this deck leaves; without an end it is the part. */
+static void leave_run(const deck *d, int finished)
+{
+    double x[2] = {0.0, 0.0}, mass = 1.0;
+    char problem[OUTPUT_HASH], hash[OUTPUT_HASH], t_end[DECIMAL_SIZE];
+    dem_options options = dem_options_default();
+    dem_trajectory_options trajectory_options = dem_trajectory_options_default();
+    dem_trajectory *trajectory;
+    dem_lattice lattice;
+    dem_model *model;
+    dem_simulation *simulation;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 1, lattice.x = x, lattice.mass = &mass;
+    options.spacing = 1.0, options.max_step = 1.0, options.v_scale = 1.0;
+    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    assert_ok(dem_simulation_create(&simulation, model, &options));
+    assert_ok(dem_trajectory_create(&trajectory, path, simulation, &trajectory_options));
+    output_print_hash(problem, d->hash);
+    output_print_hash(hash, d->run_hash);
+    assert_ok(dem_trajectory_note(trajectory, "problem", problem));
+    assert_ok(dem_trajectory_note(trajectory, "run", hash));
+    decimal_print(t_end, d->t_end);
+    assert_ok(dem_trajectory_note(trajectory, "t_end", t_end));
+    if (finished) assert_ok(dem_trajectory_finish(trajectory));
+    dem_trajectory_destroy(trajectory);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+}
+
+static void leave_text(const char *name)
+{
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    assert_true(fputs("something else", file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Whatever it finds, it says so, and it touches nothing. */
+static void expect_claim(output_state expected)
+{
+    char reason[OUTPUT_REASON] = "";
+    struct stat before[2] = {0}, after[2] = {0};
+    const int n_before = (stat(path, &before[0]) == 0) + (stat(part, &before[1]) == 0);
+    const output_state got = output_claim(path, &mine, reason);
+    const int n_after = (stat(path, &after[0]) == 0) + (stat(part, &after[1]) == 0);
+    if (got != expected) fail_msg("%d, expected %d: %s", (int)got, (int)expected, reason);
+    if (got != OUTPUT_FREE) assert_true(strlen(reason) > 0);
+    assert_int_equal(n_after, n_before);
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(after[k].st_size, before[k].st_size);
+        assert_int_equal(after[k].st_mtim.tv_nsec, before[k].st_mtim.tv_nsec);
+    }
+}
+
+/* ---- names ---- */
+
+static void a_hash_has_sixteen_digits(void **state)
+{
+    (void)state;
+    char text[OUTPUT_HASH];
+    output_print_hash(text, UINT64_C(0x0123456789abcdef));
+    assert_string_equal(text, "0123456789abcdef");
+    output_print_hash(text, 0);
+    assert_string_equal(text, "0000000000000000");
+    output_print_hash(text, UINT64_MAX);
+    assert_string_equal(text, "ffffffffffffffff");
+}
+
+static void an_output_lies_in_its_folder(void **state)
+{
+    (void)state;
+    char text[64];
+    assert_true(output_path(text, sizeof text, ".", "drop"));
+    assert_string_equal(text, "drop.vtkhdf");
+    assert_true(output_path(text, sizeof text, "runs/1", "drop"));
+    assert_string_equal(text, "runs/1/drop.vtkhdf");
+    assert_true(output_path(text, sizeof text, "..", "a.b"));
+    assert_string_equal(text, "../a.b.vtkhdf");
+}
+
+/* The part's name is longer by ".part": what is accepted leaves room for it. */
+static void a_path_that_does_not_fit_is_refused(void **state)
+{
+    (void)state;
+    char text[64], name[64] = "";
+    for (size_t n = 0; n < sizeof name - 1; n++) {
+        name[n] = 'x';
+        const int fits = output_path(text, sizeof text, "f", name);
+        const size_t needed = strlen("f/.part.vtkhdf") + n + 2;
+        if (fits) assert_true(needed <= sizeof text);
+        if (n == 0) assert_true(fits);
+        if (n == sizeof name - 2) assert_false(fits);
+    }
+}
+
+/* ---- what is found ---- */
+
+static void an_empty_folder_is_free(void **state)
+{
+    (void)state;
+    expect_claim(OUTPUT_FREE);
+}
+
+static void the_same_run_is_done(void **state)
+{
+    (void)state;
+    leave_run(&mine, 1);
+    expect_claim(OUTPUT_DONE);
+}
+
+static void another_run_of_the_same_problem_may_go_on_to_a_later_end(void **state)
+{
+    (void)state;
+    const deck shorter = {.hash = mine.hash, .run_hash = 5, .t_end = 0.75};
+    const deck as_long = {.hash = mine.hash, .run_hash = 5, .t_end = mine.t_end};
+    const deck longer = {.hash = mine.hash, .run_hash = 5, .t_end = 1.5};
+    leave_run(&shorter, 1);
+    expect_claim(OUTPUT_SHORTER);
+    leave_run(&as_long, 1);
+    expect_claim(OUTPUT_SHORTER);
+    leave_run(&longer, 1);
+    expect_claim(OUTPUT_TAKEN);
+}
+
+static void another_problem_is_not_replaced(void **state)
+{
+    (void)state;
+    const deck other = {.hash = 5, .run_hash = mine.run_hash};
+    leave_run(&other, 1);
+    expect_claim(OUTPUT_TAKEN);
+}
+
+static void a_file_of_another_kind_is_not_replaced(void **state)
+{
+    (void)state;
+    leave_text(path);
+    expect_claim(OUTPUT_TAKEN);
+}
+
+static void a_part_of_the_same_problem_may_be_replaced(void **state)
+{
+    (void)state;
+    const deck longer = {.hash = mine.hash, .run_hash = 5};
+    leave_run(&mine, 0);
+    expect_claim(OUTPUT_FREE);
+    leave_run(&longer, 0);
+    expect_claim(OUTPUT_FREE);
+}
+
+static void a_part_of_another_problem_is_not_replaced(void **state)
+{
+    (void)state;
+    const deck other = {.hash = 5, .run_hash = mine.run_hash};
+    leave_run(&other, 0);
+    expect_claim(OUTPUT_TAKEN);
+}
+
+static void a_part_cut_off_at_its_beginning_may_be_replaced(void **state)
+{
+    (void)state;
+    leave_run(&mine, 0);
+    assert_int_equal(truncate(part, 100), 0);
+    expect_claim(OUTPUT_FREE);
+}
+
+static void the_result_counts_more_than_a_part(void **state)
+{
+    (void)state;
+    const deck other = {.hash = 5, .run_hash = 5};
+    leave_run(&mine, 1);
+    leave_run(&other, 0);
+    expect_claim(OUTPUT_DONE);
+}
+
+static void folders_are_made_down_to_the_last(void **state)
+{
+    char deep[80], deeper[96], at[OUTPUT_PATH], reason[OUTPUT_REASON];
+    struct stat found;
+    (void)state;
+    (void)snprintf(deep, sizeof deep, "%s/x", folder);
+    (void)snprintf(deeper, sizeof deeper, "%s//y/", deep);
+    assert_true(output_make_folder(".", at, reason));
+    assert_true(output_make_folder("/", at, reason));
+    for (int k = 0; k < 2; k++) { /* the second time they are there */
+        assert_true(output_make_folder(deeper, at, reason));
+        assert_int_equal(stat(deeper, &found), 0);
+        assert_true(S_ISDIR(found.st_mode));
+    }
+    assert_int_equal(rmdir(deeper), 0);
+    assert_int_equal(rmdir(deep), 0);
+}
+
+static void what_is_in_the_way_of_a_folder_is_named(void **state)
+{
+    char below[80], at[OUTPUT_PATH], reason[OUTPUT_REASON];
+    (void)state;
+    leave_text(path);
+    (void)snprintf(below, sizeof below, "%s/x", path);
+    assert_false(output_make_folder(below, at, reason));
+    assert_string_equal(at, path);
+    assert_string_equal(reason, "the folder cannot be made (Not a directory)");
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(symlink("nowhere", path), 0);
+    assert_false(output_make_folder(path, at, reason));
+    assert_string_equal(at, path);
+    assert_string_equal(reason, "the folder cannot be made (No such file or directory)");
+}
+
+#define CASE(name) cmocka_unit_test_teardown(name, sweep)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        CASE(a_hash_has_sixteen_digits),
+        CASE(an_output_lies_in_its_folder),
+        CASE(a_path_that_does_not_fit_is_refused),
+        CASE(an_empty_folder_is_free),
+        CASE(the_same_run_is_done),
+        CASE(another_run_of_the_same_problem_may_go_on_to_a_later_end),
+        CASE(another_problem_is_not_replaced),
+        CASE(a_file_of_another_kind_is_not_replaced),
+        CASE(a_part_of_the_same_problem_may_be_replaced),
+        CASE(a_part_of_another_problem_is_not_replaced),
+        CASE(a_part_cut_off_at_its_beginning_may_be_replaced),
+        CASE(the_result_counts_more_than_a_part),
+        CASE(folders_are_made_down_to_the_last),
+        CASE(what_is_in_the_way_of_a_folder_is_named),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

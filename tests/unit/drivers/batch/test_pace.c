@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* pace.c: what it says of a pair of masses on a spring, whose highest frequency is known, and of a thrown node. */
+#include "pace.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "verification/support.h"
+
+static const double omega = 10.0, length = 1.0;
+static char text[4096];
+
+/* Two masses of 2 kg: omega^2 = 2 k/m. */
+static void open_pair(support_run *run, const dem_options *options)
+{
+    const double x[4] = {0.0, 0.0, length, 0.0}, m[2] = {2.0, 2.0};
+    const dem_index ends[2] = {0, 1};
+    dem_lattice lattice;
+    support_lattice(&lattice, 2, x, m, 1, ends, length, 0.5 * omega * omega * m[0] * length, NULL);
+    support_open(run, &lattice, NULL, 0, options);
+    dem_lattice_free(&lattice);
+}
+
+static FILE *open_log(void)
+{
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    return file;
+}
+
+static void read_log(FILE *file)
+{
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    assert_int_equal(fclose(file), 0);
+}
+
+static void print_plan(const dem_options *options)
+{
+    support_run run;
+    FILE *file = open_log();
+    open_pair(&run, options);
+    pace_print(file, 7.0, run.simulation);
+    support_close(&run);
+    read_log(file);
+}
+
+static void the_bound_is_that_of_the_method(void **state)
+{
+    dem_options options = dem_options_default();
+    (void)state;
+    options.kernel = DEM_KERNEL_PORTABLE;
+    print_plan(&options);
+    assert_string_equal(
+        text, "time       t_end 7 s, fehlberg45 of order 5, rtol 1e-06, largest step 0.05 s\n"
+              "stability  omega_max h = 0.5; with fehlberg45 undamped oscillations grow at any step, here by "
+              "up to 1.3e-05 in one\n"
+              "kernel     portable, 1 thread\n"
+              "formula 6  (|v_x| + |v_y|) h/spacing = 0.00025 at v_scale along x; it does not bound the step\n");
+    options.method = DEM_METHOD_VERLET;
+    options.v_scale = 3.0;
+    options.threads = 2;
+    print_plan(&options);
+    assert_string_equal(
+        text, "time       t_end 7 s, verlet of order 2, rtol 1e-06, fixed step 0.025 s\n"
+              "stability  omega_max h = 0.25; verlet is stable up to 2, h = 0.2 s\n"
+              "kernel     portable, 2 threads\n"
+              "formula 6  (|v_x| + |v_y|) h/spacing = 0.075 at v_scale along x; it does not bound the step\n");
+}
+
+/* A fixed step above the bound: told whatever (6) says. */
+static void a_step_beyond_the_bound_is_warned_of(void **state)
+{
+    dem_options options = dem_options_default();
+    (void)state;
+    options.method = DEM_METHOD_VERLET;
+    for (int above = 0; above < 2; above++) {
+        options.fixed_step = above ? 0.2001 : 0.1999;
+        print_plan(&options);
+        assert_int_equal(strstr(text, "; WARNING: from 2 on the run may blow up\n") != NULL, above);
+    }
+}
+
+/* At 2.7 the fastest is damped with Fehlberg's weights, but slower ones grow: at 2 as in the closed form of |R|,
+ * R the exponential series to z^5/120 and z^6/2080. */
+static void the_growth_is_that_of_the_worst_oscillation(void **state)
+{
+    dem_options options = dem_options_default();
+    double largest = 0.0;
+    (void)state;
+    for (double z = 0.0; z < 2.7; z += 1e-3) {
+        const double z2 = z * z, re = 1.0 - z2 / 2.0 + z2 * z2 / 24.0 - z2 * z2 * z2 / 2080.0;
+        largest = fmax(largest, hypot(re, z * (1.0 - z2 / 6.0 + z2 * z2 / 120.0)) - 1.0);
+    }
+    assert_true(dem_method_growth(DEM_METHOD_FEHLBERG45, 2.7) < 1.0);
+    options.fixed_step = 0.27;
+    print_plan(&options);
+    const char *found = strstr(text, "here by up to ");
+    assert_non_null(found);
+    assert_close(strtod(found + strlen("here by up to "), NULL), largest, 0.06 * largest); /* two digits */
+    assert_non_null(strstr(text, " in one; WARNING: from 1.09 on the run may blow up\n"));
+}
+
+static void without_springs_nothing_bounds_the_step(void **state)
+{
+    const double x[2] = {0.0, 1.0}, v[2] = {1.0, 0.0};
+    support_run run;
+    FILE *file = open_log();
+    (void)state;
+    support_point(&run, 1.0, x, v, (const double[4]){-1.0, 0.0, 1.0, 0.0}, 2, 0.5);
+    pace_print(file, 1.0, run.simulation);
+    support_close(&run);
+    read_log(file);
+    assert_null(strstr(text, "stability"));
+    assert_non_null(strstr(text, "formula 6"));
+}
+
+static dem_status follow(void *context, const dem_simulation *simulation)
+{
+    dem_state state;
+    dem_simulation_state(simulation, &state);
+    pace_follow(context, simulation, &state);
+    return DEM_OK;
+}
+
+/* Thrown up, so that the first step is the fastest. */
+static void the_largest_value_of_6_is_that_of_the_fastest_step(void **state)
+{
+    const double x[2] = {0.0, 0.0}, v[2] = {-3.0, 4.0}, mass = 2.0, h = 0.01, g = 9.81;
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    support_run run;
+    pace p = {0};
+    const dem_observer observer = {.step = follow, .context = &p};
+    (void)state;
+    options.fixed_step = h, options.spacing = 0.5;
+    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    support_start(&lattice, NULL, v);
+    support_open(&run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    assert_ok(dem_simulation_observe(run.simulation, &observer));
+    assert_ok(dem_simulation_advance(run.simulation, 0.5));
+    assert_close(p.largest, (3.0 + 4.0 - g * h) * h / 0.5, 1e-14);
+    assert_close(p.t, h, 1e-15);
+    support_close(&run);
+    FILE *file = open_log();
+    pace_print_largest(file, &p);
+    read_log(file);
+    assert_string_equal(text, "formula 6  (|v_x| + |v_y|) h/spacing was 0.138 at most, at 1.0000e-02 s\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_bound_is_that_of_the_method),
+        cmocka_unit_test(a_step_beyond_the_bound_is_warned_of),
+        cmocka_unit_test(the_growth_is_that_of_the_worst_oscillation),
+        cmocka_unit_test(without_springs_nothing_bounds_the_step),
+        cmocka_unit_test(the_largest_value_of_6_is_that_of_the_fastest_step),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

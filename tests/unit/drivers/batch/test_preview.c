@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* preview.c: models of which all is known, and what is said of them. */
+#include "preview.h"
+
+#include "unit/logged.h"
+
+static void the_preview_tells_what_is_about_to_run(void **state)
+{
+    (void)state;
+    char name[] = "drops/drop.nml", title[] = "A title";
+    const deck d = {.path = name, .title = title, .hash = 0xabc, .t_end = 0.25, .frame_interval = 0.01};
+    logged *l = drop_node(false, d.t_end);
+    preview_print(l->file, &d, l->run.simulation, "there/drop.vtkhdf");
+    read_log(l);
+    assert_non_null(strstr(l->text, "drops/drop.nml"));
+    assert_non_null(strstr(l->text, "A title"));
+    assert_non_null(strstr(l->text, "0000000000000abc"));
+    assert_non_null(strstr(l->text, "there/drop.vtkhdf"));
+    assert_close(number_before(l->text, " nodes, "), 1.0, 0.0);
+    assert_close(number_before(l->text, " springs"), 0.0, 0.0);
+    assert_close(number_before(l->text, " segments"), 1.0, 0.0);
+    assert_close(number_in(l->text, "lattice", "mass"), mass, 0.0);
+    assert_close(number_in(l->text, "time", "t_end"), 0.25, 0.0);
+    assert_close(number_before(l->text, " frames"), 26.0, 0.0);       /* the one at 0 too */
+    assert_close(number_in(l->text, "estimate", "least"), 25.0, 0.0); /* steps of 0.01 s */
+    /* one chunk of 1024 rows of 49 numbers, and 26 frames of three */
+    assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (1024 * 49 * 8 + 26 * 24), 5e-4);
+    drop_logged(l);
+}
+
+/* Under a g of 5 m/s^2 a skin of 1e-5 m keeps up hops of 1e-2 m/s. */
+static void the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up(void **state)
+{
+    static const double rest_speed[3] = {0.0, 9.9e-3, 1.01e-2};
+    const double x[2] = {0.0, 1.0}, one = 1.0;
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dem_options options = dem_options_default();
+        dem_lattice node;
+        logged *l = calloc(1, sizeof *l);
+        assert_non_null(l);
+        options.spacing = options.v_scale = 1.0;
+        options.max_step = 0.01;
+        options.gravity[0] = 3.0;
+        options.gravity[1] = -4.0;
+        options.skin = 1e-5;
+        options.rest_speed = rest_speed[k];
+        support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
+        support_open(&l->run, &node, NULL, 0, &options);
+        dem_lattice_free(&node);
+        follow(l, false, d.t_end);
+        preview_print(l->file, &d, l->run.simulation, NULL);
+        read_log(l);
+        const char *told =
+            strstr(l->text, "\nwarning    'rest_speed' 0.0099 m/s is below sqrt(2 g skin) = 0.01 m/s: where ");
+        assert_int_equal(told != NULL, k == 1);
+        assert_int_equal(strstr(l->text, "warning") != NULL, k == 1);
+        drop_logged(l);
+    }
+}
+
+static void the_preview_tells_what_is_probed_and_where(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    dem_probe probes[3] = {{"foot", DEM_PROBE_NODE, {2, 0}, 1},
+                           {"strut", DEM_PROBE_SPRING, {1, 0}, 30},
+                           {"span", DEM_PROBE_GAUGE, {0, 2}, 1}};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .probes = probes, .n_probes = 3};
+    logged *l = press(d.t_end);
+    const dem_lattice *lattice = dem_model_lattice(l->run.model);
+    const double *a = lattice->x + 2 * lattice->ends[2], *b = lattice->x + 2 * lattice->ends[3];
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nprobe      foot: node 2 at (1, 0) m\n"));
+    assert_non_null(strstr(l->text, "\nprobe      span: gauge from node 0 to 2 at (0, 0) m\n"));
+    assert_close(number_in(l->text, "probe", "strut: spring"), 1.0, 0.0);
+    assert_close(number_in(l->text, "probe", "strut: spring 1 at ("), 0.5 * (a[0] + b[0]), six_digits);
+    /* 25000 steps: chunks of 1024 rows, of the history, foot and span, and one of the strut */
+    assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (25 * (40 + 9 + 3) + 3) * 1024 * 8, 0.05);
+    drop_logged(l);
+}
+
+/* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
+static void the_preview_tells_what_was_measured_of_each_body(void **state)
+{
+    (void)state;
+    const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 0.5};
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    const double x[2] = {9.0, 9.0}, one = 1.0;
+    dem_options options = dem_options_default();
+    dem_lattice lattice, node;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.v_scale = 1.0;
+    assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
+    assert_ok(dem_lattice_assemble(&lattice, &solid));
+    support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
+    assert_ok(dem_lattice_append(&lattice, &node));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    dem_lattice_free(&node);
+    follow(l, false, d.t_end);
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_close(number_in(l->text, "constants", "E"), 1e7, 1.0);
+    assert_close(number_in(l->text, "constants", "nu"), 0.1, 1e-6);
+    assert_close(number_in(l->text, "constants", "anisotropy"), 1.0, 1e-4);
+    assert_close(number_in(l->text, "constants", "waves"), 100.0 / sqrt(0.99), 1e-2);
+    assert_close(number_in(l->text, "constants", "and"), 100.0 / sqrt(2.2), 1e-2);
+    assert_non_null(strstr(l->text, "\nconstants  body 2: not measured: the body has no triangles, "));
+    assert_close(number_in(l->text, "frequency", "highest") * number_in(l->text, "frequency", "is"),
+                 dem_model_omega_max(l->run.model), 1e-3 * dem_model_omega_max(l->run.model));
+    drop_logged(l);
+}
+
+/* A slice of a long body: its own E and nu, not those of the plate that moves alike. */
+static void the_preview_tells_the_constants_of_a_slice(void **state)
+{
+    (void)state;
+    const dem_material slice = {
+        .youngs_modulus = 1e7, .poissons_ratio = 0.45, .plane = DEM_PLANE_STRAIN, .density = 1000.0, .thickness = 1.0};
+    char name[] = "a.nml", title[] = "";
+    body_facts body = {.plane = DEM_PLANE_STRAIN};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &body, .n_bodies = 1};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    options.v_scale = 1.0;
+    assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
+    assert_ok(dem_lattice_assemble(&lattice, &slice));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, d.t_end);
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa, nu 0.45 in plane strain, anisotropy 1.0000, "));
+    drop_logged(l);
+}
+
+/* A body with everything that there may be to tell, and one from a file. */
+static void the_preview_tells_how_bodies_came_out(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[2] = {
+        {.mass = 2.5,
+         .true_mass = 4.0,
+         .form = {.area = 3.0, .pore_area = 1.0, .n_pores = 7, .n_cracked = 12},
+         .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
+         .removed = true,
+         .hinges = {.n = 1, .x = {6.0, 7.0}}},
+        {.mass = 1.0, .loose = {.n = 1, .size = {3}}},
+    };
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
+    logged *l = drop_node(false, d.t_end);
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nmass       body 1: 2.5 kg, of the true shape 4 kg (ratio 0.6250)\n"));
+    assert_non_null(strstr(l->text, "\npores      body 1: 7, of porosity 0.2500\n"));
+    assert_non_null(strstr(l->text, "\ncracks     body 1: through 12 triangles, which are taken away\n"));
+    assert_non_null(strstr(l->text, "\nparts      body 1: 2 removed, of 5 triangles at (0.5, 2), 1 at (3, 4) m in its "
+                                    "own coordinates\n"));
+    assert_non_null(
+        strstr(l->text, "\nhinges     body 1: 1 node between triangles that share no edge, one at (6, 7) m\n"));
+    assert_non_null(strstr(l->text, "\nparts      body 2: 1 apart from the largest, of 3 nodes at (0, 0) m in its own "
+                                    "coordinates\n"));
+    assert_null(strstr(l->text, "mass       body 2"));
+    drop_logged(l);
+}
+
+static void a_long_list_of_bodies_is_cut(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[17];
+    for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 17};
+    logged *l = drop_node(false, d.t_end);
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "mass       body 16: "));
+    assert_null(strstr(l->text, "mass       body 17: "));
+    assert_non_null(strstr(l->text, "\nbodies     of 17 the first 16 are listed\n"));
+    drop_logged(l);
+}
+
+static void without_an_output_none_is_told(void **state)
+{
+    (void)state;
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    logged *l = drop_node(false, d.t_end);
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_false(has_line(l->text, "output"));
+    assert_true(has_line(l->text, "deck"));
+    drop_logged(l);
+}
+
+static void versions_are_those_in_use(void **state)
+{
+    (void)state;
+    char text[512], cut[16];
+    preview_versions(text, sizeof text);
+    assert_null(strchr(text, '\n'));
+    assert_non_null(strstr(text, dem_version()));
+    assert_non_null(strstr(text, dem_version_sundials()));
+    assert_non_null(strstr(text, dem_version_hdf5()));
+    preview_versions(cut, sizeof cut);
+    assert_int_equal(strlen(cut), sizeof cut - 1);
+}
+
+static void print_header(logged *l)
+{
+    char name[] = "a.nml", title[] = "";
+    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
+    preview_print(l->file, &d, l->run.simulation, NULL);
+    read_log(l);
+}
+
+static void the_preview_tells_the_rules_of_impact(void **state)
+{
+    (void)state;
+    dem_obstacle floor = {0};
+    dem_options options = dem_options_default();
+    for (int on = 0; on <= 1; on++) {
+        options.window = on ? 2.5e-5 : 0.0, options.vertices = on;
+        options.contact = on ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+        logged *l = new_floors(1, &floor, &options);
+        print_header(l);
+        assert_non_null(strstr(l->text, on ? "\nimpacts    exact, window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
+                                           : "\nimpacts    local, window 0 s (each by itself), vertices off\n"));
+        assert_false(has_line(l->text, "friction") || has_line(l->text, "damping"));
+        drop_logged(l);
+    }
+}
+
+static void the_preview_tells_friction_and_damping(void **state)
+{
+    (void)state;
+    dem_obstacle floors[4] = {{.friction = 0.3},
+                              {.friction = 0.0},
+                              {.friction = 0.5, .friction_law = DEM_FRICTION_PAPER},
+                              {.friction = 1.0, .friction_law = DEM_FRICTION_PAPER}};
+    dem_options options = dem_options_default();
+    options.mass_damping = 0.75;
+    logged *l = new_floors(4, floors, &options);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nfriction   obstacle 1: 0.3 (Coulomb)\nfriction   obstacle 3: 0.5 (paper)\n"
+                                    "damping    of masses: 0.75 1/s\n"));
+    drop_logged(l);
+}
+
+static void the_preview_tells_the_damping_of_springs(void **state)
+{
+    (void)state;
+    const dem_material solid = {
+        .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0, .damping_time = 2e-6};
+    const dem_options options = dem_options_default();
+    dem_lattice lattice;
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, 0.01));
+    assert_ok(dem_lattice_assemble(&lattice, &solid));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+    follow(l, false, 1e-5);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\ndamping    of springs: 2e-06 s\n"));
+    drop_logged(l);
+}
+
+static void of_many_obstacles_only_the_first_are_listed(void **state)
+{
+    (void)state;
+    dem_obstacle floors[20];
+    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25};
+    const dem_options options = dem_options_default();
+    logged *l = new_floors(20, floors, &options);
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nfriction   obstacle 16: 0.25 (Coulomb)\nfriction   on 20 obstacles in all\n"));
+    drop_logged(l);
+}
+
+static void of_many_bodies_only_the_first_are_measured(void **state)
+{
+    (void)state;
+    logged *l = new_held();
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nconstants  bodies 17 to 20: not measured\n"));
+    drop_logged(l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_preview_tells_what_is_about_to_run),
+        cmocka_unit_test(the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up),
+        cmocka_unit_test(the_preview_tells_what_is_probed_and_where),
+        cmocka_unit_test(the_preview_tells_what_was_measured_of_each_body),
+        cmocka_unit_test(the_preview_tells_the_constants_of_a_slice),
+        cmocka_unit_test(the_preview_tells_how_bodies_came_out),
+        cmocka_unit_test(a_long_list_of_bodies_is_cut),
+        cmocka_unit_test(without_an_output_none_is_told),
+        cmocka_unit_test(versions_are_those_in_use),
+        cmocka_unit_test(the_preview_tells_the_rules_of_impact),
+        cmocka_unit_test(the_preview_tells_friction_and_damping),
+        cmocka_unit_test(the_preview_tells_the_damping_of_springs),
+        cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
+        cmocka_unit_test(of_many_bodies_only_the_first_are_measured),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* signals.c: what is asked for is noted. */
+#include "unit/close.h"
+
+#include <signal.h>
+
+#include "signals.h"
+
+static void a_checkpoint_is_wanted_once(void **state)
+{
+    (void)state;
+    assert_false(signals_checkpoint());
+    assert_int_equal(raise(SIGUSR1), 0);
+    assert_true(signals_checkpoint());
+    assert_false(signals_checkpoint());
+    assert_null(signals_end());
+}
+
+static void the_signal_that_asks_for_the_end_is_named(void **state)
+{
+    (void)state;
+    static const struct {
+        int number;
+        const char *name;
+    } all[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGXCPU, "SIGXCPU"}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        assert_int_equal(raise(all[k].number), 0);
+        assert_string_equal(signals_end(), all[k].name);
+    }
+    assert_int_equal(raise(SIGPIPE), 0); /* is survived */
+    assert_int_equal(raise(SIGXFSZ), 0);
+}
+
+static void what_is_ignored_stays_so(void **state)
+{
+    (void)state;
+    struct sigaction now;
+    assert_true(signal(SIGINT, SIG_IGN) != SIG_ERR);
+    signals_catch();
+    assert_int_equal(sigaction(SIGINT, NULL, &now), 0);
+    assert_true(now.sa_handler == SIG_IGN);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_checkpoint_is_wanted_once),
+                                       cmocka_unit_test(the_signal_that_asks_for_the_end_is_named),
+                                       cmocka_unit_test(what_is_ignored_stays_so)};
+    signals_catch();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* body.c: from groups to a lattice in its place, with numbers worked out by hand. A tolerance of 1e-12 is the rounding
+ * of a lattice of some metres. What is wrong is looked at for its place and the words that name it; whole sentences are
+ * test_deck's. */
+#include "unit/reading.h"
+
+#include <stdlib.h>
+
+#include "body.h"
+
+#define RUN    "&run t_end = 1 /\n"
+#define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, thickness = 0.5 /\n"
+#define BLOCK  "&body shape = 'rectangle', size = 4, 2, spacing = 0.5, material = 'rubber'"
+#define FLOOR  "&obstacle points = -9, 0, 9, 0 /\n"
+#define DISC   "&body shape = 'disc', radius = 1, spacing = 0.25, material = 'rubber'"
+
+static const double tiny = 1e-12, quarter = 1.5707963267948966; /* rad */
+static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0}, low_points[4] = {-9.0, -3.0, 9.0, -3.0};
+static const dem_obstacle flat_floors[2] = {{.n_points = 2, .points = low_points, .restitution = 0.0},
+                                            {.n_points = 2, .points = floor_points, .restitution = 0.0}};
+
+/* A body built from a text. Tests free it with drop_built(). */
+typedef struct built {
+    resolved from;
+    namelist_errors errors;
+    body_scene scene;
+    body_facts facts;
+    body_start start;
+    dem_lattice lattice;
+} built;
+
+/* In place: the scene points to the deck. */
+static void build(built *b, const char *text, size_t k, const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    *b = (built){.from = resolve_clean(text)};
+    const double *gravity = schema_value_of(schema_get(&b->from.deck, "run", 0), "gravity")->reals;
+    b->scene = (body_scene){&b->from.deck, "", obstacles, n_obstacles, {gravity[0], gravity[1]}};
+    body_check_all(&b->from.deck, &b->errors);
+    if (b->errors.n > 0) fail_msg("'%s' gives '%s'", text, b->errors.list[0].text);
+    assert_true(body_build(&b->lattice, &b->facts, &b->start, &b->scene, k, &b->errors));
+}
+
+static void build_good(built *b, const char *text, const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    build(b, text, 0, obstacles, n_obstacles);
+    if (b->errors.n > 0) fail_msg("'%s' gives '%s'", text, b->errors.list[0].text);
+    assert_true(b->lattice.n_nodes > 0);
+}
+
+static void drop_built(built *b)
+{
+    dem_lattice_free(&b->lattice);
+    namelist_errors_free(&b->errors);
+    drop_resolved(&b->from);
+}
+
+static void expect_box(const dem_lattice *lattice, double left, double bottom, double right, double top)
+{
+    double least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+    for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) {
+        least[k % 2] = fmin(least[k % 2], lattice->x[k]);
+        most[k % 2] = fmax(most[k % 2], lattice->x[k]);
+    }
+    assert_close(least[0], left, tiny);
+    assert_close(least[1], bottom, tiny);
+    assert_close(most[0], right, tiny);
+    assert_close(most[1], top, tiny);
+}
+
+static double mass_of(const dem_lattice *lattice)
+{
+    double mass = 0.0;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) mass += lattice->mass[i];
+    return mass;
+}
+
+/* Distance of the node nearest to a point. */
+static double distance_to(const dem_lattice *lattice, double x, double y)
+{
+    double least = INFINITY;
+    for (dem_index i = 0; i < lattice->n_nodes; i++)
+        least = fmin(least, hypot(lattice->x[2 * i] - x, lattice->x[2 * i + 1] - y));
+    return least;
+}
+
+/* Rows are sqrt(3)/2 of the spacing apart: five of them make the block's height. */
+static const double height = 5.0 * 0.5 * 0.86602540378443865;
+
+/* ---- shape, material ---- */
+
+static void a_rectangle_stands_on_its_origin_and_turns_about_it(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", position = 10, 20 /", NULL, 0);
+    expect_box(&b.lattice, 8.0, 20.0, 12.0, 20.0 + height);
+    drop_built(&b);
+    build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /", NULL, 0);
+    expect_box(&b.lattice, 10.0 - height, 18.0, 10.0, 22.0);
+    drop_built(&b);
+}
+
+static void a_disc_is_placed_by_its_centre(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER DISC ", position = -3, 2, angle = 33 /", NULL, 0);
+    assert_close(distance_to(&b.lattice, -3.0, 2.0), 0.0, tiny);
+    for (dem_index i = 0; i < b.lattice.n_nodes; i++)
+        assert_true(hypot(b.lattice.x[2 * i] + 3.0, b.lattice.x[2 * i + 1] - 2.0) <= 1.0 + tiny);
+    drop_built(&b);
+}
+
+/* 5 rows of 8 and 7 triangles in turn, upwards and downwards: the sawteeth of the sides are missing. */
+static void mass_is_density_times_thickness_times_area(void **state)
+{
+    (void)state;
+    built b;
+    const double triangle = 0.25 * 0.43301270189221932; /* spacing^2 sqrt(3)/4, m^2 */
+    build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
+    assert_int_equal(b.lattice.n_triangles, 5 * 15);
+    assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 75.0 * triangle, 1e-9); /* rounding of 1e4 kg */
+    assert_close(b.start.rest_length, 0.5, tiny);
+    drop_built(&b);
+}
+
+static void the_material_is_found_by_its_name(void **state)
+{
+    (void)state;
+    built b, c;
+    const char *others = RUN "&material youngs_modulus = 1, density = 3000, thickness = 0.5 /\n" RUBBER;
+    char text[512];
+    (void)snprintf(text, sizeof text, "%s%s /", others, BLOCK);
+    build_good(&b, text, NULL, 0);
+    (void)snprintf(text, sizeof text, "%s&body shape = 'rectangle', size = 4, 2, spacing = 0.5 /", others);
+    build_good(&c, text, NULL, 0);
+    assert_close(mass_of(&c.lattice) / mass_of(&b.lattice), 3.0, tiny); /* 'solid' is the default of both names */
+    drop_built(&b);
+    drop_built(&c);
+}
+
+/* k = E h/(1 + nu) of a side between two cells, times its length; r k, times its length, of a diagonal. */
+static void squares_have_the_springs_of_their_diagonal(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", lattice = 'square', diagonal = 0.25 /", NULL, 0);
+    const double k = 1e7 * 0.5 / (4.0 / 3.0);
+    assert_int_equal(b.lattice.n_nodes, 9 * 5);
+    assert_int_equal(b.lattice.n_springs, 8 * 5 + 9 * 4 + 2 * 8 * 4);
+    for (dem_index s = 0; s < b.lattice.n_springs; s++) {
+        const double length = b.lattice.rest_length[s], share = b.lattice.stiffness[s] / (k * length);
+        assert_true(length > 0.6 ? fabs(share - 0.25) < tiny : fabs(share - 1.0) < tiny || fabs(share - 0.5) < tiny);
+    }
+    assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 8.0, 1e-9);
+    drop_built(&b);
+}
+
+static void a_bond_stiffness_is_that_of_every_spring(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN "&material name = 'rubber', bond_stiffness = 700, density = 1000 /\n" BLOCK " /", NULL, 0);
+    for (dem_index s = 0; s < b.lattice.n_springs; s++) assert_close(b.lattice.stiffness[s], 700.0, 0.0);
+    assert_null(b.lattice.area_stiffness);
+    drop_built(&b);
+}
+
+/* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as are told. */
+static void an_inclusion_has_its_own_material(void **state)
+{
+    (void)state;
+    built b;
+    const double triangle = 0.25 * 0.43301270189221932;
+    build_good(&b,
+               RUN "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n" RUBBER BLOCK
+                   " /\n&inclusion material = 'heavy', centre = 0, 1, radius = 0.7 /",
+               NULL, 0);
+    assert_true(b.facts.n_included > 8);
+    assert_close(mass_of(&b.lattice), (500.0 * 75.0 + 1000.0 * (double)b.facts.n_included) * triangle, 1e-9);
+    assert_close(b.facts.true_mass, 500.0 * 8.0 + 1000.0 * 0.49 * 2.0 * quarter, 0.1);
+    drop_built(&b);
+}
+
+static void all_nodes_have_the_velocity(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", velocity = 3, -4, angle = 45 /", NULL, 0);
+    assert_non_null(b.lattice.velocity);
+    for (dem_index k = 0; k < 2 * b.lattice.n_nodes; k++)
+        assert_close(b.lattice.velocity[k], k % 2 ? -4.0 : 3.0, 0.0); /* not turned with the body */
+    drop_built(&b);
+}
+
+/* ---- voids and pores ---- */
+
+static void a_void_turns_with_its_body(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /\n&void centre = 1, 1, radius = 0.6 /", NULL, 0);
+    const double hole = distance_to(&b.lattice, 10.0 - 1.0, 20.0 + 1.0); /* (1, 1) turned by a quarter */
+    assert_true(hole >= 0.6 - tiny);
+    assert_true(distance_to(&b.lattice, 10.0 - 1.0, 20.0 - 1.0) < 0.3); /* (-1, 1) is full of nodes */
+    drop_built(&b);
+}
+
+static void voids_and_pores_of_other_bodies_do_nothing(void **state)
+{
+    (void)state;
+    built b, c;
+    build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
+    build_good(&c,
+               RUN RUBBER BLOCK " /\n" DISC " /\n&void body = 2, centre = 0, 0, radius = 0.3 /\n"
+                                "&pores body = 2, number = 1, radius = 0.1, 0.1, wall = 0.05 /",
+               NULL, 0);
+    assert_int_equal(b.lattice.n_nodes, c.lattice.n_nodes);
+    assert_memory_equal(b.lattice.x, c.lattice.x, 2 * (size_t)b.lattice.n_nodes * sizeof(double));
+    drop_built(&b);
+    drop_built(&c);
+}
+
+static void the_seed_makes_the_pores(void **state)
+{
+    (void)state;
+    static const char *const seeds[] = {"7", "7", "8"};
+    built b[3];
+    for (int k = 0; k < 3; k++) {
+        char text[512];
+        (void)snprintf(text, sizeof text,
+                       "%s&body shape = 'rectangle', size = 4, 2, spacing = 0.05, material = "
+                       "'rubber' /\n&pores number = 5, radius = 0.1, 0.2, seed = %s /",
+                       RUN RUBBER, seeds[k]);
+        build_good(&b[k], text, NULL, 0);
+    }
+    const size_t size = 2 * (size_t)b[0].lattice.n_nodes * sizeof(double);
+    assert_int_equal(b[0].lattice.n_nodes, b[1].lattice.n_nodes);
+    assert_memory_equal(b[0].lattice.x, b[1].lattice.x, size);
+    assert_true(b[0].lattice.n_nodes != b[2].lattice.n_nodes || memcmp(b[0].lattice.x, b[2].lattice.x, size) != 0);
+    for (int k = 0; k < 3; k++) drop_built(&b[k]);
+}
+
+/* ---- how it starts ---- */
+
+/* Turned counter-clockwise by a little, the left lower corner sinks. */
+static void the_start_is_told_by_the_lowest_node(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", position = 1, 0.25, angle = 1e-3 /", flat_floors, 2);
+    const double sunk = 2.0 * sin(1e-3 * quarter / 90.0);
+    assert_close(b.start.depth, sunk - 0.25, tiny);
+    assert_close(b.start.x[0], 1.0 - 2.0 * cos(1e-3 * quarter / 90.0), tiny);
+    assert_close(b.start.x[1], 0.25 - sunk, tiny);
+    drop_built(&b);
+    build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
+    assert_true(isinf(b.start.depth) && b.start.depth < 0);
+    drop_built(&b);
+}
+
+/* Gravity along (3, -4)/5: a move by s changes the gap by 0.8 s and x by 0.6 s. */
+static void clearance_moves_along_gravity(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, "&run t_end = 1, gravity = 6, -8 /\n" RUBBER BLOCK ", position = 0, 4, clearance = 0.5 /\n" FLOOR,
+               flat_floors + 1, 1);
+    const double moved = (4.0 - 0.5) / 0.8;
+    /* 1e-6: the clearance is found as the root of the gap */
+    assert_close(distance_to(&b.lattice, -2.0 + 0.6 * moved, 0.5), 0.0, 1e-6);
+    assert_close(distance_to(&b.lattice, 2.0 + 0.6 * moved, 0.5), 0.0, 1e-6);
+    assert_close(b.start.depth, -0.5, 1e-6);
+    drop_built(&b);
+}
+
+static void a_start_is_refused_if_deeper_than_the_skin(void **state)
+{
+    (void)state;
+    built b;
+    build_good(&b, RUN RUBBER BLOCK ", position = 0, -0.25 /", flat_floors, 2);
+    assert_close(b.start.depth, 0.25, tiny);
+    assert_true(body_check_start(&b.scene, 0, &b.start, 0.26, &b.errors));
+    assert_int_equal(b.errors.n, 0);
+    assert_true(body_check_start(&b.scene, 0, &b.start, 0.24, &b.errors));
+    assert_int_equal(b.errors.n, 1);
+    assert_int_equal(b.errors.list[0].place.line, 3);
+    assert_non_null(strstr(b.errors.list[0].text, "body 1"));
+    assert_non_null(strstr(b.errors.list[0].text, "obstacle 2")); /* it is in front of the first */
+    drop_built(&b);
+}
+
+/* ---- what cannot be built ---- */
+
+/* One fault, in a line, with a word; nothing is handed out. */
+static void expect_fault(const char *text, size_t k, int line, const char *word)
+{
+    built b;
+    build(&b, text, k, flat_floors, 2);
+    assert_int_equal(b.errors.n, 1);
+    assert_int_equal(b.errors.list[0].place.line, line);
+    if (strstr(b.errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, b.errors.list[0].text);
+    assert_int_equal(b.lattice.n_nodes, 0);
+    assert_null(b.lattice.x);
+    assert_null(b.lattice.stiffness);
+    drop_built(&b);
+}
+
+static void a_fault_is_placed_and_leaves_no_lattice(void **state)
+{
+    (void)state;
+    const char *two = RUN RUBBER BLOCK " /\n" DISC ", position = 0, 9 /\n";
+    char text[512];
+    (void)snprintf(text, sizeof text, "%s&void body = 2, centre = 0, 0, radius = 5 /", two);
+    expect_fault(text, 1, 4, "body 2");
+    (void)snprintf(text, sizeof text, "%s&pores body = 2, number = 99, radius = 0.5, 0.5 /", two);
+    expect_fault(text, 1, 5, "body 2");
+    expect_fault(RUN RUBBER BLOCK ", position = 99, 0, clearance = 1 /\n" FLOOR, 0, 3, "clearance");
+    expect_fault(RUN RUBBER BLOCK " /\n&void shape = 'rectangle', centre = 0.7, 1, size = 0.6, 4 /", 0, 3,
+                 "disconnected");
+    expect_fault(RUN RUBBER BLOCK ", position = 0, 1e16 /", 0, 3, "coordinates");
+    expect_fault(RUN "\n&body shape = 'file', file = 'no/such/file.h5' /", 0, 3, "no/such/file.h5");
+}
+
+/* ---- checks without geometry ---- */
+
+static void assert_checked(const char *text, int line, const char *word)
+{
+    namelist_errors errors = {0};
+    resolved r = resolve_clean(text);
+    body_check_all(&r.deck, &errors);
+    if (word == NULL) {
+        if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
+    } else {
+        assert_int_equal(errors.n, 1);
+        assert_int_equal(errors.list[0].place.line, line);
+        if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
+    }
+    namelist_errors_free(&errors);
+    drop_resolved(&r);
+}
+
+static void sizes_of_the_spacing_and_more_pass(void **state)
+{
+    (void)state;
+    assert_checked(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /", 0, NULL);
+    assert_checked(RUN RUBBER "&body shape = 'rectangle', size = 1, 1, spacing = 1, material = 'rubber' /", 0, NULL);
+    assert_checked(RUN RUBBER "&body shape = 'rectangle', size = 9, 1,\n spacing = 1.01, material = 'rubber' /", 4,
+                   "spacing");
+    assert_checked(RUN RUBBER "&body shape = 'rectangle', size = 1, 9,\n spacing = 1.01, material = 'rubber' /", 4,
+                   "spacing");
+}
+
+static void files_need_no_material_and_others_do(void **state)
+{
+    (void)state;
+    assert_checked(RUN "&body shape = 'file', file = 'a.h5' /", 0, NULL);
+    assert_checked(RUN "&body shape = 'file', file = '' /", 2, "file");
+    assert_checked(RUN "&body shape = 'disc', radius = 1, spacing = 1 /", 1, "material");
+}
+
+static void a_long_list_of_materials_is_cut(void **state)
+{
+    (void)state;
+    static const char name[] = "a_name_of_more_than_forty_characters_and_then_some";
+    char text[16384] = RUN;
+    for (int k = 0; k < 70; k++) {
+        const size_t n = strlen(text);
+        (void)snprintf(text + n, sizeof text - n, "&material name = '%s%d', youngs_modulus = 1, density = 1 /\n", name,
+                       k);
+    }
+    (void)strcat(text, "&body shape = 'disc', radius = 1, spacing = 1, material = 'x' /");
+    assert_checked(text, 72, "...");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rectangle_stands_on_its_origin_and_turns_about_it),
+        cmocka_unit_test(a_disc_is_placed_by_its_centre),
+        cmocka_unit_test(mass_is_density_times_thickness_times_area),
+        cmocka_unit_test(the_material_is_found_by_its_name),
+        cmocka_unit_test(squares_have_the_springs_of_their_diagonal),
+        cmocka_unit_test(a_bond_stiffness_is_that_of_every_spring),
+        cmocka_unit_test(an_inclusion_has_its_own_material),
+        cmocka_unit_test(all_nodes_have_the_velocity),
+        cmocka_unit_test(a_void_turns_with_its_body),
+        cmocka_unit_test(voids_and_pores_of_other_bodies_do_nothing),
+        cmocka_unit_test(the_seed_makes_the_pores),
+        cmocka_unit_test(the_start_is_told_by_the_lowest_node),
+        cmocka_unit_test(clearance_moves_along_gravity),
+        cmocka_unit_test(a_start_is_refused_if_deeper_than_the_skin),
+        cmocka_unit_test(a_fault_is_placed_and_leaves_no_lattice),
+        cmocka_unit_test(sizes_of_the_spacing_and_more_pass),
+        cmocka_unit_test(files_need_no_material_and_others_do),
+        cmocka_unit_test(a_long_list_of_materials_is_cut),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

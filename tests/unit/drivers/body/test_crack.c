@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* crack.c: which triangles a crack takes, and that it separates its faces. */
+#include "unit/solids.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "crack.h"
+
+static const double row = 0.86602540378443864676, shift = 1e-6;
+
+/* Cuts a lattice; returns the number of triangles crossed. */
+static dem_index cut(dem_lattice *lattice, const double *points, size_t n_points)
+{
+    unsigned char *keep = malloc((size_t)lattice->n_triangles);
+    assert_non_null(keep);
+    memset(keep, 1, (size_t)lattice->n_triangles);
+    const dem_index n = crack_mark(keep, lattice, points, n_points, shift);
+    dem_index left = 0;
+    for (dem_index t = 0; t < lattice->n_triangles; t++) left += keep[t];
+    assert_int_equal(left, lattice->n_triangles - n);
+    if (n > 0) assert_int_equal(dem_lattice_trim(lattice, keep), DEM_OK);
+    free(keep);
+    return n;
+}
+
+static dem_index count_pieces(const dem_lattice *lattice)
+{
+    dem_index n;
+    assert_int_equal(dem_lattice_pieces(lattice, &n, NULL), DEM_OK);
+    return n;
+}
+
+/* No node is of both pieces, so that no spring can join them. */
+static void expect_separate(const dem_lattice *lattice)
+{
+    dem_index n, *piece = calloc((size_t)lattice->n_triangles, sizeof *piece);
+    dem_index *of_node = calloc((size_t)lattice->n_nodes, sizeof *of_node);
+    assert_true(piece != NULL && of_node != NULL);
+    assert_int_equal(dem_lattice_pieces(lattice, &n, piece), DEM_OK);
+    assert_int_equal(n, 2);
+    for (dem_index k = 0; k < 3 * lattice->n_triangles; k++) {
+        dem_index *of = &of_node[lattice->triangles[k]];
+        if (*of != 0) assert_int_equal(*of, piece[k / 3] + 1);
+        *of = piece[k / 3] + 1;
+    }
+    free(piece);
+    free(of_node);
+}
+
+/* A strip of 8 x 7 rows; row 3 is at 3 sqrt(3)/2. */
+static void a_crack_along_a_row_takes_the_triangles_on_its_left(void **state)
+{
+    (void)state;
+    const double right[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row}, left[4] = {9.0, 3.0 * row, -9.0, 3.0 * row};
+    dem_lattice up = make_rectangle(8.0, 6.0 * row, 1.0), down = make_rectangle(8.0, 6.0 * row, 1.0);
+    assert_int_equal(cut(&up, right, 2), 15);
+    assert_int_equal(cut(&down, left, 2), 15);
+    expect_separate(&up);
+    expect_separate(&down);
+    for (dem_index t = 0; t < up.n_triangles; t++) {
+        double y = 0.0, z = 0.0;
+        for (int c = 0; c < 3; c++) {
+            y += up.x[2 * up.triangles[3 * t + c] + 1] / 3.0;
+            z += down.x[2 * down.triangles[3 * t + c] + 1] / 3.0;
+        }
+        assert_true(y < 3.0 * row || y > 4.0 * row);
+        assert_true(z < 2.0 * row || z > 3.0 * row);
+    }
+    dem_lattice_free(&up);
+    dem_lattice_free(&down);
+}
+
+/* Two triangles of each strip, on the left; the nodes that it passes through stay, on the right face. */
+static void a_crack_through_nodes_leaves_them_to_its_right(void **state)
+{
+    (void)state;
+    const double up[4] = {0.0, -1.0, 0.0, 9.0};
+    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    dem_index passed = 0;
+    assert_int_equal(cut(&lattice, up, 2), 12);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) passed += lattice.x[2 * i] == 0.0;
+    assert_int_equal(passed, 4);
+    expect_separate(&lattice);
+    dem_lattice_free(&lattice);
+}
+
+/* Through nodes, along edges, between them, bent at a node both ways, bent anywhere: two pieces, no common node. */
+static void a_crack_through_the_whole_body_separates_it(void **state)
+{
+    (void)state;
+    static const double cracks[][8] = {
+        {0.0, -1.0, 0.0, 0.1, 0.0, 3.0, 0.0, 9.0},                         /* upright, through nodes and edges */
+        {-2.0, -1.0, -1.0, 0.0, 0.0, 2.0 * 0.86602540378443864676, 5, 9},  /* bends at nodes, to the right */
+        {-9.0, 2.0, 0.0, 2.0 * 0.86602540378443864676, -1.0, 0.0, -1, -1}, /* at a node, to the right */
+        {-9.0, 2.0, 0.0, 2.0 * 0.86602540378443864676, 1.0, 4.0, 1, 9},    /* at a node, to the left */
+        {-9.0, 2.3, 0.3, 2.4, 0.7, 3.9, 9.0, 1.1},
+        {-9.0, 2.0, 0.01, 2.01, 0.02, 2.02, 9.0, 2.03}, /* short segments within a triangle */
+    };
+    for (size_t k = 0; k < sizeof cracks / sizeof *cracks; k++)
+        for (int back = 0; back < 2; back++) {
+            double points[8];
+            for (int i = 0; i < 8; i++) points[i] = back ? cracks[k][6 - i + 2 * (i % 2)] : cracks[k][i];
+            dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+            assert_true(cut(&lattice, points, 4) > 5);
+            if (count_pieces(&lattice) != 2)
+                fail_msg("crack %zu leaves %lld pieces", k, (long long)count_pieces(&lattice));
+            expect_separate(&lattice);
+            dem_lattice_free(&lattice);
+        }
+}
+
+/* Seeded random polylines from below the block to above it; small flakes between bends may come off as well. */
+static void random_cracks_separate_left_from_right(void **state)
+{
+    (void)state;
+    unsigned random = 7;
+    for (int k = 0; k < 200; k++) {
+        double points[10];
+        for (int i = 0; i < 5; i++) {
+            random = 1664525U * random + 1013904223U;
+            points[2 * i] = 4.0 * (random / 4294967296.0 - 0.5);
+            points[2 * i + 1] = -1.0 + 2.0 * i;
+        }
+        dem_lattice lattice = make_rectangle(12.0, 6.0 * row, 1.0);
+        assert_true(cut(&lattice, points, 5) > 5);
+        dem_index n, *piece = calloc((size_t)lattice.n_triangles, sizeof *piece), left = -1, right = -1;
+        assert_non_null(piece);
+        assert_int_equal(dem_lattice_pieces(&lattice, &n, piece), DEM_OK);
+        for (dem_index t = 0; t < lattice.n_triangles; t++) {
+            const double x = lattice.x[2 * lattice.triangles[3 * t]];
+            if (x < -5.0) left = piece[t];
+            if (x > 5.0) right = piece[t];
+        }
+        assert_true(left >= 0 && right >= 0 && left != right);
+        free(piece);
+        dem_lattice_free(&lattice);
+    }
+}
+
+static void a_crack_that_ends_inside_leaves_one_piece_with_two_faces(void **state)
+{
+    (void)state;
+    const double points[4] = {-9.0, 3.0 * row, 0.0, 3.0 * row};
+    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    dem_index upper = 0, lower = 0;
+    assert_int_equal(cut(&lattice, points, 2), 8); /* seven up to the tip, and the one above it */
+    assert_int_equal(count_pieces(&lattice), 1);
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
+    dem_index *rims = calloc((size_t)lattice.n_nodes, sizeof *rims);
+    assert_non_null(rims);
+    assert_int_equal(dem_lattice_rims(&lattice, rims), DEM_OK);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) {
+        const double x = lattice.x[2 * i], y = lattice.x[2 * i + 1];
+        lower += rims[i] == 2 && fabs(x + 2.0) < 1.6 && fabs(y - 3.0 * row) < 1e-9;
+        upper += rims[i] == 2 && fabs(x + 2.0) < 1.6 && fabs(y - 4.0 * row) < 1e-9;
+    }
+    assert_int_equal(lower, 4);
+    assert_int_equal(upper, 3);
+    free(rims);
+    dem_lattice_free(&lattice);
+}
+
+/* E h A/|e| for the one triangle that an edge on a face has: half of that inside. */
+static void the_faces_have_half_the_stiffness(void **state)
+{
+    (void)state;
+    const double points[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row};
+    const double half = rubber.youngs_modulus * rubber.thickness * 0.5 * row;
+    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    int faces = 0;
+    (void)cut(&lattice, points, 2);
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        const double *a = lattice.x + 2 * lattice.ends[2 * k], *b = lattice.x + 2 * lattice.ends[2 * k + 1];
+        const double y = 0.5 * (a[1] + b[1]);
+        assert_true(y < 3.0 * row + 1e-9 || y > 4.0 * row - 1e-9);
+        if (fabs(y - 3.0 * row) > 1e-9 && fabs(y - 4.0 * row) > 1e-9) continue;
+        assert_close(lattice.stiffness[k], half, 1e-9 * half);
+        faces++;
+    }
+    assert_int_equal(faces, 7 + 8);
+    dem_lattice_free(&lattice);
+}
+
+static void a_crack_elsewhere_takes_nothing(void **state)
+{
+    (void)state;
+    const double points[6] = {-9.0, -0.5, 9.0, -0.5, 4.5, 9.0};
+    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    assert_int_equal(cut(&lattice, points, 3), 0);
+    dem_lattice_free(&lattice);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_crack_along_a_row_takes_the_triangles_on_its_left),
+        cmocka_unit_test(a_crack_through_nodes_leaves_them_to_its_right),
+        cmocka_unit_test(a_crack_through_the_whole_body_separates_it),
+        cmocka_unit_test(random_cracks_separate_left_from_right),
+        cmocka_unit_test(a_crack_that_ends_inside_leaves_one_piece_with_two_faces),
+        cmocka_unit_test(the_faces_have_half_the_stiffness),
+        cmocka_unit_test(a_crack_elsewhere_takes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

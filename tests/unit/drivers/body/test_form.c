@@ -1,0 +1,491 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* form.c: from groups to a triangulation and its true area. What is wrong is looked at for its place and the words that
+ * name it; whole sentences are test_refused's. */
+#include "unit/reading.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "form.h"
+
+#define RUN    "&run t_end = 1 /\n"
+#define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
+#define BODY   "&body material = 'rubber', spacing = 0.1, shape = "
+#define BLOCK  BODY "'rectangle', size = 4, 2 /\n"
+#define DISC   BODY "'disc', radius = 1 /\n"
+#define MESH   "&body material = 'rubber', shape = 'mesh', scale = 0.5, file = "
+#define MASK   BODY "'mask', scale = 0.5, file = "
+
+static const double pi = 3.14159265358979323846;
+
+typedef struct formed {
+    dem_lattice lattice;
+    form form;
+} formed;
+
+/* Body k of a text after the groups of RUN and RUBBER. */
+static dem_status build(formed *out, const char *text, size_t k, namelist_errors *errors)
+{
+    char all[4096];
+    (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
+    resolved r = resolve_clean(all);
+    form_check_all(&r.deck, errors);
+    if (errors->n > 0) fail_msg("'%s' gives '%s'", text, errors->list[0].text);
+    form_drop_unused(&r.deck);
+    const dem_status status = form_triangulate(&out->lattice, &out->form, &r.deck, k, "", errors);
+    assert_int_equal(errors->n > 0, status != DEM_OK);
+    drop_resolved(&r);
+    return status;
+}
+
+static formed build_good(const char *text)
+{
+    formed f;
+    namelist_errors errors = {0};
+    if (build(&f, text, 0, &errors) != DEM_OK) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
+    return f;
+}
+
+static void expect_fault(const char *text, size_t k, int line, const char *word)
+{
+    formed f;
+    namelist_errors errors = {0};
+    assert_int_equal(build(&f, text, k, &errors), DEM_ERROR_MODEL);
+    assert_int_equal(errors.n, 1);
+    assert_int_equal(errors.list[0].place.line, line + 2);
+    if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
+    assert_null(f.lattice.x);
+    namelist_errors_free(&errors);
+}
+
+/* Distance of the node nearest to a point. */
+static double distance_to(const dem_lattice *lattice, double x, double y)
+{
+    double least = INFINITY;
+    for (dem_index i = 0; i < lattice->n_nodes; i++)
+        least = fmin(least, hypot(lattice->x[2 * i] - x, lattice->x[2 * i + 1] - y));
+    return least;
+}
+
+static double area_of_all(const dem_lattice *lattice)
+{
+    double area = 0.0;
+    for (dem_index t = 0; t < lattice->n_triangles; t++) {
+        const dem_index *n = lattice->triangles + 3 * t;
+        const double *a = lattice->x + 2 * n[0], *b = lattice->x + 2 * n[1], *c = lattice->x + 2 * n[2];
+        area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    return area;
+}
+
+/* ---- shapes ---- */
+
+static void expect_area(const char *text, double area, double off)
+{
+    formed f = build_good(text);
+    assert_close(f.form.area / area, 1.0, 1e-5);
+    assert_close(f.form.spacing, 0.1, 0.0);
+    assert_close(area_of_all(&f.lattice) / area, 1.0, off); /* edges are jagged by up to a spacing */
+    dem_lattice_free(&f.lattice);
+}
+
+static void every_shape_has_its_area(void **state)
+{
+    (void)state;
+    expect_area(BLOCK, 8.0, 0.05);
+    expect_area(DISC, pi, 0.12);
+    expect_area(BODY "'ring', radius = 2, inner_radius = 1 /", 3.0 * pi, 0.15);
+    expect_area(BODY "'polygon', points = 0,0, 4,0, 4,4, 3,4, 2,1, 1,4, 0,4 /", 13.0, 0.08);
+    expect_area(BODY "'polygon', points = 0,4, 1,4, 2,1, 3,4, 4,4, 4,0, 0,0, 0,4 /", 13.0, 0.08); /* back, closed */
+}
+
+static void voids_of_every_shape_are_turned_and_placed(void **state)
+{
+    (void)state;
+    expect_area(BLOCK "&void shape = 'rectangle', centre = 0, 1, size = 1, 0.5, angle = 30 /", 8.0 - 0.5, 0.08);
+    expect_area(BLOCK "&void shape = 'polygon', centre = 0, 1, points = 0,0, 1,0, 0,1 /", 8.0 - 0.5, 0.08);
+    expect_area(BLOCK "&void shape = 'ring', centre = 0, 1, radius = 0.8, inner_radius = 0.4 /", 8.0 - 0.48 * pi, 0.1);
+    formed f =
+        build_good(BLOCK "&void shape = 'polygon', centre = 1, 1, points = 0.2,0, 0.8,0, 0.8,0.2, 0.2,0.2, "
+                         "angle = 90 /\n&void shape = 'rectangle', centre = -1, 1, size = 1.4, 0.4, angle = 90 /");
+    assert_true(distance_to(&f.lattice, 0.9, 1.5) > 0.09); /* (0.5, 0.1) turned by a quarter */
+    assert_true(distance_to(&f.lattice, 1.5, 1.1) < 0.09);
+    assert_true(distance_to(&f.lattice, -1.0, 1.6) > 0.09);
+    assert_true(distance_to(&f.lattice, -1.6, 1.0) < 0.09);
+    dem_lattice_free(&f.lattice);
+}
+
+/* ---- pores ---- */
+
+static void a_porosity_is_met_to_half_a_pore(void **state)
+{
+    (void)state;
+    formed f =
+        build_good(BODY "'disc', radius = 10 /\n&void centre = 0, 0, radius = 2 /\n&pores porosity = 0.2, radius = "
+                        "0.4, 0.9, wall = 0.2, distribution = 'lognormal', mean = 0.5, deviation = 0.2 /");
+    assert_close(f.form.pore_area, 0.2 * 96.0 * pi, 0.5 * pi * 0.81);
+    assert_close(f.form.area + f.form.pore_area, 96.0 * pi, 1e-4 * 96.0 * pi);
+    assert_true(f.form.n_pores > 40);
+    dem_lattice_free(&f.lattice);
+}
+
+static void groups_of_pores_add_up(void **state)
+{
+    (void)state;
+    formed f = build_good(BLOCK "&pores number = 2, radius = 0.2, 0.2, wall = 0.1 /\n"
+                                "&pores number = 3, radius = 0.1, 0.1, wall = 0.1, seed = 2 /");
+    assert_int_equal(f.form.n_pores, 5);
+    assert_close(f.form.pore_area, 0.11 * pi, 1e-15);
+    assert_close(f.form.area, 8.0 - 0.11 * pi, 1e-12);
+    dem_lattice_free(&f.lattice);
+}
+
+static void pores_without_a_place_or_a_radius_are_told(void **state)
+{
+    (void)state;
+    expect_fault(BLOCK "&pores porosity = 0.9, radius = 0.2, 0.2 /", 0, 2, "finds no place");
+    expect_fault(BLOCK "&pores porosity = 0.5, radius = 1e-3, 1e-3 /", 0, 2, "10000");
+    expect_fault(BLOCK "&pores number = 1, radius = 0.1, 0.2, distribution = 'normal',\nmean = 9, deviation = 1e-3 /",
+                 0, 3, "'mean' and 'deviation'");
+}
+
+/* ---- masks and meshes ---- */
+
+static char path[] = "/tmp/test_form_XXXXXX";
+
+static const char *with_file(const char *head, const char *content, const char *tail)
+{
+    static char text[2048];
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(content, file) >= 0 && fclose(file) == 0);
+    (void)snprintf(text, sizeof text, "%s'%s'%s", head, path, tail);
+    return text;
+}
+
+static void a_mask_stands_on_its_lower_edge(void **state)
+{
+    (void)state;
+    formed f = build_good(with_file(MASK, "P2 4 2 1  0 0 1 1  1 1 1 1", " /"));
+    assert_close(f.form.area, 6.0 * 0.25, 0.0);
+    assert_close(distance_to(&f.lattice, -1.0, 0.0), 0.0, 1e-12);
+    assert_true(distance_to(&f.lattice, -0.5, 0.8) > 0.25);
+    assert_true(distance_to(&f.lattice, 0.5, 0.8) < 0.09);
+    dem_lattice_free(&f.lattice);
+    f = build_good(with_file(MASK, "P2 4 2 9  1 2 3 4  5 6 7 8", ", threshold = 0.5\n/"));
+    assert_close(f.form.area, 4.0 * 0.25, 0.0);
+    dem_lattice_free(&f.lattice);
+    expect_fault(with_file(MASK, "P2 2 2 9\n1 2 3 10", "\n/"), 0, 1, ":2: a pixel must be in [0, 9], got 10");
+    expect_fault(with_file(MASK, "P2 1 1 9\n1", "\n/"), 0, 1, "leave none of");
+    expect_fault(
+        with_file("&body material = 'rubber', shape = 'mask', spacing = 0.6, scale = 0.5, file = ", "P2 1 1 1 1", " /"),
+        0, 1, "'spacing'");
+}
+
+#define SQUARE                                                                                                         \
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n"         \
+    "$EndNodes\n$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 3 4\n$EndElements\n"
+
+static void a_mesh_is_scaled_and_may_have_cracks(void **state)
+{
+    (void)state;
+    formed f = build_good(with_file(MESH, SQUARE, " /"));
+    assert_close(f.form.area, 1.0, 1e-15);
+    assert_close(f.form.spacing * f.form.spacing * 0.25 * sqrt(3.0), 0.5, 1e-15);
+    assert_int_equal(f.form.n_cracked, 0);
+    assert_close(distance_to(&f.lattice, 1.0, 1.0), 0.0, 0.0);
+    dem_lattice_free(&f.lattice);
+    f = build_good(with_file(MESH, SQUARE, " /\n&crack points = 0.8, 0.1, 0.9, 0.2 /"));
+    assert_int_equal(f.form.n_cracked, 1);
+    assert_int_equal(f.lattice.n_triangles, 1);
+    assert_int_equal(f.lattice.n_nodes, 3);
+    assert_close(f.form.area, 1.0, 1e-15); /* cracks have none */
+    dem_lattice_free(&f.lattice);
+    expect_fault(with_file(MESH, "$MeshFormat\n4.2", "\n/"), 0, 1, ":2: MSH version 4.1");
+    expect_fault(with_file(MESH, SQUARE, " /\n&crack points = 0.1, 0.8, 0.8, 0.1 /"), 0, 1, "cracks leave none of 2");
+}
+
+static void cracks_are_for_their_body_and_must_meet_it(void **state)
+{
+    (void)state;
+    formed whole = build_good(BLOCK DISC), f = build_good(BLOCK DISC "&crack body = 2, points = 0,0, 1,0 /");
+    assert_int_equal(whole.lattice.n_triangles, f.lattice.n_triangles);
+    dem_lattice_free(&f.lattice);
+    f = build_good(BLOCK "&crack points = -1,1, 0,1 /\n&crack points = -0.5,0.5, -0.5,1.5 /");
+    assert_int_equal(f.form.n_cracked, whole.lattice.n_triangles - f.lattice.n_triangles);
+    assert_true(f.form.n_cracked > 30);
+    dem_lattice_free(&f.lattice);
+    dem_lattice_free(&whole.lattice);
+    expect_fault(BLOCK DISC "&crack body = 2, points = 3,1, 4,1 /", 1, 3, "crosses no triangle of body 2");
+}
+
+/* ---- squares, jitter ---- */
+
+#define SQUARES BODY "'rectangle', size = 4, 2, lattice = 'square'"
+
+static void every_shape_may_be_of_squares(void **state)
+{
+    (void)state;
+    expect_area(SQUARES " /", 8.0, 1e-12);
+    expect_area(BODY "'disc', radius = 1, lattice = 'square' /", pi, 0.13);
+    expect_area(BODY "'ring', radius = 2, inner_radius = 1, lattice = 'square' /", 3.0 * pi, 0.15);
+    expect_area(SQUARES " /\n&void centre = 0, 1, radius = 0.5 /", 8.0 - 0.25 * pi, 0.05);
+}
+
+static void cracks_take_whole_cells(void **state)
+{
+    (void)state;
+    formed f = build_good(SQUARES " /\n&crack points = -0.27,1.02, -0.23,1.04 /"); /* a corner of one triangle */
+    assert_int_equal(f.form.n_cracked, 2);
+    dem_lattice_free(&f.lattice);
+}
+
+/* By at most the share of the spacing, the same for the same seed. */
+static void jitter_moves_nodes_that_are_not_on_the_boundary(void **state)
+{
+    (void)state;
+    formed f = build_good(BLOCK), g = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2 /"),
+           h = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 1 /"),
+           other = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 2 /");
+    const dem_index n = f.lattice.n_nodes;
+    double most = 0.0;
+    for (dem_index i = 0; i < n; i++)
+        most =
+            fmax(most, hypot(g.lattice.x[2 * i] - f.lattice.x[2 * i], g.lattice.x[2 * i + 1] - f.lattice.x[2 * i + 1]));
+    assert_true(most > 0.018 && most <= 0.02);
+    assert_memory_equal(g.lattice.x, h.lattice.x, 2 * (size_t)n * sizeof(double));
+    assert_memory_not_equal(g.lattice.x, other.lattice.x, 2 * (size_t)n * sizeof(double));
+    assert_memory_equal(g.lattice.x, f.lattice.x, 2 * 41 * sizeof(double)); /* the lowest row */
+    dem_lattice_free(&f.lattice);
+    dem_lattice_free(&g.lattice);
+    dem_lattice_free(&h.lattice);
+    dem_lattice_free(&other.lattice);
+}
+
+/* ---- inclusions ---- */
+
+#define HEAVY "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n"
+
+/* Which material each triangle of the first body has. Caller frees. */
+static dem_index *mark(formed *f, const char *text, size_t n)
+{
+    char all[4096];
+    namelist_errors errors = {0};
+    dem_material materials[4];
+    (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
+    resolved r = resolve_clean(all);
+    *f = build_good(text);
+    dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
+    assert_non_null(of);
+    assert_int_equal(form_mark(of, &f->lattice, &r.deck, 0, &errors), DEM_OK);
+    assert_int_equal(f->form.n_inclusions, n);
+    form_materials(materials, &r.deck, 0);
+    assert_close(materials[0].density, 1000.0, 0.0);
+    for (size_t k = 1; k <= n; k++) assert_true(materials[k].density == 1000.0 || materials[k].density == 3000.0);
+    drop_resolved(&r);
+    return of;
+}
+
+static void triangles_with_their_centres_in_an_inclusion_are_of_it(void **state)
+{
+    (void)state;
+    formed f;
+    dem_index *of = mark(&f,
+                         HEAVY BLOCK DISC "&inclusion material = 'heavy', centre = 0, 1, radius = 0.6 /\n"
+                                          "&inclusion body = 2, material = 'heavy', centre = 0, 0, radius = 9 /\n"
+                                          "&inclusion material = 'rubber', shape = 'rectangle', centre = 0, 1, size = "
+                                          "0.5, 0.28, angle = 90 /",
+                         2);
+    for (dem_index t = 0; t < f.lattice.n_triangles; t++) {
+        double x[2] = {0.0, 0.0};
+        for (int c = 0; c < 6; c++) x[c % 2] += f.lattice.x[2 * f.lattice.triangles[3 * t + c / 2] + c % 2] / 3.0;
+        const bool inner = fabs(x[0]) < 0.14 && fabs(x[1] - 1.0) < 0.25, outer = hypot(x[0], x[1] - 1.0) < 0.6;
+        assert_int_equal(of[t], inner ? 2 : (outer ? 1 : 0));
+    }
+    free(of);
+    dem_lattice_free(&f.lattice);
+}
+
+static void of_squares_whole_cells_are_of_an_inclusion(void **state)
+{
+    (void)state;
+    formed f;
+    dem_index n = 0,
+              *of =
+                  mark(&f, HEAVY SQUARES " /\n&inclusion material = 'heavy', centre = 0.35, 1.05, radius = 0.12 /", 1);
+    for (dem_index t = 0; t < f.lattice.n_triangles; t++) {
+        assert_int_equal(of[t], of[t ^ 1]);
+        n += of[t];
+    }
+    assert_int_equal(n, 2 * 5); /* the cell about its centre and its neighbours */
+    free(of);
+    dem_lattice_free(&f.lattice);
+}
+
+/* Ring of 3000 * 0.5 in 1000, a quarter of which a void takes; overlaps count once, what is outside does not. */
+static void the_true_mass_is_that_of_all_materials(void **state)
+{
+    (void)state;
+    formed f = build_good(BLOCK);
+    assert_close(f.form.mass, 8000.0, 1e-9);
+    dem_lattice_free(&f.lattice);
+    f = build_good(HEAVY BLOCK "&inclusion material = 'heavy', centre = 0, 1, radius = 0.8 /\n"
+                               "&inclusion material = 'rubber', centre = 0, 1, radius = 0.4 /\n"
+                               "&inclusion material = 'heavy', shape = 'rectangle', centre = 2, 1, size = 1, 1 /\n"
+                               "&void shape = 'rectangle', centre = -0.5, 1.5, size = 1, 1 /");
+    assert_close(f.form.mass, 7000.0 + 500.0 * (0.48 * pi * 0.75 + 0.5), 1e-2);
+    dem_lattice_free(&f.lattice);
+    f = build_good(
+        with_file(HEAVY MESH, SQUARE,
+                  " /\n&inclusion material = 'heavy', shape = 'rectangle', centre = 1, 0, size = 0.8, 0.8 /"));
+    assert_close(f.form.mass, 0.5 * 1000.0 + 0.5 * 1500.0, 1e-9);
+    dem_lattice_free(&f.lattice);
+}
+
+static void an_inclusion_without_a_triangle_is_told(void **state)
+{
+    (void)state;
+    namelist_errors errors = {0};
+    formed f = build_good(BLOCK);
+    resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
+    dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
+    assert_non_null(of);
+    assert_int_equal(form_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
+    assert_int_equal(errors.n, 1);
+    assert_non_null(strstr(errors.list[0].text, "inclusion has no triangle of body 1"));
+    namelist_errors_free(&errors);
+    drop_resolved(&r);
+    free(of);
+    dem_lattice_free(&f.lattice);
+}
+
+/* ---- checks ---- */
+
+static void assert_checked(const char *text, int line, const char *word)
+{
+    char all[2048];
+    namelist_errors errors = {0};
+    (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
+    resolved r = resolve_clean(all);
+    form_check_all(&r.deck, &errors);
+    if (word == NULL) {
+        if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
+    } else {
+        if (errors.n != 1) fail_msg("'%s' gives %zu faults", text, errors.n);
+        assert_int_equal(errors.list[0].place.line, line + 2);
+        if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
+    }
+    namelist_errors_free(&errors);
+    drop_resolved(&r);
+}
+
+static void sizes_at_the_limit_pass(void **state)
+{
+    (void)state;
+    const char *head = "&body material = 'rubber', shape = ";
+    static const struct {
+        const char *keys;
+        bool good;
+    } cases[] = {{"'disc', radius = 1, spacing = 1", true},
+                 {"'disc', radius = 1, spacing = 1.01", false},
+                 {"'rectangle', size = 1, 1, spacing = 1", true},
+                 {"'rectangle', size = 9, 1, spacing = 1.01", false},
+                 {"'rectangle', size = 1, 9, spacing = 1.01", false},
+                 {"'ring', radius = 3, inner_radius = 2, spacing = 1", true},
+                 {"'ring', radius = 3, inner_radius = 2, spacing = 1.01", false},
+                 {"'ring', radius = 3, inner_radius = 3, spacing = 1", false},
+                 {"'polygon', points = 0,0, 1,0, 0,1, spacing = 1", true},
+                 {"'polygon', points = 0,0, 1,0, 0,1, spacing = 1.01", false},
+                 {"'polygon', points = 0,0, 1,0, 0,0, spacing = 0.1", false},
+                 {"'polygon', points = 0,0, 1,1, 1,0, 0,1, spacing = 0.1", false},
+                 {"'polygon', points = 0,0, 1,0, 1,0, 0,1, spacing = 0.1", false},
+                 {"'polygon', points = 0,0, 1,0, 1,1, 0, spacing = 0.1", false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[256];
+        (void)snprintf(text, sizeof text, "%s%s /", head, cases[k].keys);
+        assert_checked(text, 1, cases[k].good ? NULL : "&body");
+    }
+}
+
+static void groups_name_a_body_that_can_have_them(void **state)
+{
+    (void)state;
+    assert_checked(BLOCK DISC "&void body = 2, centre = 0, 0, radius = 1 /", 0, NULL);
+    assert_checked(BLOCK DISC "&void body = 3, centre = 0, 0, radius = 1 /", 3, "3");
+    assert_checked(BLOCK "&pores number = 3, radius = 1, 1, body = 2 /", 2, "2");
+    assert_checked(BLOCK "&crack points = 0,0, 1,1, body = 2 /", 2, "2");
+    assert_checked(MESH "'a' /\n&crack points = 0,0, 1,1 /", 0, NULL);
+    assert_checked(MESH "'a' /\n&void centre = 0,0, radius = 1 /", 2, "which is of shape 'mesh'");
+    assert_checked("&body shape = 'file', file = 'a' /\n&crack points = 0,0, 1,1 /", 2, "which is of shape 'file'");
+    assert_checked(MASK "'a' /\n&pores number = 1, radius = 1, 1 /", 0, NULL);
+    assert_checked(MESH "'a' /\n&inclusion material = 'rubber', centre = 0,0, radius = 1 /", 0, NULL);
+    assert_checked(BLOCK "&inclusion material = 'rubber', centre = 0,0, radius = 1, body = 2 /", 2, "2");
+    assert_checked(BLOCK "&inclusion material = 'rubber', centre = 0,0 /", 2, "'radius' in &inclusion must be given");
+    assert_checked(MASK "'' /", 1, "an image");
+    assert_checked(MESH "'' /", 1, "a mesh");
+}
+
+static void pores_have_a_number_or_a_porosity(void **state)
+{
+    (void)state;
+    assert_checked(BLOCK "&pores number = 3, radius = 1, 1 /", 0, NULL);
+    assert_checked(BLOCK "&pores porosity = 0.3, radius = 1, 1 /", 0, NULL);
+    assert_checked(BLOCK "&pores number = 3, radius = 1.1, 1 /", 2, "radius");
+    assert_checked(BLOCK "&pores radius = 1, 1 /", 2, "must be given");
+    assert_checked(BLOCK "&pores number = 3, porosity = 0.3, radius = 1, 1 /", 2, "does not go with");
+    assert_checked(BLOCK "&pores number = 1, radius = 1, 1, mean = 1 /", 2, "'mean' in &pores is not used");
+}
+
+static void cracks_have_points_that_are_apart(void **state)
+{
+    (void)state;
+    assert_checked(BLOCK "&crack points = 0,0, 1,0, 0,0 /", 0, NULL); /* may meet itself */
+    assert_checked(BLOCK "&crack points = 0,0, 1,0, 1,0 /", 2, "from point 2");
+    assert_checked(BLOCK "&crack points = 0,0, 1,0, 1 /", 2, "pairs");
+}
+
+static void relative_files_start_at_the_decks_folder(void **state)
+{
+    (void)state;
+    resolved r = resolve_clean(RUN "&body shape = 'file', file = 'a/b.h5' /\n&body shape = 'file', file = '/c.h5' /");
+    char *relative = form_file("decks/", schema_get(&r.deck, "body", 0));
+    char *absolute = form_file("decks/", schema_get(&r.deck, "body", 1));
+    char *plain = form_file("", schema_get(&r.deck, "body", 0));
+    assert_string_equal(relative, "decks/a/b.h5");
+    assert_string_equal(absolute, "/c.h5");
+    assert_string_equal(plain, "a/b.h5");
+    free(relative);
+    free(absolute);
+    free(plain);
+    drop_resolved(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_shape_has_its_area),
+        cmocka_unit_test(voids_of_every_shape_are_turned_and_placed),
+        cmocka_unit_test(a_porosity_is_met_to_half_a_pore),
+        cmocka_unit_test(groups_of_pores_add_up),
+        cmocka_unit_test(pores_without_a_place_or_a_radius_are_told),
+        cmocka_unit_test(a_mask_stands_on_its_lower_edge),
+        cmocka_unit_test(a_mesh_is_scaled_and_may_have_cracks),
+        cmocka_unit_test(cracks_are_for_their_body_and_must_meet_it),
+        cmocka_unit_test(every_shape_may_be_of_squares),
+        cmocka_unit_test(cracks_take_whole_cells),
+        cmocka_unit_test(jitter_moves_nodes_that_are_not_on_the_boundary),
+        cmocka_unit_test(triangles_with_their_centres_in_an_inclusion_are_of_it),
+        cmocka_unit_test(of_squares_whole_cells_are_of_an_inclusion),
+        cmocka_unit_test(the_true_mass_is_that_of_all_materials),
+        cmocka_unit_test(an_inclusion_without_a_triangle_is_told),
+        cmocka_unit_test(sizes_at_the_limit_pass),
+        cmocka_unit_test(groups_name_a_body_that_can_have_them),
+        cmocka_unit_test(pores_have_a_number_or_a_porosity),
+        cmocka_unit_test(cracks_have_points_that_are_apart),
+        cmocka_unit_test(relative_files_start_at_the_decks_folder),
+    };
+    const int file = mkstemp(path);
+    if (file < 0 || close(file) != 0) return 1;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return unlink(path) == 0 ? failed : 1;
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* mask.c: from an image in a file to pixels that are material, and where they are. */
+#include "unit/close.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "mask.h"
+
+static char path[] = "/tmp/test_mask_XXXXXX";
+
+static void put(const char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+#define TEXT(text) (text), sizeof(text) - 1
+
+/* 4 x 3 pixels of 0.5 m: x from -1 to 1, y from 0 to 1.5. The upper row has the pixels 0, 1 and 3. */
+static mask read_steps(double threshold)
+{
+    mask m;
+    char fault[IMAGE_FAULT] = "";
+    put(TEXT("P2\n4 3\n10\n10 10 0 6\n5 10 4 0\n9 9 9 9\n"));
+    if (mask_read(&m, fault, path, 0.5, threshold) != IMAGE_READ) fail_msg("%s", fault);
+    return m;
+}
+
+static void bright_pixels_are_material_and_the_top_row_comes_first(void **state)
+{
+    (void)state;
+    static const unsigned char expected[12] = {1, 1, 1, 1, 1, 1, 0, 0, 1, 1, 0, 1};
+    mask m = read_steps(0.5);
+    assert_memory_equal(m.solid, expected, sizeof expected);
+    assert_int_equal(m.n_solid, 9);
+    mask_free(&m);
+    m = read_steps(0.51); /* 5 of 10 is no longer enough */
+    assert_int_equal(m.n_solid, 8);
+    mask_free(&m);
+    assert_null(m.solid);
+}
+
+static bool has(const mask *m, double x, double y)
+{
+    return mask_has(m, (const double[]){x, y}, 1e-9);
+}
+
+static void edges_of_pixels_belong_to_the_material(void **state)
+{
+    (void)state;
+    mask m = read_steps(0.5);
+    assert_true(has(&m, 0.25, 0.25) && has(&m, -0.75, 1.25) && has(&m, 0.75, 1.25));
+    assert_false(has(&m, 0.25, 0.75) || has(&m, 0.25, 1.25) || has(&m, 0.75, 0.75));
+    assert_true(has(&m, 0.0, 0.75) && has(&m, 0.5, 1.25) && has(&m, 0.75, 1.0)); /* between bright and dark */
+    assert_true(has(&m, -1.0, 0.0) && has(&m, 1.0, 1.5) && has(&m, 1.0 + 5e-10, 0.0) && has(&m, 0.0, -5e-10));
+    assert_false(has(&m, 1.0 + 2e-9, 0.0) || has(&m, 0.0, -2e-9) || has(&m, -1e300, 0.0) || has(&m, 0.0, (double)NAN));
+    mask_free(&m);
+}
+
+static bool fits(const mask *m, double x, double y, double radius)
+{
+    return mask_fits(m, (const double[]){x, y}, radius);
+}
+
+static void a_disc_fits_as_far_as_the_nearest_dark_pixel(void **state)
+{
+    (void)state;
+    mask m = read_steps(0.5);
+    assert_true(fits(&m, -0.5, 0.75, 0.4999));
+    assert_false(fits(&m, -0.5, 0.75, 0.5001)); /* the edge at x = 0, and that of the image */
+    assert_true(fits(&m, -0.3, 0.1, 0.0999));
+    assert_false(fits(&m, -0.3, 0.1, 0.1001));
+    assert_true(fits(&m, -0.3, 0.45, 0.304)); /* the corner (0, 0.5) is 0.30414 away */
+    assert_false(fits(&m, -0.3, 0.45, 0.3042));
+    assert_false(fits(&m, 0.25, 0.75, 0.01));
+    mask_free(&m);
+}
+
+static void rows_are_sliced_into_runs(void **state)
+{
+    (void)state;
+    double x[5];
+    mask m = read_steps(0.5);
+    assert_int_equal(mask_slice(&m, 0, x), 2);
+    assert_close(x[0], -1.0, 0.0);
+    assert_close(x[1], 1.0, 0.0);
+    assert_int_equal(mask_slice(&m, 1, x), 2);
+    assert_close(x[1], 0.0, 0.0);
+    assert_int_equal(mask_slice(&m, 2, x), 4);
+    assert_close(x[1], 0.0, 0.0);
+    assert_close(x[2], 0.5, 0.0);
+    assert_close(x[3], 1.0, 0.0);
+    mask_free(&m);
+}
+
+static void expect_fault(const char *name, const char *expected)
+{
+    mask m;
+    char fault[IMAGE_FAULT] = "";
+    assert_int_equal(mask_read(&m, fault, name, 1.0, 0.5), IMAGE_REFUSED);
+    assert_string_equal(fault, expected);
+    assert_null(m.solid);
+}
+
+static void files_at_fault_are_refused(void **state)
+{
+    (void)state;
+    expect_fault("/no/such/image.pgm", " No such file or directory");
+    put(TEXT("GIF89a"));
+    expect_fault(path, " neither a PGM image (P2, P5) nor a PNG image");
+    put(TEXT("P2\n1 1\n255\n256\n"));
+    expect_fault(path, "4: a pixel must be in [0, 255], got 256");
+    put(TEXT("\x89PNG\r\n\x1a\n"));
+    char fault[IMAGE_FAULT] = "";
+    mask m;
+    assert_int_equal(mask_read(&m, fault, path, 1.0, 0.5), IMAGE_REFUSED);
+    assert_int_equal(fault[0], ' ');
+    assert_non_null(strstr(fault, "PNG image"));
+}
+
+static void an_image_is_measured_by_its_first_bytes(void **state)
+{
+    (void)state;
+    double size[2];
+    put(TEXT("P5\n# wide\n40 30\n255\n")); /* and no pixel */
+    assert_true(mask_measure(size, path, 0.5));
+    assert_true(size[0] == 20.0 && size[1] == 15.0);
+    put(TEXT("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\1\2\0\0\0\3"));
+    assert_true(mask_measure(size, path, 2.0));
+    assert_true(size[0] == 516.0 && size[1] == 6.0);
+    put(TEXT("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\1\2\0\0\0"));
+    assert_false(mask_measure(size, path, 2.0));
+    put(TEXT("P2\n4 x\n"));
+    assert_false(mask_measure(size, path, 2.0));
+    assert_false(mask_measure(size, "/no/such/file", 2.0));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_image_is_measured_by_its_first_bytes),
+        cmocka_unit_test(bright_pixels_are_material_and_the_top_row_comes_first),
+        cmocka_unit_test(edges_of_pixels_belong_to_the_material),
+        cmocka_unit_test(a_disc_fits_as_far_as_the_nearest_dark_pixel),
+        cmocka_unit_test(rows_are_sliced_into_runs),
+        cmocka_unit_test(files_at_fault_are_refused),
+    };
+    const int file = mkstemp(path);
+    if (file < 0 || close(file) != 0) return 1;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return unlink(path) == 0 ? failed : 1;
+}

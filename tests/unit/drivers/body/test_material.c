@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* material.c: what &material says, and who refers to one. Whole sentences are test_refused's and test_deck's. */
+#include "unit/reading.h"
+
+#include "material.h"
+
+#define RUN    "&run t_end = 1 /\n"
+#define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
+
+static void a_material_is_read_by_its_name(void **state)
+{
+    (void)state;
+    resolved r = resolve_clean(RUN RUBBER "&material name = 'steel', youngs_modulus = 2e11, poissons_ratio = 0.3,\n"
+                                          "  plane = 'strain', density = 7800, thickness = 0.5, guard = 0.1,\n"
+                                          "  damping_time = 1e-6 /\n&body shape = 'disc', material = 'steel' /");
+    const dem_material m = material_of(&r.deck, schema_get(&r.deck, "body", 0));
+    assert_close(m.youngs_modulus, 2e11, 0.0);
+    assert_close(m.bond_stiffness, 0.0, 0.0);
+    assert_close(m.poissons_ratio, 0.3, 0.0);
+    assert_int_equal(m.plane, DEM_PLANE_STRAIN);
+    assert_close(m.density, 7800.0, 0.0);
+    assert_close(m.thickness, 0.5, 0.0);
+    assert_close(m.guard, 0.1, 0.0);
+    assert_close(m.damping_time, 1e-6, 0.0);
+    assert_ptr_equal(material_find(&r.deck, "rubber"), schema_get(&r.deck, "material", 0));
+    assert_null(material_find(&r.deck, "rub"));
+    drop_resolved(&r);
+}
+
+/* Of equal springs no nu is left to mean anything. */
+static void a_bond_stiffness_stands_for_all_of_elasticity(void **state)
+{
+    (void)state;
+    resolved r =
+        resolve_clean(RUN "&material name = 'raw', bond_stiffness = 3, density = 1 /\n" RUBBER
+                          "&body shape = 'disc', material = 'raw' /\n&body shape = 'disc', material = 'rubber' /");
+    material_drop_unused(&r.deck);
+    const dem_material m = material_of(&r.deck, schema_get(&r.deck, "body", 0));
+    assert_close(m.bond_stiffness, 3.0, 0.0);
+    assert_close(m.youngs_modulus, 0.0, 0.0);
+    assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "poissons_ratio")->count, 0);
+    assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "plane")->count, 0);
+    assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 1)).poissons_ratio, 1.0 / 3.0, 1e-15);
+    drop_resolved(&r);
+}
+
+/* Faults of the materials and of the first body's reference to one. */
+static void assert_checked(const char *text, const char *expected)
+{
+    char got[2048];
+    namelist_errors errors = {0};
+    resolved r = resolve_clean(text);
+    material_check_all(&r.deck, &errors);
+    material_check_user(&r.deck, schema_get(&r.deck, "body", 0), &errors);
+    list_faults(&errors, got, sizeof got);
+    assert_string_equal(got, expected);
+    namelist_errors_free(&errors);
+    drop_resolved(&r);
+}
+
+#define BODY "&body shape = 'disc', material = 'rubber' /"
+
+static void either_modulus_or_bond_stiffness_is_given(void **state)
+{
+    (void)state;
+    assert_checked(RUN RUBBER BODY, "");
+    assert_checked(RUN "&material name = 'rubber', bond_stiffness = 1, density = 1 /\n" BODY, "");
+    assert_checked(RUN "&material name = 'rubber', density = 1 /\n" BODY,
+                   "2:1 'youngs_modulus' or 'bond_stiffness' in &material must be given");
+    assert_checked(RUN "&material name = 'rubber', bond_stiffness = 1, density = 1,\nyoungs_modulus = 1 /\n" BODY,
+                   "3:1 'youngs_modulus' in &material does not go with 'bond_stiffness'");
+    assert_checked(RUN "&material name = 'rubber', bond_stiffness = 1, density = 1,\nplane = 'stress',\n"
+                       "poissons_ratio = 0.2 /\n" BODY,
+                   "4:1 'poissons_ratio' in &material does not go with 'bond_stiffness'\n"
+                   "3:1 'plane' in &material does not go with 'bond_stiffness'");
+}
+
+static void names_are_given_once_and_found(void **state)
+{
+    (void)state;
+    assert_checked(RUN RUBBER RUBBER BODY, "3:11 material 'rubber' is given twice, first in line 2");
+    assert_checked(RUN RUBBER "&body shape = 'disc', material = 'rubbr' /",
+                   "3:23 there is no material 'rubbr' (did you mean 'rubber'?)");
+    assert_checked(RUN RUBBER "&body shape = 'disc' /",
+                   "3:1 there is no material 'solid', the default of 'material' in &body; known: 'rubber'");
+    assert_checked(RUN "&body shape = 'disc', material = 'rubber' /", ""); /* that there is none is told once */
+}
+
+static void the_range_of_nu_is_that_of_the_plane(void **state)
+{
+    (void)state;
+    assert_checked(RUN "&material name = 'rubber', youngs_modulus = 1, density = 1, plane = 'strain',\n"
+                       "poissons_ratio = 0.5 /\n" BODY,
+                   "3:1 'poissons_ratio' in &material must be < 0.5 in plane strain, got 0.5");
+    assert_checked(RUN "&material name = 'rubber', youngs_modulus = 1, density = 1, poissons_ratio = 0.5 /\n" BODY, "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_material_is_read_by_its_name),
+        cmocka_unit_test(a_bond_stiffness_stands_for_all_of_elasticity),
+        cmocka_unit_test(either_modulus_or_bond_stiffness_is_given),
+        cmocka_unit_test(names_are_given_once_and_found),
+        cmocka_unit_test(the_range_of_nu_is_that_of_the_plane),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* msh.c: meshes as Gmsh writes them, and every fault with its line. */
+#include "unit/close.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "msh.h"
+
+#define FORMAT "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" /* lines 1 to 3 */
+
+/* A unit square of two triangles, the second one clockwise; node 9 is of a line only, tags have holes. */
+#define ENTITIES "$Entities\n1 2 1 0\n$EndEntities\n"
+#define NODES                                                                                                          \
+    "$Nodes\n2 5 1 40\n1 1 0 1\n9\n5 5 0\n2 1 0 4\n40\n10\n20\n30\n"                                                   \
+    "0 1 0\n0 0 0\n1 0 0.0\n1 1 -0\n$EndNodes\n"
+#define ELEMENTS                                                                                                       \
+    "$Elements\n3 4 1 4\n0 1 15 1\n1 10\n1 1 1 1\n2 9 10\n"                                                            \
+    "2 1 2 2\n3 10 20 30\n4 10 40 30\n$EndElements\n"
+
+static dem_lattice read_good(const char *text)
+{
+    dem_lattice lattice;
+    char fault[MSH_FAULT] = "";
+    if (msh_parse(&lattice, fault, text, strlen(text)) != DEM_OK) fail_msg("%s", fault);
+    return lattice;
+}
+
+static void expect_fault(const char *text, const char *expected)
+{
+    dem_lattice lattice;
+    char fault[MSH_FAULT] = "";
+    assert_int_equal(msh_parse(&lattice, fault, text, strlen(text)), DEM_ERROR_MODEL);
+    assert_string_equal(fault, expected);
+    assert_int_equal(lattice.n_nodes, 0);
+    assert_null(lattice.x);
+    assert_null(lattice.triangles);
+}
+
+static void a_mesh_becomes_a_counter_clockwise_triangulation(void **state)
+{
+    (void)state;
+    static const double x[8] = {0, 1, 0, 0, 1, 0, 1, 1}; /* in the order of the file, without node 9 */
+    static const dem_index triangles[6] = {1, 2, 3, 1, 3, 0};
+    dem_lattice lattice = read_good(FORMAT ENTITIES NODES ELEMENTS);
+    assert_int_equal(lattice.n_nodes, 4);
+    assert_int_equal(lattice.n_triangles, 2);
+    assert_int_equal(lattice.n_springs, 0);
+    for (int k = 0; k < 8; k++) assert_close(lattice.x[k], x[k], 0.0);
+    assert_memory_equal(lattice.triangles, triangles, sizeof triangles);
+    dem_lattice_free(&lattice);
+}
+
+static void other_sections_and_parameters_are_passed_over(void **state)
+{
+    (void)state;
+    dem_lattice lattice = read_good(
+        FORMAT "$PhysicalNames\n1\n2 1 \"a name with blanks,"
+               "and_more_bytes_than_any_word_that_is_read_may_have,_and_in_it_$EndPhysicalNames\"\n"
+               "$EndPhysicalNames\n"
+               "$Nodes\n3 3 1 3\n2 1 1 1\n1\n0 0 0 0.1 0.2\n1 1 1 1\n2\n1 0 0 0.5\n0 1 0 1\n3\n0 1 0\n$EndNodes\n"
+               "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n"
+               "$NodeData\nanything\n$EndNodeData");
+    assert_int_equal(lattice.n_nodes, 3);
+    assert_int_equal(lattice.n_triangles, 1);
+    dem_lattice_free(&lattice);
+}
+
+static void formats_at_fault_are_refused(void **state)
+{
+    (void)state;
+    expect_fault("", "1: the text ends where $MeshFormat is expected");
+    expect_fault("\x7f"
+                 "ELF",
+                 "1: '$MeshFormat' is expected, got '?ELF'");
+    expect_fault("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
+                 "2: MSH version 4.1 is expected; 'gmsh -format msh41' writes it");
+    expect_fault("$MeshFormat\n4.1 1 8\n", "2: a binary mesh; text is expected ('Mesh.Binary = 0')");
+    expect_fault(FORMAT, "4: the mesh has no triangles");
+    expect_fault(FORMAT "nodes\n", "4: a section is expected, which begins with '$'");
+    expect_fault(FORMAT "$Entities\n1\n", "6: the text ends where a line '$EndEntities' is expected");
+    expect_fault(FORMAT ELEMENTS, "4: the elements stand before the nodes");
+    expect_fault(FORMAT NODES NODES ELEMENTS, "19: a second section of nodes");
+    expect_fault(FORMAT NODES ELEMENTS ELEMENTS, "29: a second section of elements");
+    expect_fault(FORMAT NODES, "19: the mesh has no triangles");
+}
+
+/* Nothing of such a size is asked for. */
+static void absurd_counts_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(FORMAT "$Nodes\n1 1000000000 1 5\n2 1 0 1\n1\n0 0 0\n",
+                 "5: 1000000000 nodes do not fit in the 21 bytes that follow");
+    expect_fault(FORMAT "$Nodes\n9223372036854775807 1 1 5\n2 1 0 1\n1\n0 0 0\n",
+                 "9: the text ends where the dimension is expected");
+    expect_fault(FORMAT NODES "$Elements\n1 9223372036854775807 1 1\n",
+                 "20: 9223372036854775807 elements do not fit in the 5 bytes that follow");
+    expect_fault(FORMAT "$Nodes\n1 1 1 5\n2 1 0 7\n1\n0 0 0\n",
+                 "6: the number of nodes in a block must be in [0, 1], got 7");
+}
+
+static void nodes_at_fault_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0.1\n$EndNodes",
+                 "8: the mesh must lie in the plane z = 0, but a node has z = 0.1");
+    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 nan 0\n$EndNodes", "8: y must be a finite number, got 'nan'");
+    expect_fault(FORMAT "$Nodes\n1 2 1 7\n2 1 0 2\n7\n7\n0 0 0\n1 0 0\n$EndNodes", "11: two nodes have the tag 7");
+    expect_fault(FORMAT "$Nodes\n1 2 1 7\n2 1 0 1\n7\n0 0 0\n$EndNodes\n$Something\n",
+                 "8: 2 nodes are announced, the blocks have 1");
+    expect_fault(FORMAT "$Nodes\n1 1 1 7\n2 1 0 1\n0\n0 0 0\n$EndNodes",
+                 "7: the tag of a node must be in [1, 9223372036854775807], got 0");
+    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0\n$EndElements\n",
+                 "9: '$EndNodes' is expected, got '$EndElements'");
+}
+
+#define SQUARE FORMAT NODES "$Elements\n" /* the counts stand in line 20 */
+
+static void elements_at_fault_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(SQUARE "1 1 1 1\n2 1 3 1\n1 10 20 30 40\n$EndElements\n",
+                 "21: elements of type 3; only triangles of 3 nodes, type 2, can be read");
+    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 31\n$EndElements\n", "22: there is no node 31");
+    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 20\n$EndElements\n", "22: a triangle has the area 0");
+    expect_fault(SQUARE "1 2 1 2\n2 1 2 1\n1 10 20 30\n$EndElements\n",
+                 "22: 2 elements are announced, the blocks have 1");
+    expect_fault(SQUARE "1 1 1 2\n2 1 2 2\n1 10 20 30\n2 10 30 40\n$EndElements\n",
+                 "21: the number of elements in a block must be in [0, 1], got 2");
+    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20\n$EndElements\n",
+                 "23: the node of an element must be an integer, got '$EndElements'");
+    expect_fault(SQUARE "1 1 1 1\n1 1 1 1\n1 10 20\n$EndElements\n", "24: the mesh has no triangles");
+}
+
+static void triangles_on_the_same_side_of_an_edge_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(SQUARE "1 2 1 2\n2 1 2 2\n1 10 20 30\n2 30 20 10\n$EndElements\n",
+                 "23: this triangle overlaps that of line 22");
+    expect_fault(SQUARE "1 2 1 2\n2 1 2 2\n1 10 20 30\n2 10 20 40\n$EndElements\n",
+                 "23: this triangle overlaps that of line 22");
+}
+
+/* Every beginning of a good mesh is refused, or is one. */
+static void no_beginning_of_a_mesh_is_harmful(void **state)
+{
+    (void)state;
+    static const char text[] = FORMAT ENTITIES NODES ELEMENTS;
+    for (size_t n = 0; n + 1 < sizeof text; n++) {
+        char fault[MSH_FAULT] = "", *part = malloc(n + 1); /* exact: what reads beyond is seen */
+        dem_lattice lattice;
+        assert_non_null(part);
+        memcpy(part, text, n);
+        part[n] = '\0';
+        const dem_status status = msh_parse(&lattice, fault, part, n);
+        assert_true(status == DEM_OK ? n == sizeof text - 2 : fault[0] != '\0');
+        dem_lattice_free(&lattice);
+        free(part);
+    }
+}
+
+static void a_file_is_read_as_its_text_is(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/test_msh_XXXXXX", fault[MSH_FAULT] = "";
+    const char text[] = FORMAT NODES ELEMENTS;
+    dem_lattice lattice;
+    const int file = mkstemp(path);
+    assert_true(file >= 0 && write(file, text, sizeof text - 1) == (ssize_t)(sizeof text - 1) && close(file) == 0);
+    assert_int_equal(msh_read(&lattice, fault, path), DEM_OK);
+    assert_int_equal(lattice.n_triangles, 2);
+    dem_lattice_free(&lattice);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(msh_read(&lattice, fault, path), DEM_ERROR_MODEL);
+    assert_string_equal(fault, " No such file or directory");
+    assert_null(lattice.x);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mesh_becomes_a_counter_clockwise_triangulation),
+        cmocka_unit_test(other_sections_and_parameters_are_passed_over),
+        cmocka_unit_test(formats_at_fault_are_refused),
+        cmocka_unit_test(absurd_counts_are_refused),
+        cmocka_unit_test(nodes_at_fault_are_refused),
+        cmocka_unit_test(elements_at_fault_are_refused),
+        cmocka_unit_test(triangles_on_the_same_side_of_an_edge_are_refused),
+        cmocka_unit_test(no_beginning_of_a_mesh_is_harmful),
+        cmocka_unit_test(a_file_is_read_as_its_text_is),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

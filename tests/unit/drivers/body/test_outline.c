@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* outline.c: distances, slices and faults of plane figures. */
+#include "unit/close.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "outline.h"
+
+static const double tiny = 1e-15;
+
+static const outline block = {.kind = OUTLINE_RECTANGLE, .centre = {1.0, 2.0}, .size = {6.0, 4.0}};
+static const outline disc = {.kind = OUTLINE_DISC, .centre = {1.0, 2.0}, .radius = 5.0};
+static const outline ring = {.kind = OUTLINE_RING, .centre = {1.0, 2.0}, .radius = 5.0, .inner = 3.0};
+
+/* A square of side 4 with a notch from above down to (2, 1). */
+static double notched_points[] = {0, 0, 4, 0, 4, 4, 3, 4, 2, 1, 1, 4, 0, 4};
+static const outline notched = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = notched_points};
+
+static void a_rectangle_is_as_far_as_its_nearest_side_or_corner(void **state)
+{
+    (void)state;
+    assert_close(outline_distance(&block, 1.0, 2.0), -2.0, tiny);
+    assert_close(outline_distance(&block, 3.5, 2.0), -0.5, tiny);
+    assert_close(outline_distance(&block, 1.0, 5.0), 1.0, tiny);
+    assert_close(outline_distance(&block, 4.0 + 3.0, 4.0 + 4.0), 5.0, tiny); /* 3-4-5 */
+}
+
+static void discs_and_rings_are_counted_from_their_rims(void **state)
+{
+    (void)state;
+    assert_close(outline_distance(&disc, 1.0 + 3.0, 2.0 - 4.0), 0.0, tiny);
+    assert_close(outline_distance(&disc, 1.0, 2.0), -5.0, tiny);
+    assert_close(outline_distance(&ring, 1.0, 2.0), 3.0, tiny);
+    assert_close(outline_distance(&ring, 1.0, 2.0 + 3.5), -0.5, tiny);
+    assert_close(outline_distance(&ring, 1.0 + 4.75, 2.0), -0.25, tiny);
+    assert_close(outline_distance(&ring, 1.0 + 6.0, 2.0 + 8.0), 5.0, tiny);
+}
+
+/* The notch has slopes of 3: (2, 2) is 1 above its tip, 1/sqrt(10) from its sides. */
+static void a_polygon_need_not_be_convex(void **state)
+{
+    (void)state;
+    assert_close(outline_distance(&notched, 2.0, 2.0), 1.0 / sqrt(10.0), tiny);
+    assert_close(outline_distance(&notched, 2.0, 0.75), -0.25, tiny);
+    assert_close(outline_distance(&notched, 0.5, 3.5), -0.5, tiny);
+    assert_close(outline_distance(&notched, 2.0, 4.0), 1.0 * 3.0 / sqrt(10.0), tiny);
+    assert_close(outline_distance(&notched, -3.0, -4.0), 5.0, tiny);
+    assert_close(outline_distance(&notched, 0.0, 2.0), 0.0, 0.0);
+}
+
+/* A ray through corners must not count them twice or never. */
+static void inside_is_told_right_at_the_height_of_a_corner(void **state)
+{
+    (void)state;
+    double points[] = {0, 0, 2, -1, 4, 0, 2, 1};
+    const outline rhombus = {.kind = OUTLINE_POLYGON, .n_points = 4, .points = points};
+    assert_true(outline_distance(&rhombus, 1.0, 0.0) < 0.0);
+    assert_true(outline_distance(&rhombus, -1.0, 0.0) > 0.0);
+    assert_true(outline_distance(&rhombus, 5.0, 0.0) > 0.0);
+    assert_true(outline_distance(&rhombus, 0.0, 1.0) > 0.0);
+    assert_true(outline_distance(&rhombus, 0.0, -1.0) > 0.0);
+    assert_true(outline_distance(&notched, -1.0, 1.0) > 0.0);
+    assert_true(outline_distance(&notched, 0.5, 1.0) < 0.0);
+    assert_true(outline_distance(&notched, -1.0, 4.0) > 0.0);
+}
+
+static void the_way_round_does_not_matter(void **state)
+{
+    (void)state;
+    double points[14];
+    for (int k = 0; k < 7; k++) memcpy(points + 2 * k, notched_points + 2 * (6 - k), 2 * sizeof *points);
+    const outline back = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = points};
+    for (int k = 0; k < 100; k++) {
+        const double x = 0.53 * (k % 10) - 0.5, y = 0.57 * (k / 10) - 0.5;
+        assert_close(outline_distance(&back, x, y), outline_distance(&notched, x, y), 1e-14);
+    }
+}
+
+static void expect_box(const outline *o, double left, double bottom, double right, double top)
+{
+    double box[4];
+    outline_box(o, box);
+    assert_close(box[0], left, tiny);
+    assert_close(box[1], bottom, tiny);
+    assert_close(box[2], right, tiny);
+    assert_close(box[3], top, tiny);
+}
+
+static void boxes_touch_all_sides(void **state)
+{
+    (void)state;
+    expect_box(&block, -2.0, 0.0, 4.0, 4.0);
+    expect_box(&disc, -4.0, -3.0, 6.0, 7.0);
+    expect_box(&ring, -4.0, -3.0, 6.0, 7.0);
+    expect_box(&notched, 0.0, 0.0, 4.0, 4.0);
+}
+
+static void expect_slice(const outline *o, double y, size_t n, const double *expected)
+{
+    double x[7];
+    assert_true(n <= outline_cuts(o));
+    assert_int_equal(outline_slice(o, y, x), n);
+    for (size_t k = 0; k < n; k++) assert_close(x[k], expected[k], 4 * tiny);
+}
+
+static void slices_enter_and_leave(void **state)
+{
+    (void)state;
+    expect_slice(&block, 3.9, 2, (const double[]){-2.0, 4.0});
+    expect_slice(&block, 4.1, 0, NULL);
+    expect_slice(&disc, 2.0 + 3.0, 2, (const double[]){-3.0, 5.0});
+    expect_slice(&disc, 8.0, 0, NULL);
+    expect_slice(&ring, 2.0 - 4.0, 2, (const double[]){-2.0, 4.0});
+    expect_slice(&ring, 2.0, 4, (const double[]){-4.0, -2.0, 4.0, 6.0});
+    expect_slice(&notched, 0.5, 2, (const double[]){0.0, 4.0});
+    expect_slice(&notched, 2.5, 4, (const double[]){0.0, 1.5, 2.5, 4.0});
+}
+
+static void levels_are_where_slices_change(void **state)
+{
+    (void)state;
+    double y[7];
+    assert_int_equal(outline_levels(&block, y), 2);
+    assert_close(y[0] + y[1], 4.0, tiny);
+    assert_int_equal(outline_levels(&ring, y), 4);
+    assert_close(y[0], -3.0, tiny);
+    assert_close(y[1], 7.0, tiny);
+    assert_close(y[2], -1.0, tiny);
+    assert_close(y[3], 5.0, tiny);
+    assert_int_equal(outline_levels(&notched, y), 7);
+    assert_close(y[4], 1.0, tiny);
+}
+
+static void placing_turns_and_then_shifts(void **state)
+{
+    (void)state;
+    outline o = {.size = {4.0, 2.0}};
+    const double quarter[2] = {0.0, 1.0}, shift[2] = {10.0, 20.0};
+    assert_true(outline_place(&o, quarter, shift));
+    assert_int_equal(o.kind, OUTLINE_POLYGON);
+    expect_box(&o, 9.0, 18.0, 11.0, 22.0);
+    assert_close(outline_distance(&o, 10.0, 20.0), -1.0, tiny);
+    assert_close(o.points[0], 11.0, tiny); /* (-2, -1) */
+    assert_close(o.points[1], 18.0, tiny);
+    outline_free(&o);
+    assert_null(o.points);
+}
+
+static void expect_crossing(double *points, size_t n, size_t first, size_t second)
+{
+    const outline o = {.kind = OUTLINE_POLYGON, .n_points = n, .points = points};
+    size_t edges[2];
+    assert_true(outline_crossing(&o, edges));
+    assert_int_equal(edges[0], first);
+    assert_int_equal(edges[1], second);
+}
+
+static void polygons_that_meet_themselves_are_found(void **state)
+{
+    (void)state;
+    size_t edges[2];
+    double bow[] = {0, 0, 1, 1, 1, 0, 0, 1}, back[] = {0, 0, 2, 0, 1, 0, 1, 1}, spike[] = {0, 0, 2, 0, 2, 2, 1, 0};
+    double hair[] = {0, 0, 1, 0, 1, 1, 0, 1, 0, -1}, flat[] = {0, 0, 1, 0, 2, 0};
+    expect_crossing(bow, 4, 0, 2);
+    expect_crossing(back, 4, 0, 1);  /* folds back */
+    expect_crossing(spike, 4, 0, 2); /* touches with a corner */
+    expect_crossing(hair, 5, 0, 3);  /* passes the first point */
+    expect_crossing(flat, 3, 0, 2);
+    assert_false(outline_crossing(&notched, edges));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rectangle_is_as_far_as_its_nearest_side_or_corner),
+        cmocka_unit_test(discs_and_rings_are_counted_from_their_rims),
+        cmocka_unit_test(a_polygon_need_not_be_convex),
+        cmocka_unit_test(inside_is_told_right_at_the_height_of_a_corner),
+        cmocka_unit_test(the_way_round_does_not_matter),
+        cmocka_unit_test(boxes_touch_all_sides),
+        cmocka_unit_test(slices_enter_and_leave),
+        cmocka_unit_test(levels_are_where_slices_change),
+        cmocka_unit_test(placing_turns_and_then_shifts),
+        cmocka_unit_test(polygons_that_meet_themselves_are_found),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

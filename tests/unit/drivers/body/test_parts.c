@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* parts.c: which parts of a body are loose, where it has hinges. */
+#include "unit/close.h"
+
+#include <string.h>
+
+#include "parts.h"
+
+/* Nodes 0 to 8, node i at (i, -i); springs 7-8-0, 1-2, 3-4-5; 6 alone. */
+static double x[18] = {0, 0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5, 6, -6, 7, -7, 8, -8}, ones[5] = {1, 1, 1, 1, 1};
+static dem_index ends[10] = {7, 8, 8, 0, 1, 2, 3, 4, 4, 5};
+
+static dem_lattice make_lattice(int32_t *body)
+{
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 9, lattice.n_springs = 5;
+    lattice.x = x, lattice.ends = ends, lattice.rest_length = ones, lattice.stiffness = ones, lattice.body = body;
+    return lattice;
+}
+
+static void the_largest_part_of_a_body_is_the_main_one(void **state)
+{
+    (void)state;
+    const unsigned char expected[9] = {1, 0, 0, 0, 0, 0, 0, 1, 1}; /* of two with three nodes the one with node 0 */
+    const dem_lattice lattice = make_lattice(NULL);
+    unsigned char kept[9];
+    parts_loose loose;
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_memory_equal(kept, expected, sizeof kept);
+    assert_int_equal(loose.n, 3);
+    assert_int_equal(loose.size[0], 3);
+    assert_int_equal(loose.size[1], 2);
+    assert_int_equal(loose.size[2], 1);
+    assert_close(loose.x[0][0], 3.0, 0.0);
+    assert_close(loose.x[0][1], -3.0, 0.0);
+}
+
+static void every_body_has_a_main_part(void **state)
+{
+    (void)state;
+    const unsigned char expected[9] = {1, 1, 1, 1, 1, 1, 0, 1, 1};
+    int32_t body[9] = {0, 5, 5, 2, 2, 2, 0, 0, 0};
+    const dem_lattice lattice = make_lattice(body);
+    unsigned char kept[9];
+    parts_loose loose;
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_memory_equal(kept, expected, sizeof kept);
+    assert_int_equal(loose.n, 1);
+    assert_close(loose.x[0][0], 6.0, 0.0);
+}
+
+static void a_lattice_without_nodes_has_no_parts(void **state)
+{
+    (void)state;
+    unsigned char kept[1];
+    dem_lattice lattice;
+    parts_loose loose;
+    dem_lattice_init(&lattice);
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_int_equal(loose.n, 0);
+}
+
+static void more_parts_than_are_listed_are_counted(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_lattice(NULL);
+    unsigned char kept[9];
+    parts_loose loose;
+    lattice.n_springs = 0;
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_int_equal(loose.n, 8);
+    assert_close(loose.x[0][0], 1.0, 0.0);
+    char text[PARTS_LIST];
+    parts_print(text, &loose, "node");
+    assert_string_equal(text,
+                        "1 node at (1, -1), 1 at (2, -2), 1 at (3, -3), 1 at (4, -4), 1 at (5, -5), 1 at (6, -6), ...");
+}
+
+static void a_spring_to_nowhere_is_an_error(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_lattice(NULL);
+    unsigned char kept[9];
+    parts_loose loose;
+    lattice.n_nodes = 8;
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_ERROR_MODEL);
+}
+
+/* ---- triangulations ---- */
+
+/* Three triangles: two that share the edge 0-2, one on node 2 alone. */
+static double fan_x[12] = {0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2};
+static dem_index fan[9] = {2, 4, 5, 0, 1, 2, 0, 2, 3};
+
+static dem_lattice make_fan(void)
+{
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 6, lattice.n_triangles = 3;
+    lattice.x = fan_x, lattice.triangles = fan;
+    return lattice;
+}
+
+static void triangles_that_share_but_a_node_are_parts_of_their_own(void **state)
+{
+    (void)state;
+    const unsigned char expected[3] = {0, 1, 1};
+    const dem_lattice lattice = make_fan();
+    unsigned char kept[3];
+    char text[PARTS_LIST];
+    parts_loose loose;
+    assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
+    assert_memory_equal(kept, expected, sizeof kept);
+    assert_int_equal(loose.n, 1);
+    parts_print(text, &loose, "triangle");
+    assert_string_equal(text, "1 triangle at (1, 1)");
+    loose.size[0] = 5;
+    parts_print(text, &loose, "triangle");
+    assert_string_equal(text, "5 triangles at (1, 1)");
+    loose.n = 0;
+    parts_print(text, &loose, "triangle");
+    assert_string_equal(text, "");
+}
+
+static void the_longest_list_has_room(void **state)
+{
+    (void)state;
+    char text[PARTS_LIST];
+    parts_loose loose = {.n = 99};
+    for (int k = 0; k < PARTS_LISTED; k++) {
+        loose.size[k] = INT64_MAX;
+        loose.x[k][0] = loose.x[k][1] = -1.23456e-300;
+    }
+    parts_print(text, &loose, "triangle");
+    assert_string_equal(text + strlen(text) - 5, ", ...");
+}
+
+static void a_node_with_two_fans_is_a_hinge(void **state)
+{
+    (void)state;
+    const dem_lattice lattice = make_fan();
+    dem_lattice two = make_fan();
+    parts_hinges hinges;
+    assert_int_equal(parts_find_hinges(&hinges, &lattice), DEM_OK);
+    assert_int_equal(hinges.n, 1);
+    assert_close(hinges.x[0], 1.0, 0.0);
+    assert_close(hinges.x[1], 1.0, 0.0);
+    two.n_triangles = 2;
+    two.triangles = fan + 3;
+    assert_int_equal(parts_find_hinges(&hinges, &two), DEM_OK);
+    assert_int_equal(hinges.n, 0);
+    two.n_nodes = 2;
+    assert_int_equal(parts_find_hinges(&hinges, &two), DEM_ERROR_MODEL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_largest_part_of_a_body_is_the_main_one),
+        cmocka_unit_test(every_body_has_a_main_part),
+        cmocka_unit_test(a_lattice_without_nodes_has_no_parts),
+        cmocka_unit_test(more_parts_than_are_listed_are_counted),
+        cmocka_unit_test(a_spring_to_nowhere_is_an_error),
+        cmocka_unit_test(triangles_that_share_but_a_node_are_parts_of_their_own),
+        cmocka_unit_test(the_longest_list_has_room),
+        cmocka_unit_test(a_node_with_two_fans_is_a_hinge),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

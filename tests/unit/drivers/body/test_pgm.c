@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* pgm.c: what the format's description allows is read, the rest refused with its line. */
+#include "unit/close.h"
+
+#include <string.h>
+
+#include "pgm.h"
+
+static image read_good(const char *bytes, size_t size)
+{
+    image out;
+    char fault[IMAGE_FAULT] = "";
+    if (pgm_parse(&out, fault, bytes, size) != IMAGE_READ) fail_msg("%s", fault);
+    return out;
+}
+
+static void expect_grey(image *got, size_t width, size_t height, unsigned white, const unsigned *grey)
+{
+    assert_int_equal(got->width, width);
+    assert_int_equal(got->height, height);
+    assert_int_equal(got->white, white);
+    for (size_t k = 0; k < width * height; k++) assert_int_equal(got->grey[k], grey[k]);
+    image_free(got);
+    assert_null(got->grey);
+}
+
+static void expect_fault(const char *bytes, size_t size, const char *expected)
+{
+    image out;
+    char fault[IMAGE_FAULT] = "";
+    assert_int_equal(pgm_parse(&out, fault, bytes, size), IMAGE_REFUSED);
+    assert_string_equal(fault, expected);
+    assert_null(out.grey);
+}
+
+#define TEXT(text) (text), sizeof(text) - 1
+
+static void text_of_8_and_16_bits_is_read(void **state)
+{
+    (void)state;
+    image small = read_good(TEXT("P2\n# by hand\n3 2 # size\n255\n0 128 255\n1 2 3\n"));
+    image deep = read_good(TEXT("P2 1 2 65535 65535\n258"));
+    image bits = read_good(TEXT("P2 2 1 1 0 1"));
+    expect_grey(&small, 3, 2, 255, (const unsigned[]){0, 128, 255, 1, 2, 3});
+    expect_grey(&deep, 1, 2, 65535, (const unsigned[]){65535, 258});
+    expect_grey(&bits, 2, 1, 1, (const unsigned[]){0, 1});
+}
+
+/* A blank ends the header; the first pixel may look like one, or like a comment. */
+static void bytes_of_8_and_16_bits_are_read(void **state)
+{
+    (void)state;
+    image small = read_good(TEXT("P5 3 1 255\n\n#\xff"));
+    image deep = read_good(TEXT("P5\n# deep\n2 1\n256\n\x01\x00\x00\xff"));
+    expect_grey(&small, 3, 1, 255, (const unsigned[]){10, 35, 255});
+    expect_grey(&deep, 2, 1, 256, (const unsigned[]){256, 255});
+}
+
+static void headers_at_fault_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(TEXT(""), "1: 'P2' or 'P5' is expected at the beginning");
+    expect_fault(TEXT("P6 1 1 255 x"), "1: 'P2' or 'P5' is expected at the beginning");
+    expect_fault(TEXT("P25 1 1"), "1: 'P2' or 'P5' is expected at the beginning");
+    expect_fault(TEXT("P2\n"), "2: the text ends where the width is expected");
+    expect_fault(TEXT("P2\n0 1 255"), "2: the width must be in [1, 32768], got 0");
+    expect_fault(TEXT("P5\n1\n32769\n255\n"), "3: the height must be in [1, 32768], got 32769");
+    expect_fault(TEXT("P5 1 1 65536 "), "1: the largest value must be in [1, 65535], got 65536");
+    expect_fault(TEXT("P5 1 1 255"), "1: 1 x 1 pixels take 1 bytes, but 0 follow the header");
+    expect_fault(TEXT("P5 1 1 255#x\ny"), "1: a comment behind the largest value");
+}
+
+/* Before anything of that size is asked for. */
+static void pixels_that_the_bytes_cannot_hold_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(TEXT("P5 32768 32768 65535\nxyz"),
+                 "1: 32768 x 32768 pixels take 2147483648 bytes, but 3 follow the header");
+    expect_fault(TEXT("P2 32768 32768 65535\n1 2"), "1: 4 bytes cannot hold 32768 x 32768 pixels");
+    expect_fault(TEXT("P5 2 1 255\nabc"), "1: 2 x 1 pixels take 2 bytes, but 3 follow the header");
+}
+
+static void pixels_at_fault_are_refused(void **state)
+{
+    (void)state;
+    expect_fault(TEXT("P2 2 2 9\n1 2\n3 10"), "3: a pixel must be in [0, 9], got 10");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n-3 1"), "3: a pixel must be in [0, 9], got -3");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n3x 1"), "3: a pixel must be an integer, got '3x'");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n3      "), "3: the text ends where a pixel is expected");
+    expect_fault(TEXT("P2 2 1 9\n1 2\n3"), "3: there are more than 2 x 1 pixels");
+    expect_fault(TEXT("P5 2 2 9 \x01\x02\x03\x0a"), "1: the pixel in column 2 of row 2 is 10, larger than 9");
+}
+
+static void beginnings_are_known(void **state)
+{
+    (void)state;
+    assert_true(pgm_begins(TEXT("P2 ")));
+    assert_true(pgm_begins(TEXT("P5\n")));
+    assert_false(pgm_begins(TEXT("P6\n")));
+    assert_false(pgm_begins(TEXT("P5")));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_of_8_and_16_bits_is_read),
+        cmocka_unit_test(bytes_of_8_and_16_bits_are_read),
+        cmocka_unit_test(headers_at_fault_are_refused),
+        cmocka_unit_test(pixels_that_the_bytes_cannot_hold_are_refused),
+        cmocka_unit_test(pixels_at_fault_are_refused),
+        cmocka_unit_test(beginnings_are_known),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* moments.c: which frames are shown. */
+#include "unit/close.h"
+
+#include <string.h>
+
+#include "moments.h"
+
+enum { FRAMES = 21 };
+
+static void expect(moments *m, size_t n, const dem_index *frames)
+{
+    assert_int_equal(m->n, n);
+    for (size_t k = 0; k < n; k++) assert_int_equal(m->frame[k], frames[k]);
+    moments_free(m);
+}
+
+static void expect_parsed(const char *text, size_t n, const dem_index *frames)
+{
+    moments m;
+    const char *fault = NULL;
+    assert_true(moments_parse(&m, text, FRAMES, &fault));
+    expect(&m, n, frames);
+}
+
+static void lists_and_ranges_are_taken_in_their_order(void **state)
+{
+    (void)state;
+    expect_parsed("7", 1, (const dem_index[]){7});
+    expect_parsed("5,0,5", 3, (const dem_index[]){5, 0, 5});
+    expect_parsed("0:2,-1", 4, (const dem_index[]){0, 1, 2, 20});
+    expect_parsed("0:20:8", 3, (const dem_index[]){0, 8, 16});
+    expect_parsed("-3:-1", 3, (const dem_index[]){18, 19, 20});
+}
+
+static void what_is_no_list_is_refused(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"",    "a",   "1,",    ",1",     "1,,2",
+                                        "1;2", "0:",  "0:5:0", "0:5:-1", "5:0",
+                                        "21",  "-22", "1.5",   "0:21",   "99999999999999999999"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        moments m;
+        const char *fault = NULL;
+        if (moments_parse(&m, texts[k], FRAMES, &fault)) fail_msg("'%s' is taken", texts[k]);
+        assert_non_null(fault);
+    }
+}
+
+static void times_are_those_of_the_nearest_frames(void **state)
+{
+    (void)state;
+    const double t[] = {0.0, 1e-3, 2e-3, 4e-3};
+    moments m;
+    const char *fault = NULL;
+    assert_true(moments_parse_times(&m, "0,1.4e-3,9,3.1e-3,-5", 4, t, &fault));
+    expect(&m, 5, (const dem_index[]){0, 1, 3, 3, 0});
+    assert_false(moments_parse_times(&m, "0,x", 4, t, &fault));
+    assert_false(moments_parse_times(&m, "nan", 4, t, &fault));
+    assert_false(moments_parse_times(&m, "1ms", 4, t, &fault));
+}
+
+static void expect_usual(dem_index n_frames, dem_index middle, size_t n, const dem_index *frames)
+{
+    moments m;
+    assert_true(moments_usual(&m, n_frames, middle));
+    expect(&m, n, frames);
+}
+
+static void usual_ones_mirror_about_the_greatest_compression(void **state)
+{
+    (void)state;
+    expect_usual(21, 4, 6, (const dem_index[]){0, 2, 4, 6, 8, 20});
+    expect_usual(21, 3, 6, (const dem_index[]){0, 2, 3, 5, 6, 20});
+    expect_usual(21, 9, 6, (const dem_index[]){0, 5, 9, 14, 18, 20});
+    expect_usual(21, 14, 6, (const dem_index[]){0, 7, 14, 16, 18, 20});
+    expect_usual(21, 1, 4, (const dem_index[]){0, 1, 2, 20});
+    expect_usual(21, -1, 6, (const dem_index[]){0, 4, 8, 12, 16, 20});
+    expect_usual(21, 20, 6, (const dem_index[]){0, 4, 8, 12, 16, 20});
+    expect_usual(4, 2, 4, (const dem_index[]){0, 1, 2, 3});
+    expect_usual(1, -1, 1, (const dem_index[]){0});
+}
+
+/* Whatever the film: the first, the middle and the last, each once, in order. */
+static void usual_ones_have_first_middle_and_last(void **state)
+{
+    (void)state;
+    for (dem_index n = 7; n < 60; n++)
+        for (dem_index middle = 1; middle < n - 1; middle++) {
+            moments m;
+            bool has_middle = false;
+            assert_true(moments_usual(&m, n, middle));
+            assert_true(m.n <= MOMENTS_USUAL);
+            assert_int_equal(m.frame[0], 0);
+            assert_int_equal(m.frame[m.n - 1], n - 1);
+            for (size_t k = 0; k < m.n; k++) {
+                has_middle = has_middle || m.frame[k] == middle;
+                if (k > 0) assert_true(m.frame[k] > m.frame[k - 1]);
+            }
+            assert_true(has_middle);
+            moments_free(&m);
+        }
+}
+
+static void all_are_all(void **state)
+{
+    (void)state;
+    moments m;
+    assert_true(moments_all(&m, 3));
+    expect(&m, 3, (const dem_index[]){0, 1, 2});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_and_ranges_are_taken_in_their_order),
+                                       cmocka_unit_test(what_is_no_list_is_refused),
+                                       cmocka_unit_test(times_are_those_of_the_nearest_frames),
+                                       cmocka_unit_test(usual_ones_mirror_about_the_greatest_compression),
+                                       cmocka_unit_test(usual_ones_have_first_middle_and_last),
+                                       cmocka_unit_test(all_are_all)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

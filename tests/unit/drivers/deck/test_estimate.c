@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* estimate.c: what a deck says of its run before anything is built, beside what the run then is. */
+#include "unit/close.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "estimate.h"
+
+#define HEAD  "&run t_end = 0.1 /\n&output frame_interval = 0.01 /\n"
+#define SOLID HEAD "&material youngs_modulus = 1e7, density = 1000 /\n"
+
+static char path[] = "/tmp/test_estimate_XXXXXX";
+
+static void put(const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static deck parse(const char *text)
+{
+    namelist_errors errors = {0};
+    deck d;
+    put(text);
+    const deck_status status = deck_parse(&d, path, NULL, 0, &errors);
+    if (status != DECK_OK) fail_msg("%s", errors.n > 0 ? errors.list[0].text : "no message");
+    return d;
+}
+
+static estimate of(const char *text)
+{
+    estimate e;
+    deck d = parse(text);
+    assert_true(estimate_deck(&e, &d));
+    deck_free(&d);
+    return e;
+}
+
+/* What the deck tells, and what then comes of it. */
+static void measure(const char *text, estimate *told, estimate *found)
+{
+    namelist_errors errors = {0};
+    dem_model *model;
+    dem_simulation *simulation;
+    deck d = parse(text);
+    assert_true(estimate_deck(told, &d));
+    if (deck_build(&d, &errors) != DECK_OK) fail_msg("%s", errors.list[0].text);
+    assert_int_equal(dem_model_create(&model, &d.lattice, NULL, 0), DEM_OK);
+    d.options.v_scale = 1.0;
+    assert_int_equal(dem_simulation_create(&simulation, model, &d.options), DEM_OK);
+    *found = estimate_run(&d, simulation);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
+    deck_free(&d);
+}
+
+/* ---- nodes ---- */
+
+/* By a share of the nodes, which are few. */
+static void expect_nodes(const char *text, double tolerance)
+{
+    estimate told, found;
+    measure(text, &told, &found);
+    assert_close(told.nodes, found.nodes, tolerance * found.nodes);
+    assert_close(told.springs, found.springs, 2.0 * tolerance * found.springs);
+    assert_close(told.frames, found.frames, 0.0);
+    assert_true(told.cover >= found.nodes);
+}
+
+#define BODY "spacing = 0.01 /\n"
+
+static void nodes_of_every_shape_are_known_from_its_area(void **state)
+{
+    (void)state;
+    expect_nodes(SOLID "&body shape = 'rectangle', size = 1, 0.5, " BODY, 0.04);
+    expect_nodes(SOLID "&body shape = 'rectangle', size = 1, 0.5, lattice = 'square', " BODY, 0.04);
+    expect_nodes(SOLID "&body shape = 'disc', radius = 0.5, " BODY, 0.04);
+    expect_nodes(SOLID "&body shape = 'ring', radius = 0.5, inner_radius = 0.2, " BODY, 0.04);
+    expect_nodes(SOLID "&body shape = 'polygon', points = 0,0, 1,0, 0.5,0.8, " BODY, 0.08);
+}
+
+static void voids_and_pores_take_nodes(void **state)
+{
+    (void)state;
+    expect_nodes(SOLID "&void body = 1, centre = 0,0.25, radius = 0.2 /\n"
+                       "&body shape = 'rectangle', size = 1, 0.5, " BODY,
+                 0.05);
+    expect_nodes(SOLID "&pores porosity = 0.1, radius = 0.02, 0.02 /\n"
+                       "&body shape = 'rectangle', size = 1, 0.5, " BODY,
+                 0.06);
+    expect_nodes(SOLID "&pores number = 20, radius = 0.02, 0.02 /\n"
+                       "&body shape = 'rectangle', size = 1, 0.5, " BODY,
+                 0.06);
+}
+
+static void bodies_add_up_and_the_one_of_most_nodes_is_told(void **state)
+{
+    (void)state;
+    const estimate e = of(SOLID "&body shape = 'disc', radius = 1, spacing = 0.1 /\n"
+                                "&body shape = 'rectangle', size = 30, 40, spacing = 0.1, lattice = 'square' /\n");
+    assert_int_equal(e.largest, 1);
+    assert_close(e.cover, 301.0 * 401.0, 1e-6);
+    assert_close(e.nodes, 120000.0 + 314.159265 / 0.866025, 0.01);
+}
+
+/* Only its size is known of a mask before it is read, and only its bytes of a mesh. */
+static void files_are_told_by_their_first_bytes_and_their_size(void **state)
+{
+    (void)state;
+    char text[512];
+    char image[] = "/tmp/test_estimate_image_XXXXXX";
+    const int file = mkstemp(image);
+    assert_true(file >= 0 && write(file, "P2 # 30 by 20\n30 20 255\n", 24) == 24 && close(file) == 0);
+    (void)snprintf(text, sizeof text, SOLID "&body shape = 'mask', file = '%s', scale = 1, spacing = 0.5 /\n", image);
+    estimate e = of(text);
+    assert_close(e.cover, 61.0 * (20.0 / (0.5 * sqrt(0.75)) + 1.0), 1e-6);
+    assert_close(e.nodes, 0.0, 0.0);
+    assert_close(e.memory, 64.0 * e.cover, 1e-6);
+    (void)snprintf(text, sizeof text, SOLID "&body shape = 'mesh', file = '%s', scale = 1 /\n", image);
+    e = of(text);
+    assert_close(e.memory, 24.0, 0.0);
+    assert_true(isinf(e.step));
+    assert_close(e.steps, 0.0, 0.0);
+    assert_int_equal(unlink(image), 0);
+    e = of(text);
+    assert_close(e.memory, 0.0, 0.0);
+}
+
+/* ---- memory, whatever the numbers are ---- */
+
+static void memory_grows_with_nodes_and_method_and_is_no_more_than_measured(void **state)
+{
+    (void)state;
+    const estimate pairs = of(SOLID "&body shape = 'rectangle', size = 10, 10, lattice = 'square', " BODY);
+    const estimate verlet = of(SOLID "&solver method = 'verlet' /\n"
+                                     "&body shape = 'rectangle', size = 10, 10, lattice = 'square', " BODY);
+    assert_close(pairs.memory, 1.2e9, 1.0); /* docs/performance.md: 1.44e9 resident */
+    assert_close(verlet.memory, 1.0e9, 1.0);
+}
+
+static void a_lattice_that_is_cut_is_there_before(void **state)
+{
+    (void)state;
+    const estimate e = of(SOLID "&void centre = 0,500, radius = 1e6 /\n"
+                                "&body shape = 'rectangle', size = 1000, 1000, lattice = 'square', spacing = 1 /\n");
+    assert_close(e.nodes, 0.0, 0.0);
+    assert_close(e.memory, 64.0 * 1001.0 * 1001.0, 1.0);
+}
+
+static void products_that_overflow_are_large_and_finite(void **state)
+{
+    (void)state;
+    estimate e = of(SOLID "&body shape = 'rectangle', size = 1e9, 1e9, spacing = 1, lattice = 'square' /\n");
+    assert_close(e.memory, 1.2e21, 1e10);
+    e = of(SOLID "&body shape = 'rectangle', size = 1e300, 1e300, spacing = 1 /\n");
+    assert_close(e.memory, 1.2e253, 1e240);
+    assert_true(isfinite(e.output));
+    e = of(SOLID "&body shape = 'disc', radius = 1e200, spacing = 1e-100 /\n");
+    assert_close(e.memory, 1.2e253, 1e240);
+}
+
+/* Nothing is told of what cannot be computed with: that is refused when it is built. */
+static void what_underflows_is_not_estimated(void **state)
+{
+    (void)state;
+    estimate e = of(SOLID "&body shape = 'rectangle', size = 1, 1, spacing = 1e-200 /\n");
+    assert_close(e.memory, 0.0, 0.0);
+    assert_close(e.steps, 0.0, 0.0);
+    e = of(HEAD "&material youngs_modulus = 1e7, density = 1e-308 /\n&body shape = 'rectangle', size = 1, 1, " BODY);
+    assert_close(e.steps, 0.0, 0.0);
+}
+
+/* ---- steps ---- */
+
+/* No run makes fewer; where it is all of one kind hardly more. */
+static void expect_steps(const char *text, double most)
+{
+    estimate told, found;
+    measure(text, &told, &found);
+    if (!(told.steps <= found.steps && found.steps <= most * told.steps))
+        fail_msg("%g steps told, %g found: %s", told.steps, found.steps, text);
+}
+
+#define BLOCK "&body shape = 'rectangle', size = 0.2, 0.1, spacing = 0.01"
+
+static void steps_are_bounded_by_stiffness_and_mass(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *keys;
+        double most; /* of nu beyond 1/3 the area term adds to the springs, and is not counted */
+    } materials[] = {{"youngs_modulus = 1e7, density = 1000", 1.3},
+                     {"youngs_modulus = 1e7, density = 1000, poissons_ratio = -0.9", 1.3},
+                     {"youngs_modulus = 1e7, density = 1000, poissons_ratio = 0.99, thickness = 2", 13.0},
+                     {"youngs_modulus = 1e9, density = 2000, poissons_ratio = 0.1, plane = 'strain'", 1.3},
+                     {"youngs_modulus = 1e9, density = 2000, poissons_ratio = 0.49, plane = 'strain'", 10.0},
+                     {"bond_stiffness = 1e5, density = 1000, thickness = 0.01", 2.5}};
+    static const char *const lattices[] = {"", ", lattice = 'square'", ", jitter = 0.3, seed = 3",
+                                           ", jitter = 0.3, lattice = 'square', seed = 5"};
+    static const char *const methods[] = {"", "&solver method = 'rk4' /\n", "&solver method = 'verlet' /\n",
+                                          "&solver max_step = 1e-6 /\n", "&solver fixed_step = 1e-6 /\n"};
+    char text[1024];
+    for (size_t m = 0; m < sizeof materials / sizeof *materials; m++)
+        for (size_t l = 0; l < sizeof lattices / sizeof *lattices; l++)
+            for (size_t s = 0; s < sizeof methods / sizeof *methods; s++) {
+                if (m == 1 && l % 2 == 1) continue; /* squares would warp */
+                (void)snprintf(text, sizeof text, HEAD "%s&material %s /\n" BLOCK "%s /\n", methods[s],
+                               materials[m].keys, lattices[l]);
+                expect_steps(text, (l < 2 ? 1.0 : 2.0) * materials[m].most);
+            }
+}
+
+static void steps_are_bounded_where_shapes_are_cut_and_materials_mixed(void **state)
+{
+    (void)state;
+    expect_steps(SOLID BLOCK " /\n&void centre = 0,0.05, radius = 0.02 /\n&crack points = 0,0.06, 0,0.2 /\n", 1.6);
+    expect_steps(SOLID BLOCK ", lattice = 'square', diagonal = 0.2 /\n&void centre = 0,0.05, radius = 0.02 /\n", 1.6);
+    expect_steps(SOLID "&material name = 'soft', youngs_modulus = 1e6, density = 4000 /\n" BLOCK
+                       " /\n&inclusion material = 'soft', centre = 0,0.05, radius = 0.03 /\n",
+                 11.0);
+    expect_steps(SOLID "&material name = 'soft', youngs_modulus = 1e6, density = 4000 /\n" BLOCK
+                       " /\n&inclusion material = 'soft', centre = 0,0.05, radius = 1 /\n",
+                 1.3); /* all of it */
+    expect_steps(SOLID "&material name = 'hard', youngs_modulus = 1e9, density = 4000 /\n" BLOCK
+                       " /\n&body shape = 'disc', radius = 0.1, spacing = 0.02, position = 1, 0, material = 'hard' /\n",
+                 1.6);
+}
+
+/* ---- output ---- */
+
+/* 11 frames of x, displacement, velocity, 6 stresses and von Mises in f32, of strain, force and `broken`; a history of
+ * 35 numbers, 5 for the body, 9 for the obstacle and 4 for the boundary. */
+static void output_is_frames_and_tables(void **state)
+{
+    (void)state;
+    const estimate e = of(SOLID "&solver max_step = 1e-3 /\n"
+                                "&obstacle points = -9, -9, 9, -9 /\n&boundary where = 'side', side = 'top' /\n"
+                                "&body shape = 'rectangle', size = 1, 1, lattice = 'square', " BODY);
+    assert_close(e.steps, 100.0, 1e-9);
+    assert_close(e.frames, 11.0, 0.0);
+    assert_close(e.output, 11.0 * (10000.0 * (24.0 + 4.0 * 13.0) + 40000.0 * (1.0 + 8.0)) + 8.0 * 1024.0 * 53.0, 1.0);
+}
+
+/* ---- what is refused ---- */
+
+#define TWO                                                                                                            \
+    "&run t_end = 1 /\n&material youngs_modulus = 1, density = 1 /\n"                                                  \
+    "&body shape = 'rectangle', size = 1, 1, spacing = 1 /\n"                                                          \
+    "&body shape = 'rectangle', size = 1, 1,\n spacing = 1 /\n&output\n frame_interval = 0.1 /\n"
+
+static const estimate needed = {
+    .nodes = 5e6, .largest = 1, .memory = 6e9, .step = 1e-6, .steps = 1e6, .frames = 11.0, .output = 3e9};
+
+static void expect_told(limits most, estimate_breach expected, const char *told)
+{
+    namelist_errors errors = {0};
+    char all[1024] = "";
+    size_t n = 0;
+    deck d = parse(TWO);
+    assert_int_equal(estimate_check(&needed, &most, &d, &errors), expected);
+    for (size_t k = 0; k < errors.n; k++)
+        n += (size_t)snprintf(all + n, sizeof all - n, "%d:%d %s\n", errors.list[k].place.line,
+                              errors.list[k].place.column, errors.list[k].text);
+    assert_string_equal(all, told);
+    namelist_errors_free(&errors);
+    deck_free(&d);
+}
+
+static void what_keeps_within_its_limits_is_told_nothing(void **state)
+{
+    (void)state;
+    expect_told((limits){6e9, 1e6, 6e9}, ESTIMATE_KEPT, "");
+    expect_told((limits){INFINITY, INFINITY, INFINITY}, ESTIMATE_KEPT, "");
+}
+
+static void what_exceeds_one_is_told_which_where_and_by_what_option(void **state)
+{
+    (void)state;
+    expect_told(
+        (limits){5e9, 1e6, 6e9}, ESTIMATE_MEMORY,
+        "5:2 the run takes at least 6 GB of memory for its 5e+06 nodes; the limit is 5 GB, and --max-memory sets "
+        "it\n");
+    expect_told(
+        (limits){6e9, 5e5, 6e9}, ESTIMATE_STEPS,
+        "1:6 't_end' in &run, 1 s, takes at least 1e+06 steps of 1e-06 s; the limit is 5e+05, and --max-steps sets "
+        "it\n");
+    expect_told(
+        (limits){6e9, 1e6, 5.9e9}, ESTIMATE_DISK,
+        "7:2 the output takes about 3 GB, 11 frames and 1e+06 steps until 't_end', twice while it is put together; "
+        "the limit is 5.9 GB, and --max-disk sets it\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_of_every_shape_are_known_from_its_area),
+        cmocka_unit_test(voids_and_pores_take_nodes),
+        cmocka_unit_test(bodies_add_up_and_the_one_of_most_nodes_is_told),
+        cmocka_unit_test(files_are_told_by_their_first_bytes_and_their_size),
+        cmocka_unit_test(memory_grows_with_nodes_and_method_and_is_no_more_than_measured),
+        cmocka_unit_test(a_lattice_that_is_cut_is_there_before),
+        cmocka_unit_test(products_that_overflow_are_large_and_finite),
+        cmocka_unit_test(what_underflows_is_not_estimated),
+        cmocka_unit_test(steps_are_bounded_by_stiffness_and_mass),
+        cmocka_unit_test(steps_are_bounded_where_shapes_are_cut_and_materials_mixed),
+        cmocka_unit_test(output_is_frames_and_tables),
+        cmocka_unit_test(what_keeps_within_its_limits_is_told_nothing),
+        cmocka_unit_test(what_exceeds_one_is_told_which_where_and_by_what_option),
+    };
+    const int file = mkstemp(path);
+    if (file < 0 || close(file) != 0) return 1;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return unlink(path) == 0 ? failed : 1;
+}

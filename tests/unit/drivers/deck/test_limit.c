@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* limit.c: what a run may take, where that comes from, and what is said of one that takes more. */
+#include "unit/close.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "limit.h"
+
+static char folder[] = "/tmp/test_limits_XXXXXX";
+
+static const char *at(const char *name)
+{
+    static char path[256];
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void put(const char *name, const char *text)
+{
+    FILE *file = fopen(at(name), "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* ---- options ---- */
+
+static void by_default_memory_is_the_machines_and_steps_have_an_end(void **state)
+{
+    (void)state;
+    const limits most = limit_default();
+    assert_close(most.steps, 1e10, 0.0);
+    assert_true(isinf(most.disk));
+    assert_true(most.memory > 1e6 && most.memory <= (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE));
+}
+
+static void numbers_above_zero_set_limits(void **state)
+{
+    (void)state;
+    double limit = 7.0;
+    assert_true(limit_set(&limit, "1.5", 1e9));
+    assert_close(limit, 1.5e9, 0.0);
+    assert_true(limit_set(&limit, "1e3", 1.0));
+    assert_close(limit, 1e3, 0.0);
+    static const char *const bad[] = {"", "x", "1GB", "0", "-1", "nan", "inf", "1e999", " ", NULL};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) assert_false(limit_set(&limit, bad[k], 1.0));
+    assert_close(limit, 1e3, 0.0);
+}
+
+/* ---- what there is ---- */
+
+static void the_least_limit_of_all_groups_above_counts(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir(at("a"), 0700), 0);
+    assert_int_equal(mkdir(at("a/b"), 0700), 0);
+    put("memory.max", "5000000\n");
+    put("a/memory.max", "3000000\n");
+    put("a/b/memory.max", "max\n");
+    put("groups", "1:cpu:/elsewhere\n0::/a/b\n");
+    assert_close(limit_of_groups(folder, at("groups")), 3e6, 0.0);
+    put("a/b/memory.max", "1000000\n");
+    assert_close(limit_of_groups(folder, at("groups")), 1e6, 0.0);
+    put("groups", "0::/\n");
+    assert_close(limit_of_groups(folder, at("groups")), 5e6, 0.0);
+    put("groups", "1:cpu:/a\n");
+    assert_true(isinf(limit_of_groups(folder, at("groups"))));
+    assert_true(isinf(limit_of_groups(folder, at("none"))));
+    static const char *const made[] = {"a/b/memory.max", "a/memory.max", "memory.max", "groups", "a/b", "a"};
+    for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(remove(at(made[k])), 0);
+}
+
+static void the_disk_has_what_is_free_but_for_a_run_that_goes_on(void **state)
+{
+    (void)state;
+    limits most = limit_default();
+    put("runner.vtkhdf", "another one's\n");
+    put("run.json", "of a run that came to nothing\n");
+    assert_true(limit_see_disk(&most, folder, "run"));
+    assert_true(most.disk > 0.0 && isfinite(most.disk));
+    most.disk = INFINITY;
+    put("run.part.vtkhdf", "begun\n");
+    assert_true(limit_see_disk(&most, folder, "run"));
+    assert_true(isinf(most.disk));
+    /* a file system without blocks, and missing folders on it */
+    static const char *const without[] = {"/proc", "/proc/none", "/proc/none//deep/"};
+    for (size_t k = 0; k < sizeof without / sizeof *without; k++)
+        assert_false(limit_see_disk(&most, without[k], "run"));
+    assert_true(isinf(most.disk));
+    const char *const missing[] = {at("none/deep/"), "none", "none/deep", "/none-of-these", "//none-of-these/deep"};
+    for (size_t k = 0; k < sizeof missing / sizeof *missing; k++) {
+        most.disk = INFINITY;
+        assert_true(limit_see_disk(&most, missing[k], "run"));
+        assert_true(most.disk > 0.0 && isfinite(most.disk));
+    }
+    static const char *const made[] = {"runner.vtkhdf", "run.json", "run.part.vtkhdf"};
+    for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(unlink(at(made[k])), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(by_default_memory_is_the_machines_and_steps_have_an_end),
+        cmocka_unit_test(numbers_above_zero_set_limits),
+        cmocka_unit_test(the_least_limit_of_all_groups_above_counts),
+        cmocka_unit_test(the_disk_has_what_is_free_but_for_a_run_that_goes_on),
+    };
+    if (mkdtemp(folder) == NULL) return 1;
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return rmdir(folder) == 0 ? failed : 1;
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "unit/close.h"
+
+#include "kinds.h"
+
+static void pairs_are_told_apart_and_in_order(void **state)
+{
+    (void)state;
+    const kinds_pair pairs[] = {{2.0, 1.0}, {1.0, 5.0}, {2.0, 0.5}, {1.0, 5.0}, {0.0, 7.0}, {2.0, 1.0}};
+    const dem_index of[] = {3, 1, 2, 1, 0, 3};
+    outcome o = {0};
+    const task t = {.outcome = &o};
+    kinds k;
+    assert_true(kinds_find(&k, &t, 6, pairs));
+    assert_int_equal(k.n, 4);
+    assert_memory_equal(k.of, of, sizeof of);
+    assert_close(k.values[2].b, 0.5, 0.0);
+    assert_close(k.values[3].a, 2.0, 0.0);
+    kinds_free(&k);
+}
+
+/* First numbers that differ by rounding must not keep equal second ones apart. */
+static void rounding_makes_no_kind(void **state)
+{
+    (void)state;
+    const double e = 1e-15;
+    const kinds_pair pairs[] = {{1.0, 3.0}, {1.0 + e, 2.0}, {1.0 + 2.0 * e, 3.0 - 4.0 * e}, {1.0 - e, 2.0 + e}};
+    const dem_index of[] = {1, 0, 1, 0};
+    outcome o = {0};
+    const task t = {.outcome = &o};
+    kinds k;
+    assert_true(kinds_find(&k, &t, 4, pairs));
+    assert_int_equal(k.n, 2);
+    assert_memory_equal(k.of, of, sizeof of);
+    kinds_free(&k);
+}
+
+/* Each is near to the next, the last is not near to the first. */
+static void small_differences_do_not_add_up(void **state)
+{
+    (void)state;
+    kinds_pair pairs[8];
+    outcome o = {0};
+    const task t = {.outcome = &o};
+    kinds k;
+    for (int j = 0; j < 8; j++) pairs[j] = (kinds_pair){1.0, 1.0 + 0.4e-12 * (double)j};
+    assert_true(kinds_find(&k, &t, 8, pairs));
+    assert_int_equal(k.n, 3);
+    kinds_free(&k);
+    for (int j = 0; j < 8; j++) pairs[j] = (kinds_pair){1.0 + 0.4e-12 * (double)j, 1.0};
+    assert_true(kinds_find(&k, &t, 8, pairs));
+    assert_int_equal(k.n, 3);
+    kinds_free(&k);
+}
+
+static void of_nothing_there_are_none(void **state)
+{
+    (void)state;
+    outcome o = {0};
+    const task t = {.outcome = &o};
+    kinds k;
+    assert_true(kinds_find(&k, &t, 0, NULL));
+    assert_int_equal(k.n, 0);
+    kinds_free(&k);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_are_told_apart_and_in_order),
+        cmocka_unit_test(rounding_makes_no_kind),
+        cmocka_unit_test(small_differences_do_not_add_up),
+        cmocka_unit_test(of_nothing_there_are_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "unit/exported.h"
+
+#include "molecule.h"
+
+static exported e;
+
+static void make(molecule *m, exported_how how, dem_index first)
+{
+    exported_open(&e, how);
+    e.task.frames.frame[0] = first;
+    assert_true(molecule_make(m, &e.task));
+}
+
+static void end(molecule *m)
+{
+    molecule_free(m);
+    exported_close(&e);
+}
+
+static void types_are_of_mass_and_of_spring(void **state)
+{
+    (void)state;
+    molecule m;
+    make(&m, exported_usual(), 0);
+    const dem_index atoms[] = {0, 1, 2}, bonds[] = {0, 2, 1};
+    assert_int_equal(m.atoms.n, 3);
+    assert_memory_equal(m.atoms.of, atoms, sizeof atoms);
+    assert_true(m.atoms.values[1].a == 0.0 && m.atoms.values[2].a == 1.0); /* as heavy, but fixed */
+    assert_int_equal(m.bonds.n, 3);
+    assert_memory_equal(m.bonds.of, bonds, sizeof bonds);
+    assert_close(m.longest, 5.0, 0.0);
+    end(&m);
+}
+
+static void the_start_is_not_rounded(void **state)
+{
+    (void)state;
+    molecule m;
+    make(&m, exported_usual(), 0);
+    assert_true(m.t == 0.0 && m.v[0] == 0.1 && m.x[5] == 5.0);
+    end(&m);
+}
+
+static void a_later_frame_is_as_it_is_in_the_file(void **state)
+{
+    (void)state;
+    for (int in_double = 0; in_double < 2; in_double++) {
+        molecule m;
+        exported_how how = exported_usual();
+        double v[9];
+        how.double_precision = in_double;
+        make(&m, how, 2);
+        assert_ok(dem_film_read(e.film, dem_film_array_find(e.film, "velocity"), 2, v));
+        assert_true(m.t == 0.5 && m.v[0] == v[0] && m.v[3] == v[4] && m.v[0] != 0.1);
+        end(&m);
+    }
+}
+
+static void without_frames_it_is_the_lattice(void **state)
+{
+    (void)state;
+    molecule m;
+    exported_how how = exported_usual();
+    how.frame_interval = 0.0;
+    exported_open(&e, how);
+    assert_int_equal(e.task.frames.n, 0);
+    assert_true(molecule_make(&m, &e.task));
+    assert_true(m.x[5] == 5.0 && m.v[0] == 0.1);
+    end(&m);
+}
+
+static void the_box_has_room(void **state)
+{
+    (void)state;
+    molecule m;
+    make(&m, exported_usual(), 0);
+    const molecule_box box = molecule_box_of(&m, m.x);
+    assert_close(box.low[0], -5.3, 1e-15);
+    assert_close(box.high[0], 8.3, 2e-15);
+    assert_close(box.low[1], -4.4, 1e-15);
+    assert_close(box.high[1], 10.4, 2e-15);
+    end(&m);
+}
+
+static void what_is_left_out_is_told(void **state)
+{
+    (void)state;
+    molecule m;
+    exported_how how = exported_usual();
+    make(&m, how, 0);
+    assert_string_equal(m.omissions, "left out: the folding guard of 1 triangle, 1 obstacle, gravity, which a run "
+                                     "without a deck does not tell");
+    end(&m);
+    how.n_obstacles = 0, how.resolved = "&solver mass_damping = 2 /";
+    make(&m, how, 0);
+    assert_string_equal(m.omissions, "left out: the folding guard of 1 triangle, the damping of masses, 2 1/s");
+    end(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(types_are_of_mass_and_of_spring),
+        cmocka_unit_test(the_start_is_not_rounded),
+        cmocka_unit_test(a_later_frame_is_as_it_is_in_the_file),
+        cmocka_unit_test(without_frames_it_is_the_lattice),
+        cmocka_unit_test(the_box_has_room),
+        cmocka_unit_test(what_is_left_out_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "unit/close.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "task.h"
+
+static void a_failure_of_the_library_is_the_outcome(void **state)
+{
+    (void)state;
+    outcome o = {0};
+    const task t = {.outcome = &o};
+    dem_film *film = NULL;
+    assert_true(task_holds(&t, DEM_OK));
+    assert_int_equal(o.code, EXIT_DONE);
+    assert_false(task_holds(&t, dem_film_open(&film, "none.vtkhdf")));
+    assert_int_equal(o.code, EXIT_IO);
+    assert_non_null(strstr(o.message, "dem_export: error: none.vtkhdf: cannot be opened"));
+}
+
+static void arrays_are_zeroed_and_never_of_no_bytes(void **state)
+{
+    (void)state;
+    outcome o = {0};
+    const task t = {.outcome = &o};
+    double *none = task_allocate(&t, 0, sizeof *none), *some = task_allocate(&t, 3, sizeof *some);
+    assert_true(none != NULL && some != NULL && some[2] == 0.0);
+    free(none);
+    free(some);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_failure_of_the_library_is_the_outcome),
+        cmocka_unit_test(arrays_are_zeroed_and_never_of_no_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* vtu.c: which files there are, and the series. Their numbers are read by VTK in tests/deck/test_export.py. */
+#include "unit/exported.h"
+
+#include "vtu.h"
+
+static void there_is_a_file_for_each_frame_and_the_series(void **state)
+{
+    (void)state;
+    exported e;
+    exported_open(&e, exported_usual());
+    e.task.frames.n = 2;
+    e.task.frames.frame[0] = 2, e.task.frames.frame[1] = 0;
+    assert_true(vtu_export(&e.task));
+    assert_true(exported_has(&e, "run_0000.vtu") && exported_has(&e, "run_0002.vtu"));
+    assert_false(exported_has(&e, "run_0001.vtu"));
+    exported_expect(&e, "run.pvd",
+                    "<Collection>\n<DataSet timestep=\"0.5\" part=\"0\" file=\"run_0002.vtu\"/>\n"
+                    "<DataSet timestep=\"0\" part=\"0\" file=\"run_0000.vtu\"/>\n</Collection>\n");
+    exported_expect(&e, "run_0002.vtu", "<Piece NumberOfPoints=\"3\" NumberOfCells=\"3\">");
+    exported_expect(&e, "run.obstacle.vtu", "<Piece NumberOfPoints=\"3\" NumberOfCells=\"2\">");
+    exported_close(&e);
+}
+
+static void without_obstacles_there_is_no_file_of_them(void **state)
+{
+    (void)state;
+    exported e;
+    exported_how how = exported_usual();
+    how.n_obstacles = 0;
+    exported_open(&e, how);
+    assert_true(vtu_export(&e.task));
+    assert_false(exported_has(&e, "run.obstacle.vtu"));
+    exported_close(&e);
+}
+
+static void files_in_the_way_stop_it_before_it_begins(void **state)
+{
+    (void)state;
+    exported e;
+    exported_open(&e, exported_usual());
+    exported_put(&e, "run_0002.vtu", "mine");
+    assert_false(vtu_export(&e.task));
+    assert_int_equal(e.outcome.code, EXIT_TAKEN);
+    assert_false(exported_has(&e, "run_0000.vtu"));
+    exported_close(&e);
+}
+
+static void a_run_without_frames_has_no_series(void **state)
+{
+    (void)state;
+    exported e;
+    exported_how how = exported_usual();
+    how.frame_interval = 0.0;
+    exported_open(&e, how);
+    assert_false(vtu_export(&e.task));
+    assert_int_equal(e.outcome.code, EXIT_INVALID);
+    exported_close(&e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(there_is_a_file_for_each_frame_and_the_series),
+        cmocka_unit_test(without_obstacles_there_is_no_file_of_them),
+        cmocka_unit_test(files_in_the_way_stop_it_before_it_begins),
+        cmocka_unit_test(a_run_without_frames_has_no_series),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

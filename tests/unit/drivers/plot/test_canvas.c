@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* canvas.c: what all canvases share. */
+#include "unit/witness.h"
+
+static void lengths_count_letters_not_bytes(void **state)
+{
+    (void)state;
+    assert_close(canvas_length("µµµ", 10.0), canvas_length("abc", 10.0), 0.0);
+    assert_close(canvas_length("", 10.0), 0.0, 0.0);
+    assert_close(canvas_length("abcdef", 20.0), 4.0 * canvas_length("abc", 10.0), 1e-12);
+}
+
+static void rectangles_have_their_corners(void **state)
+{
+    (void)state;
+    witness s = witness_new();
+    const box b = {1, 2, 30, 40};
+    canvas_outline(&s.face, (canvas_pen){canvas_black, 2.0}, b);
+    canvas_fill(&s.face, canvas_grey, b);
+    assert_memory_equal(&s.stroked, &b, sizeof b);
+    assert_memory_equal(&s.filled, &b, sizeof b);
+    assert_int_equal(s.strokes, 1);
+    assert_int_equal(s.fills, 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lengths_count_letters_not_bytes),
+                                       cmocka_unit_test(rectangles_have_their_corners)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* legend.c: bars of colours and of lengths. */
+#include "unit/witness.h"
+
+#include "legend.h"
+
+static const dem_film_array strain = {.name = "strain", .unit = "1"}, stress = {.name = "von_mises", .unit = "Pa"};
+
+static void expect_unit(double largest, const char *base, double factor, const char *expected)
+{
+    char unit[LEGEND_UNIT];
+    assert_close(legend_unit(unit, largest, base), factor, 1e-12 * factor);
+    assert_string_equal(unit, expected);
+}
+
+static void units_have_prefixes_and_ratios_powers(void **state)
+{
+    (void)state;
+    expect_unit(3e6, "Pa", 1e6, "MPa");
+    expect_unit(0.02, "m/s", 1e-3, "mm/s");
+    expect_unit(0.4, "1", 1.0, "");
+    expect_unit(3e-13, "1", 1e-13, "10⁻¹³");
+    expect_unit(3e-14, "Pa", 1e-14, "10⁻¹⁴ Pa");
+    expect_unit(40.0, "", 1.0, "");
+    expect_unit(0.0, "1", 1.0, "");
+}
+
+static witness draw(const dem_film_array *source, palette_kind kind, span range, double width)
+{
+    witness paper = witness_new();
+    const palette p = palette_make(kind);
+    const quantity q = {.name = source->name, .label = "label", .source = source, .scale = kind};
+    legend_draw_colours(&q, &p, range, (box){40, 30, 40 + width, 43}, &paper.face);
+    assert_int_equal(paper.depth, 0);
+    assert_int_equal(paper.images, 1);
+    assert_int_equal(paper.image.width, PALETTE_SIZE);
+    return paper;
+}
+
+static void both_sides_and_the_middle_are_numbered(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"−0.4", "−0.2", "0", "0.2", "0.4", "label"};
+    const witness s = draw(&strain, PALETTE_DIVERGING, (span){-0.4, 0.4, false, false}, 400.0);
+    assert_int_equal(s.n_labels, 6);
+    for (int k = 0; k < 6; k++) assert_string_equal(s.text[k], texts[k]);
+    assert_close(s.label[0].x, 40.0, 1e-9);
+    assert_close(s.label[2].x, 240.0, 1e-9);
+    assert_close(s.label[4].x, 440.0, 1e-9);
+    assert_int_equal(s.fills, 0);
+}
+
+static void arrows_tell_of_values_beyond(void **state)
+{
+    (void)state;
+    const witness both = draw(&strain, PALETTE_DIVERGING, (span){-0.4, 0.4, true, true}, 400.0);
+    const witness upper = draw(&stress, PALETTE_SEQUENTIAL, (span){0.0, 3e6, false, true}, 400.0);
+    assert_int_equal(both.fills, 2);
+    assert_true(both.filled.x0 < 40.0 && both.filled.x1 > 440.0);
+    assert_int_equal(upper.fills, 1);
+    assert_true(upper.filled.x0 >= 440.0);
+    assert_string_equal(upper.text[upper.n_labels - 1], "label, MPa");
+}
+
+static void numbers_do_not_meet(void **state)
+{
+    (void)state;
+    for (double width = 90.0; width < 450.0; width += 10.0)
+        for (double limit = 1e-14; limit < 1e6; limit *= 1.7) {
+            const witness s = draw(&strain, PALETTE_DIVERGING, (span){-limit, limit, false, false}, width);
+            const witness t = draw(&stress, PALETTE_SEQUENTIAL, (span){0.0, limit, false, false}, width);
+            const box picture = {-20, 0, 100 + width, 100};
+            witness_expect_legible(&s, picture);
+            witness_expect_legible(&t, picture);
+        }
+}
+
+static void a_scale_bar_has_a_round_length(void **state)
+{
+    (void)state;
+    witness s = witness_new();
+    legend_draw_scale(1000.0, 10.0, 50.0, 70.0, &s.face); /* 70 mm of room */
+    assert_string_equal(s.text[0], "50 mm");
+    assert_close(s.stroked.x0, 10.0, 1e-9);
+    assert_close(s.stroked.x1, 60.0, 1e-9);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(units_have_prefixes_and_ratios_powers),
+        cmocka_unit_test(both_sides_and_the_middle_are_numbered), cmocka_unit_test(arrows_tell_of_values_beyond),
+        cmocka_unit_test(numbers_do_not_meet), cmocka_unit_test(a_scale_bar_has_a_round_length)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

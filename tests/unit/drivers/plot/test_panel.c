@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* panel.c: a frame in its place. */
+#include "unit/filmed.h"
+#include "unit/witness.h"
+
+#include "panel.h"
+
+typedef struct view {
+    quantity q;
+    snapshot s;
+    palette p;
+    panel_look look;
+    panel at;
+    witness paper;
+} view;
+
+/* The last frame with 2 px to the mm, drawn. */
+static void draw(view *v, const filmed *f, const char *name, bool is_binned)
+{
+    outcome o = {0};
+    assert_true(quantity_find(&v->q, f->film, name, &o));
+    assert_true(snapshot_create(&v->s, f->film, &v->q, &o));
+    assert_true(snapshot_load(&v->s, FILMED_FRAMES - 1, &o));
+    v->p = palette_make(v->q.scale);
+    v->look = (panel_look){&v->p, span_around(v->s.reach, v->q.scale == PALETTE_DIVERGING), 1.0, is_binned};
+    v->at = (panel){{-0.02, -0.02, 0.04, 0.04}, {10, 20, 130, 140}};
+    v->paper = witness_new();
+    assert_true(panel_draw(&v->at, &v->s, &v->look, &v->paper.face));
+    assert_int_equal(v->paper.depth, 0);
+}
+
+static void scale_is_pixels_by_metres(void **state)
+{
+    (void)state;
+    const panel p = {{0, 0, 0.5, 1}, {0, 0, 100, 200}};
+    assert_close(panel_scale(&p), 200.0, 1e-12);
+    assert_true(panel_thickness(0.1) > 0.5 && panel_thickness(1e3) < 5.0);
+}
+
+/* All springs, the loose node, and the frame around. */
+static void springs_points_and_ground_are_drawn(void **state)
+{
+    filmed *f = *state;
+    view v;
+    draw(&v, f, "strain", false);
+    assert_int_equal(v.paper.strokes, v.s.lattice->n_springs + 2);
+    assert_int_equal(v.paper.fills, 1);
+    assert_non_null(strstr(v.paper.attributes, "id=\"frame-5\" data-time=\"0.001\""));
+    snapshot_free(&v.s);
+}
+
+static void numbers_of_nodes_fill_triangles(void **state)
+{
+    filmed *f = *state;
+    view v;
+    draw(&v, f, "speed", false);
+    assert_int_equal(v.paper.fills, v.s.lattice->n_triangles + 1);
+    assert_int_equal(v.paper.strokes, 2);
+    snapshot_free(&v.s);
+}
+
+/* Each pixel of the image stands for a quarter of one of the picture; 20 mm are 40 px. */
+static void binned_ones_are_an_image(void **state)
+{
+    filmed *f = *state;
+    view v;
+    draw(&v, f, "speed", true);
+    assert_int_equal(v.paper.images, 1);
+    assert_int_equal(v.paper.image.width, 240);
+    assert_int_equal(v.paper.image.height, 240);
+    assert_close((double)v.paper.opaque, 80.0 * 80.0, 0.15 * 80.0 * 80.0); /* compressed, and in whole triangles */
+    assert_int_equal(v.paper.strokes, 2);
+    snapshot_free(&v.s);
+    draw(&v, f, "strain", true);
+    assert_true(v.paper.opaque > 2000 && v.paper.opaque < 6400); /* lines have gaps between */
+    snapshot_free(&v.s);
+}
+
+static void what_is_out_of_view_is_left_out(void **state)
+{
+    filmed *f = *state;
+    view v;
+    draw(&v, f, "strain", false);
+    v.at.view = (box){1.0, 1.0, 1.06, 1.06};
+    v.paper = witness_new();
+    assert_true(panel_draw(&v.at, &v.s, &v.look, &v.paper.face));
+    assert_int_equal(v.paper.strokes, 2);
+    snapshot_free(&v.s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scale_is_pixels_by_metres), cmocka_unit_test(springs_points_and_ground_are_drawn),
+        cmocka_unit_test(numbers_of_nodes_fill_triangles), cmocka_unit_test(binned_ones_are_an_image),
+        cmocka_unit_test(what_is_out_of_view_is_left_out)};
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+}

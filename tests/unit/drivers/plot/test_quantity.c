@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* quantity.c: which numbers give the colours. */
+#include "unit/filmed.h"
+
+#include <string.h>
+
+#include "quantity.h"
+
+static void the_default_is_the_strain(void **state)
+{
+    filmed *f = *state;
+    quantity q;
+    outcome o = {0};
+    assert_true(quantity_find(&q, f->film, NULL, &o));
+    assert_string_equal(q.name, "strain");
+    assert_int_equal(q.scale, PALETTE_DIVERGING);
+    assert_int_equal(quantity_count(&q, dem_film_lattice(f->film)), dem_film_lattice(f->film)->n_springs);
+}
+
+static void none_has_no_numbers(void **state)
+{
+    filmed *f = *state;
+    quantity q;
+    outcome o = {0};
+    assert_true(quantity_find(&q, f->film, "none", &o));
+    assert_null(q.source);
+    assert_int_equal(quantity_count(&q, dem_film_lattice(f->film)), 0);
+}
+
+static double *read_all(const filmed *f, const char *name)
+{
+    quantity q;
+    outcome o = {0};
+    assert_true(quantity_find(&q, f->film, name, &o));
+    double *value = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * sizeof *value);
+    assert_non_null(value);
+    double *rows = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * 6 * sizeof *rows);
+    assert_non_null(rows);
+    filmed_ok(quantity_read(&q, f->film, 0, value, rows));
+    free(rows);
+    return value;
+}
+
+/* At the start all move alike: (0.5, -2) m/s, to the 24 bits of a float. */
+static void vectors_are_taken_by_length_and_component(void **state)
+{
+    filmed *f = *state;
+    double *speed = read_all(f, "speed"), *x = read_all(f, "velocity_x"), *y = read_all(f, "velocity_y");
+    for (dem_index k = 0; k < dem_film_lattice(f->film)->n_nodes; k++) {
+        assert_close(x[k], 0.5, 1e-7);
+        assert_close(y[k], -2.0, 1e-7);
+        assert_close(speed[k], sqrt(4.25), 1e-6);
+    }
+    free(speed), free(x), free(y);
+}
+
+/* xy stands fourth in a tensor of VTK. */
+static void components_of_stress_are_those_named(void **state)
+{
+    filmed *f = *state;
+    const dem_film_array *stress = dem_film_array_find(f->film, "stress");
+    static const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
+    static const int column[] = {0, 1, 3};
+    const dem_index n = dem_film_lattice(f->film)->n_nodes;
+    double *all = malloc((size_t)n * 6 * sizeof *all), *one = malloc((size_t)n * sizeof *one);
+    double *rows = malloc((size_t)n * 6 * sizeof *rows);
+    filmed_ok(dem_film_read(f->film, stress, FILMED_FRAMES - 1, all));
+    for (int c = 0; c < 3; c++) {
+        quantity q;
+        outcome o = {0};
+        assert_true(quantity_find(&q, f->film, names[c], &o));
+        filmed_ok(quantity_read(&q, f->film, FILMED_FRAMES - 1, one, rows));
+        for (dem_index k = 0; k < n; k++) assert_close(one[k], all[6 * k + column[c]], 0.0);
+    }
+    free(all), free(one), free(rows);
+}
+
+static void what_the_file_lacks_is_refused(void **state)
+{
+    filmed *f = *state;
+    quantity q;
+    outcome o = {0};
+    assert_true(quantity_is_known("principal_1"));
+    assert_false(quantity_find(&q, f->film, "principal_1", &o));
+    assert_int_equal(o.code, EXIT_INVALID);
+    assert_non_null(strstr(o.message, "principal_stress"));
+    assert_false(quantity_is_known("colour"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_default_is_the_strain), cmocka_unit_test(none_has_no_numbers),
+        cmocka_unit_test(vectors_are_taken_by_length_and_component),
+        cmocka_unit_test(components_of_stress_are_those_named), cmocka_unit_test(what_the_file_lacks_is_refused)};
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+}

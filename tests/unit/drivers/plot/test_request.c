@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* request.c: the command line of dem_plot. */
+#include "unit/close.h"
+
+#include <string.h>
+
+#include "request.h"
+
+enum { WORDS = 12 };
+
+/* Words with blanks between. */
+static exit_code parse(request *r, const char *line)
+{
+    static char text[256];
+    char *argv[WORDS] = {NULL};
+    (void)snprintf(text, sizeof text, "%s", line);
+    char *word = strtok(text, " ");
+    for (int k = 0; k < WORDS - 1 && word != NULL; k++, word = strtok(NULL, " ")) argv[k] = word;
+    return request_parse(r, argv);
+}
+
+static void a_strip_by_default(void **state)
+{
+    (void)state;
+    request r;
+    assert_int_equal(parse(&r, "a.vtkhdf -o b.svg"), EXIT_DONE);
+    assert_int_equal(r.action, REQUEST_STRIP);
+    assert_string_equal(r.input, "a.vtkhdf");
+    assert_string_equal(r.output, "b.svg");
+    assert_close(r.width, 1200.0, 0.0);
+    assert_null(r.color);
+    assert_false(r.has_range || r.has_zoom || r.prints_hash);
+}
+
+static void options_are_read(void **state)
+{
+    (void)state;
+    request r;
+    assert_int_equal(parse(&r, "--zoom -1:2,-3:4 --range 0.1 -o b.PNG --color force a --columns 3"), EXIT_DONE);
+    assert_close(r.zoom.x0, -1, 0);
+    assert_close(r.zoom.x1, 2, 0);
+    assert_close(r.zoom.y0, -3, 0);
+    assert_close(r.zoom.y1, 4, 0);
+    assert_true(r.has_range && r.hi == 0.1 && isinf(r.lo));
+    assert_int_equal(r.columns, 3);
+    assert_int_equal(parse(&r, "a -o b.pdf --range -2:1e3 --hash --width 640"), EXIT_DONE);
+    assert_true(r.lo == -2.0 && r.hi == 1e3 && r.prints_hash && r.width == 640.0);
+    assert_int_equal(parse(&r, "a --animate f --times 0,1"), EXIT_DONE);
+    assert_int_equal(r.action, REQUEST_ANIMATION);
+    assert_int_equal(parse(&r, "a --history -o b.svg"), EXIT_DONE);
+    assert_int_equal(r.action, REQUEST_HISTORY);
+    assert_int_equal(parse(&r, "--help"), EXIT_DONE);
+    assert_int_equal(parse(&r, "--version"), EXIT_DONE);
+}
+
+static void what_makes_no_sense_is_refused(void **state)
+{
+    (void)state;
+    static const char *const lines[] = {"",
+                                        "a",
+                                        "-o b.svg",
+                                        "a b -o c.svg",
+                                        "a -o b.gif",
+                                        "a -o",
+                                        "a -o png",
+                                        "a -o b.svg --color red",
+                                        "a -o b.svg --range 0",
+                                        "a -o b.svg --range 2:1",
+                                        "a -o b.svg --range 1:nan",
+                                        "a -o b.svg --range 1:2:3",
+                                        "a -o b.svg --zoom 0:1",
+                                        "a -o b.svg --zoom 1:0,0:1",
+                                        "a -o b.svg --zoom 0:1,0:1x",
+                                        "a -o b.svg --width 10",
+                                        "a -o b.svg --width 1e9",
+                                        "a -o b.svg --columns 0",
+                                        "a -o b.svg --columns 1.5",
+                                        "a -o b.svg --frames 0 --times 0",
+                                        "a -o b.svg --animate f",
+                                        "a --history --animate f",
+                                        "a --animate f --history",
+                                        "a -o b.svg --frobnicate"};
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        request r;
+        if (parse(&r, lines[k]) != EXIT_USAGE) fail_msg("'%s' is taken", lines[k]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_strip_by_default), cmocka_unit_test(options_are_read),
+                                       cmocka_unit_test(what_makes_no_sense_is_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

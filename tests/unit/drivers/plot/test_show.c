@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* show.c: frames of a film become files. */
+#include "unit/filmed.h"
+
+#include <string.h>
+
+#include "show.h"
+
+static char *read_text(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    char *text = calloc(1, 1 << 20);
+    assert_non_null(text);
+    assert_true(fread(text, 1, (1 << 20) - 1, file) < (1 << 20) - 1);
+    (void)fclose(file);
+    (void)remove(path);
+    return text;
+}
+
+static int count(const char *text, const char *word)
+{
+    int n = 0;
+    for (const char *at = strstr(text, word); at != NULL; at = strstr(at + 1, word)) n++;
+    return n;
+}
+
+/* What is told of it begins with these words. */
+static void draw(bool (*how)(const dem_film *film, const request *asked, FILE *log, outcome *o), const filmed *f,
+                 const request *asked, const char *words)
+{
+    char told[256] = "";
+    outcome o = {0};
+    FILE *log = tmpfile();
+    assert_non_null(log);
+    assert_true(how(f->film, asked, log, &o));
+    rewind(log);
+    assert_non_null(fgets(told, sizeof told, log));
+    assert_memory_equal(told, words, strlen(words));
+    (void)fclose(log);
+}
+
+static request asking(const filmed *f, request_action action, const char *output)
+{
+    return (request){.action = action, .input = f->path, .output = output, .width = 800.0};
+}
+
+static void a_strip_has_all_frames_of_a_short_film(void **state)
+{
+    filmed *f = *state;
+    const request r = asking(f, REQUEST_STRIP, filmed_beside(f, "a.svg"));
+    draw(show_strip, f, &r, r.output);
+    char *text = read_text(r.output);
+    assert_int_equal(count(text, "<g id=\"frame-"), FILMED_FRAMES);
+    assert_int_equal(count(text, "strain of springs"), 1);
+    assert_int_equal(count(text, "<metadata>data "), 1);
+    assert_non_null(strstr(text, ">0.2 ms<"));
+    free(text);
+}
+
+static void frames_and_times_are_taken(void **state)
+{
+    filmed *f = *state;
+    outcome o = {0};
+    request r = asking(f, REQUEST_STRIP, filmed_beside(f, "a.svg"));
+    r.times = "0,9e-4";
+    draw(show_strip, f, &r, r.output);
+    char *text = read_text(r.output);
+    assert_int_equal(count(text, "<g id=\"frame-"), 2);
+    assert_non_null(strstr(text, "<g id=\"frame-0\""));
+    free(text);
+    r.times = NULL, r.frames = "7";
+    assert_false(show_strip(f->film, &r, NULL, &o));
+    assert_int_equal(o.code, EXIT_INVALID);
+    assert_int_equal(access(r.output, F_OK), -1);
+}
+
+static void an_animation_has_a_file_for_each_frame(void **state)
+{
+    filmed *f = *state;
+    request r = asking(f, REQUEST_ANIMATION, NULL);
+    r.folder = filmed_beside(f, "film");
+    draw(show_animation, f, &r, r.folder);
+    draw(show_animation, f, &r, r.folder); /* over an older one */
+    for (int k = 0; k < FILMED_FRAMES; k++) {
+        char path[160];
+        (void)snprintf(path, sizeof path, "%s/frame_%05d.png", r.folder, k);
+        assert_int_equal(remove(path), 0);
+    }
+    assert_int_equal(rmdir(r.folder), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_strip_has_all_frames_of_a_short_film),
+                                       cmocka_unit_test(frames_and_times_are_taken),
+                                       cmocka_unit_test(an_animation_has_a_file_for_each_frame)};
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* span.c: limits of colours. */
+#include "unit/close.h"
+
+#include <stdlib.h>
+
+#include "span.h"
+
+enum { MANY = 1000 };
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Random numbers, many of them equal, against qsort. */
+static void the_kth_is_that_of_a_sorted_array(void **state)
+{
+    (void)state;
+    uint64_t bits = UINT64_C(88172645463325252);
+    for (size_t n = 1; n < 40; n++)
+        for (size_t k = 0; k < n; k++) {
+            double value[40], sorted[40];
+            for (size_t i = 0; i < n; i++) {
+                bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+                value[i] = sorted[i] = (double)(bits % 12);
+            }
+            qsort(sorted, n, sizeof *sorted, compare);
+            assert_close(span_kth(n, value, k), sorted[k], 0.0);
+        }
+}
+
+static void a_few_extremes_do_not_matter(void **state)
+{
+    (void)state;
+    double value[MANY], size[MANY];
+    for (int k = 0; k < MANY; k++) value[k] = (k % 2 == 0 ? 1e-3 : -1e-3) * k;
+    value[7] = -5.0;
+    const span_reach reach = span_reach_of(MANY, value, size);
+    assert_close(reach.least, -5.0, 0.0);
+    assert_close(reach.most, 0.998, 1e-15);
+    assert_close(reach.usual, 0.995, 1.1e-3);
+    const span s = span_around(reach, true);
+    assert_close(s.hi, 1.0, 1e-15);
+    assert_close(s.lo, -s.hi, 0.0);
+    assert_true(s.below && !s.above);
+}
+
+/* Nearly all springs are at rest: those that are not must not all have the last colour. */
+static void a_tenth_of_the_largest_is_within(void **state)
+{
+    (void)state;
+    double value[MANY] = {0}, size[MANY];
+    value[3] = 0.12;
+    const span s = span_around(span_reach_of(MANY, value, size), true);
+    assert_close(s.hi, 0.015, 1e-15);
+    assert_true(s.above && !s.below);
+}
+
+static void frames_are_joined_by_the_larger(void **state)
+{
+    (void)state;
+    const span_reach a = {-1.0, 2.0, 1.5}, b = {-3.0, 1.0, 2.5}, both = span_reach_join(a, b);
+    assert_close(both.least, -3.0, 0.0);
+    assert_close(both.most, 2.0, 0.0);
+    assert_close(both.usual, 2.5, 0.0);
+    assert_close(span_around(both, false).lo, 0.0, 0.0);
+    assert_close(span_around(both, false).hi, 3.0, 1e-15);
+}
+
+static void without_values_there_are_limits_all_the_same(void **state)
+{
+    (void)state;
+    double value[2] = {0.0, (double)NAN}, size[2];
+    const span none = span_around(span_reach_none(), true), zero = span_around(span_reach_of(2, value, size), true);
+    assert_close(none.hi, 1.0, 0.0);
+    assert_false(none.above || none.below);
+    assert_close(zero.hi, 1.0, 0.0);
+}
+
+static void given_limits_are_taken_as_they_are(void **state)
+{
+    (void)state;
+    const span s = span_given(0.1, 0.7, (span_reach){0.2, 0.8, 0.7});
+    assert_close(s.lo, 0.1, 0.0);
+    assert_close(s.hi, 0.7, 0.0);
+    assert_true(s.above && !s.below);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_kth_is_that_of_a_sorted_array),
+                                       cmocka_unit_test(a_few_extremes_do_not_matter),
+                                       cmocka_unit_test(a_tenth_of_the_largest_is_within),
+                                       cmocka_unit_test(frames_are_joined_by_the_larger),
+                                       cmocka_unit_test(without_values_there_are_limits_all_the_same),
+                                       cmocka_unit_test(given_limits_are_taken_as_they_are)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* timeline.c: a history becomes charts. */
+#include "unit/filmed.h"
+
+#include <string.h>
+
+#include "timeline.h"
+
+enum { MOST = 1 << 20 };
+
+/* The file drawn, as text. */
+static char *draw(const filmed *f)
+{
+    const request asked = {
+        .action = REQUEST_HISTORY, .input = f->path, .output = filmed_beside(f, "h.svg"), .width = 800.0};
+    outcome o = {0};
+    FILE *log = tmpfile(), *file;
+    char *text = calloc(1, MOST);
+    assert_true(timeline_draw(f->film, &asked, log, &o));
+    (void)fclose(log);
+    file = fopen(asked.output, "r");
+    assert_non_null(file);
+    assert_true(fread(text, 1, MOST - 1, file) < MOST - 1);
+    (void)fclose(file);
+    assert_int_equal(remove(asked.output), 0);
+    return text;
+}
+
+static void energies_reaction_contacts_and_steps_have_charts(void **state)
+{
+    char *text = draw(*state);
+    static const char *const words[] = {">energy, J<", ">energy, mJ<", ">sum<",      ">kinetic<", ">springs<",
+                                        ">along x<",   ">along y<",    ">contacts<", ">step, "};
+    int n = 0, charts = 0;
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++) n += strstr(text, words[k]) != NULL;
+    assert_int_equal(n, 8); /* one unit of energy */
+    for (const char *at = strstr(text, "class=\"chart\""); at != NULL; at = strstr(at + 1, "class=\"chart\"")) charts++;
+    assert_int_equal(charts, 4);
+    free(text);
+}
+
+/* The run has no friction, no damping, no boundaries, and loses nothing by them. */
+static void what_never_is_has_no_line(void **state)
+{
+    char *text = draw(*state);
+    assert_null(strstr(text, "friction"));
+    assert_null(strstr(text, "damping"));
+    assert_null(strstr(text, "boundar"));
+    free(text);
+}
+
+static void the_same_film_has_the_same_hash(void **state)
+{
+    char *a = draw(*state), *b = draw(*state);
+    assert_string_equal(a, b);
+    assert_non_null(strstr(a, "<metadata>data "));
+    free(a);
+    free(b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(energies_reaction_contacts_and_steps_have_charts),
+                                       cmocka_unit_test(what_never_is_has_no_line),
+                                       cmocka_unit_test(the_same_film_has_the_same_hash)};
+    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+}

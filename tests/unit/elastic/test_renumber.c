@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* renumber.c: a numbering by distance, on chains, where the best span is known. */
+#include "unit/close.h"
+
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+
+#include "elastic/renumber.h"
+
+enum { n = 60 };
+
+typedef struct chain {
+    double x[2 * n], mass[n], rest_length[n], stiffness[n];
+    dem_index ends[2 * n];
+    dem_lattice lattice;
+    springs springs;
+    int32_t order[n], place[n];
+} chain;
+
+/* Two chains of half the nodes each; node `at[k]` is number k along them. */
+static void make_chains(chain *c, const dem_index *at)
+{
+    *c = (chain){.lattice = {.dim = 2, .n_nodes = n}};
+    for (dem_index k = 0; k + 1 < n; k++) {
+        if (k + 1 == n / 2) continue;
+        const dem_index s = c->lattice.n_springs++;
+        c->ends[2 * s] = at[k];
+        c->ends[2 * s + 1] = at[k + 1];
+        c->rest_length[s] = c->stiffness[s] = 1.0;
+    }
+    c->lattice.ends = c->ends;
+    c->lattice.rest_length = c->rest_length;
+    c->lattice.stiffness = c->stiffness;
+    assert_int_equal(springs_compile(&c->springs, &c->lattice), DEM_OK);
+}
+
+static void shuffle(dem_index *at, unsigned long seed)
+{
+    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(r, seed);
+    for (dem_index k = 0; k < n; k++) at[k] = k;
+    for (dem_index k = n - 1; k > 0; k--) {
+        const dem_index j = (dem_index)gsl_rng_uniform_int(r, (unsigned long)k + 1), kept = at[k];
+        at[k] = at[j];
+        at[j] = kept;
+    }
+    gsl_rng_free(r);
+}
+
+/* Numbered along themselves, neighbours are next to each other: span 1; wherever the list of springs begins. */
+static void shuffled_chains_are_numbered_along_themselves(void **state)
+{
+    (void)state;
+    for (unsigned long seed = 1; seed <= 20; seed++) {
+        dem_index at[n];
+        chain c;
+        shuffle(at, seed);
+        make_chains(&c, at);
+        assert_true(order_span(&c.springs, NULL) > 10);
+        order_by_distance(&c.springs, c.order, c.place);
+        assert_int_equal(order_span(&c.springs, c.place), 1);
+        for (dem_index q = 0; q < n; q++) assert_int_equal(c.place[c.order[q]], q);
+        springs_free(&c.springs);
+    }
+}
+
+static void nodes_without_springs_are_numbered_too(void **state)
+{
+    dem_index at[n];
+    chain c;
+    (void)state;
+    shuffle(at, 1);
+    make_chains(&c, at);
+    springs_free(&c.springs);
+    c.lattice.n_springs = 0;
+    assert_int_equal(springs_compile(&c.springs, &c.lattice), DEM_OK);
+    order_by_distance(&c.springs, c.order, c.place);
+    assert_int_equal(order_span(&c.springs, c.place), 0);
+    for (dem_index q = 0; q < n; q++) assert_int_equal(c.place[c.order[q]], q);
+    springs_free(&c.springs);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shuffled_chains_are_numbered_along_themselves),
+        cmocka_unit_test(nodes_without_springs_are_numbered_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

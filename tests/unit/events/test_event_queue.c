@@ -1,0 +1,576 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* event_queue.c: events inside a step in the order of time, against free fall and against two masses on a spring that
+ * GSL integrates; and that a step can be shown at any time, taken back and shown again to the same bits. */
+#include "verification/triplets.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "events/event_queue.h"
+#include "verification/support.h"
+
+enum { most_nodes = 6, most_state = 4 * (most_nodes + 4) };
+
+static const double g = 10.0, skin = 1e-10, mass = 2.0;
+
+/* Masses over a floor, and a step of them. */
+typedef struct rig {
+    dem_model *model;
+    contact c;
+    queue q;
+    dem_index n, n_all;
+    double y0[most_state], f0[most_state], y1[most_state], f1[most_state], state[most_state];
+    path path;
+} rig;
+
+static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
+
+static void open_rig(rig *r, const dem_lattice *lattice, double eta, double friction, const double error[2])
+{
+    const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = eta, .friction = friction};
+    const contact_rule rule = {.skin = skin,
+                               .position_error = 1e-12,
+                               .max_step = 0.1,
+                               .storm_time = 1.0,
+                               .max_impacts = 40,
+                               .n_books = 4,
+                               .load = {.gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}}};
+    *r = (rig){.n = lattice->n_nodes, .n_all = lattice->n_nodes + 4};
+    assert_true(r->n <= most_nodes);
+    assert_ok(dem_model_create(&r->model, lattice, &plane, 1));
+    assert_ok(contact_create(&r->c, r->model, &rule));
+    assert_ok(queue_create(&r->q, &r->c,
+                           &(patch_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0, NULL},
+                           error != NULL));
+}
+
+/* n free masses at heights y, in a row along x. */
+static void open_masses(rig *r, dem_index n, const double *y, double eta, double friction)
+{
+    double x[2 * most_nodes], m[most_nodes];
+    dem_lattice lattice;
+    for (dem_index i = 0; i < n; i++) {
+        x[2 * i] = (double)i;
+        x[2 * i + 1] = y[i];
+        m[i] = mass;
+    }
+    support_lattice(&lattice, n, x, m, 0, NULL, 0.0, 0.0, NULL);
+    lattice.body = malloc((size_t)n * sizeof *lattice.body);
+    assert_non_null(lattice.body);
+    for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;
+    open_rig(r, &lattice, eta, friction, NULL);
+    dem_lattice_free(&lattice);
+    memcpy(r->y0, x, 2 * (size_t)n * sizeof *x);
+}
+
+static void close_rig(rig *r)
+{
+    queue_destroy(&r->q);
+    contact_destroy(&r->c);
+    dem_model_destroy(r->model);
+}
+
+static void take_up(rig *r, double t0, double h)
+{
+    r->path = (path){r->n_all, t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
+    queue_start(&r->q, &r->path, r->y1, r->f1, r->state);
+}
+
+/* A step of length h in free fall, which the quintic follows exactly. */
+static void fall(rig *r, double t0, double h)
+{
+    const vec2 a = {0.0, -g};
+    for (dem_index i = 0; i < r->n; i++) {
+        const vec2 v = vec2_at(r->y0, r->n_all + i);
+        vec2_put(r->f0, i, v);
+        vec2_put(r->f0, r->n_all + i, a);
+        vec2_put(r->y1, i, vec2_along(vec2_at(r->y0, i), h, vec2_along(v, 0.5 * h, a)));
+        vec2_put(r->y1, r->n_all + i, vec2_along(v, h, a));
+        vec2_put(r->f1, i, vec2_along(v, h, a));
+        vec2_put(r->f1, r->n_all + i, a);
+    }
+    take_up(r, t0, h);
+}
+
+/* Time from rest at height y to the skin's depth. */
+static double time_of_fall(double y)
+{
+    return sqrt(2.0 * (y + skin) / g);
+}
+
+static void show(rig *r, double t)
+{
+    assert_ok(queue_show(&r->q, t));
+}
+
+/* ---- all that a step changes ---- */
+
+typedef struct snapshot {
+    double y1[most_state], f1[most_state], state[most_state], impulse[4];
+    contact_site sites[most_nodes];
+    contact_books books;
+    dem_index n_groups, idle, n_events, n_stops;
+    dem_event events[64];
+} snapshot;
+
+static snapshot take_snapshot(rig *r, double t)
+{
+    snapshot s;
+    memset(&s, 0, sizeof s);
+    memcpy(s.y1, r->y1, sizeof s.y1);
+    memcpy(s.f1, r->f1, sizeof s.f1);
+    path_state(&r->path, t, s.state);
+    memcpy(s.impulse, r->c.sites.books.impulse, sizeof s.impulse);
+    memcpy(s.sites, r->c.sites.list, (size_t)r->n * sizeof s.sites[0]);
+    memcpy(&s.books, &r->c.sites.books, sizeof s.books);
+    s.n_groups = r->c.sites.reactions.n_groups;
+    s.idle = r->c.idle;
+    s.n_stops = r->q.n_stops;
+    s.n_events = r->q.n_events;
+    assert_true(s.n_events <= 64);
+    if (s.n_events > 0) memcpy(s.events, r->q.events, (size_t)s.n_events * sizeof s.events[0]);
+    return s;
+}
+
+static void assert_same(const snapshot *a, const snapshot *b)
+{
+    assert_memory_equal(a->y1, b->y1, sizeof a->y1);
+    assert_memory_equal(a->f1, b->f1, sizeof a->f1);
+    assert_memory_equal(a->state, b->state, sizeof a->state);
+    assert_memory_equal(a->impulse, b->impulse, sizeof a->impulse);
+    assert_memory_equal(a->sites, b->sites, sizeof a->sites);
+    assert_memory_equal(&a->books, &b->books, sizeof a->books);
+    assert_memory_equal(a->events, b->events, sizeof a->events);
+    assert_memory_equal(a, b, sizeof *a); /* and the numbers */
+}
+
+/* ---- order ---- */
+
+static void events_come_in_the_order_of_time(void **state)
+{
+    const double heights[5] = {0.03, 0.02, 0.05, 0.025, 0.04};
+    const dem_index order[5] = {1, 3, 0, 4, 2};
+    rig r;
+    (void)state;
+    open_masses(&r, 5, heights, 0.5, 0.0);
+    fall(&r, 0.0, 0.11);
+    show(&r, 0.11);
+    assert_int_equal(r.q.n_events, 5);
+    assert_int_equal(r.q.n_stops, 5);
+    for (int k = 0; k < 5; k++) {
+        const double t = time_of_fall(heights[order[k]]), v = 0.5 * g * t, tau = 0.11 - t;
+        assert_int_equal(r.q.events[k].node, order[k]);
+        assert_int_equal(r.q.events[k].kind, DEM_EVENT_IMPACT);
+        assert_close(r.q.events[k].t, t, 1e-14);
+        assert_close(r.q.events[k].after[1], v, 1e-13);
+        assert_close(r.y1[2 * order[k] + 1], v * tau - 0.5 * g * tau * tau, 1e-14);
+        assert_close(r.y1[2 * (r.n_all + order[k]) + 1], v - g * tau, 1e-13);
+    }
+    close_rig(&r);
+}
+
+/* Those of equal height at once, the lowest number first, whichever is looked at first. */
+static void events_at_the_same_time_come_in_the_order_of_sites(void **state)
+{
+    const double heights[6] = {0.03, 0.02, 0.03, 0.02, 0.03, 0.02};
+    const dem_index order[6] = {1, 3, 5, 0, 2, 4};
+    rig r;
+    (void)state;
+    open_masses(&r, 6, heights, 0.5, 0.0);
+    fall(&r, 0.0, 0.1);
+    for (dem_index w = 0; w < r.q.n_waiting / 2; w++) {
+        const dem_index other = r.q.n_waiting - 1 - w, k = r.q.waiting[w];
+        r.q.waiting[w] = r.q.waiting[other];
+        r.q.waiting[other] = k;
+    }
+    show(&r, 0.1);
+    assert_int_equal(r.q.n_events, 6);
+    for (int k = 0; k < 6; k++) {
+        assert_int_equal(r.q.events[k].node, order[k]);
+        assert_close(r.q.events[k].t, r.q.events[k - k % 3].t, 0.0);
+    }
+    close_rig(&r);
+}
+
+/* Bounces at t, t + 2 eta v/g, t + 2 (eta + eta^2) v/g, ... : the same node again and again within one step. */
+static void a_node_may_bounce_many_times_in_a_step(void **state)
+{
+    const double height = 0.02, eta = 0.5, t = time_of_fall(height), v = g * t;
+    double due = t, up = v;
+    rig r;
+    (void)state;
+    open_masses(&r, 1, &height, eta, 0.0);
+    fall(&r, 0.0, 0.18);
+    show(&r, 0.18);
+    assert_true(r.q.n_events >= 4);
+    for (dem_index k = 0; k < r.q.n_events; k++) {
+        assert_close(r.q.events[k].t, due, 1e-7); /* the skin, at ever slower speeds */
+        up *= eta;
+        due += 2.0 * up / g;
+    }
+    assert_true(due > 0.18);
+    close_rig(&r);
+}
+
+/* ---- any time ---- */
+
+static void a_step_without_events_is_left_as_it_is(void **state)
+{
+    const double height = 5.0;
+    rig r;
+    (void)state;
+    open_masses(&r, 1, &height, 0.5, 0.0);
+    fall(&r, 1.0, 0.1);
+    const snapshot before = take_snapshot(&r, 1.05);
+    show(&r, 1.1);
+    const snapshot after = take_snapshot(&r, 1.05);
+    assert_same(&after, &before);
+    assert_int_equal(r.q.n_stops, 0);
+    assert_close(queue_error(&r.q), 0.0, 0.0);
+    close_rig(&r);
+}
+
+/* Between the impacts of the lower and the higher mass: one has happened, the other not, in motion and in books. */
+static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
+{
+    const double heights[2] = {0.02, 0.04}, t = time_of_fall(0.02), v = 0.5 * g * t, now = 0.08;
+    double y[most_state];
+    rig r;
+    (void)state;
+    open_masses(&r, 2, heights, 0.5, 0.0);
+    fall(&r, 0.0, 0.1);
+    show(&r, now);
+    path_state(&r.path, now, y);
+    assert_int_equal(r.q.n_events, 1);
+    assert_int_equal(r.c.sites.books.counts.impacts, 1);
+    assert_close(r.c.sites.books.impulse[1], mass * 1.5 * g * t, 1e-12);
+    assert_close(y[1], v * (now - t) - 0.5 * g * (now - t) * (now - t), 1e-14);
+    assert_close(y[2 * r.n_all + 1], v - g * (now - t), 1e-13);
+    assert_close(y[3], 0.04 - 0.5 * g * now * now, 1e-15);
+    show(&r, r.q.events[0].t); /* at the instant itself it has happened */
+    assert_int_equal(r.q.n_events, 1);
+    path_state(&r.path, r.q.events[0].t, y);
+    assert_close(y[1], 0.0, 1e-16);
+    assert_close(y[2 * r.n_all + 1], v, 1e-13);
+    show(&r, nextafter(r.q.events[0].t, 0.0));
+    assert_int_equal(r.q.n_events, 0);
+    assert_int_equal(r.c.sites.books.counts.impacts, 0);
+    show(&r, 0.5 * t);
+    path_state(&r.path, 0.5 * t, y);
+    assert_close(y[1], 0.02 - 0.125 * g * t * t, 1e-15);
+    close_rig(&r);
+}
+
+/* Some bounce, some stay and slide; forwards, backwards, to the end and back again. */
+static void any_way_to_a_time_gives_the_same_bits(void **state)
+{
+    static const double heights[6] = {0.03, 0.01, 0.05, 0.01, 0.0, 0.03},
+                        way[10] = {0.11, 0.02, 0.07, 0.07, 0.0, 0.11, 0.065, 0.09, 0.01, 0.11};
+    (void)state;
+    for (int eta = 0; eta < 2; eta++) {
+        rig direct, r;
+        open_masses(&r, 6, heights, 0.6 * eta, 0.3);
+        for (dem_index i = 0; i < 6; i++) r.y0[2 * (r.n_all + i)] = 1.0 - 0.3 * (double)i;
+        fall(&r, 0.0, 0.11);
+        for (int k = 0; k < 10; k++) {
+            open_masses(&direct, 6, heights, 0.6 * eta, 0.3);
+            memcpy(direct.y0, r.y0, sizeof r.y0);
+            fall(&direct, 0.0, 0.11);
+            show(&direct, way[k]);
+            show(&r, way[k]);
+            snapshot there = take_snapshot(&direct, way[k]), here = take_snapshot(&r, way[k]);
+            assert_true(there.n_events > 0 || way[k] < 0.05);
+            there.books.impulse = here.books.impulse; /* elsewhere in memory */
+            there.books.friction_impulse = here.books.friction_impulse;
+            assert_same(&here, &there);
+            close_rig(&direct);
+        }
+        close_rig(&r);
+    }
+}
+
+static void undoing_brings_every_bit_back(void **state)
+{
+    static const double heights[6] = {0.03, 0.01, 0.05, 0.01, 0.0, 0.03};
+    (void)state;
+    for (int eta = 0; eta < 2; eta++) {
+        rig r;
+        open_masses(&r, 6, heights, 0.6 * eta, 0.3);
+        fall(&r, 0.0, 0.11);
+        const snapshot before = take_snapshot(&r, 0.1);
+        show(&r, 0.11);
+        const snapshot after = take_snapshot(&r, 0.1);
+        assert_memory_not_equal(&after, &before, sizeof before);
+        assert_true(after.n_groups > 0 || eta > 0);
+        queue_undo(&r.q);
+        const snapshot undone = take_snapshot(&r, 0.1);
+        assert_same(&undone, &before);
+        queue_undo(&r.q);
+        const snapshot twice = take_snapshot(&r, 0.1);
+        assert_same(&twice, &before);
+        close_rig(&r);
+    }
+}
+
+/* ---- at the ends of the step ---- */
+
+/* Found three skins deep as the step begins, and reflected there once; what follows is free flight. */
+static void an_event_at_the_very_start_happens_once(void **state)
+{
+    const double height = 0.0, h = 0.01;
+    rig r;
+    double y[most_state];
+    (void)state;
+    open_masses(&r, 1, &height, 0.5, 0.0);
+    r.y0[1] = -1.5 * skin;
+    r.y0[2 * r.n_all + 1] = -2.0;
+    fall(&r, 0.0, h);
+    show(&r, h);
+    assert_int_equal(r.q.n_events, 1);
+    assert_close(r.q.events[0].t, 0.0, 0.0);
+    assert_close(r.y1[1], 1.0 * h - 0.5 * g * h * h, 1e-15);
+    assert_close(r.y1[2 * r.n_all + 1], 1.0 - g * h, 1e-15);
+    path_state(&r.path, 0.0, y);
+    assert_close(y[1], 0.0, 0.0);
+    assert_close(y[2 * r.n_all + 1], 1.0, 0.0);
+    const vec2 v = path_velocity(&r.path, 0.0, 0);
+    assert_close(v.y, 1.0, 0.0);
+    close_rig(&r);
+}
+
+/* The step ends a few units of rounding after the impact. */
+static void an_event_at_the_very_end_is_in_the_state_there(void **state)
+{
+    const double height = 0.02, t = time_of_fall(height);
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        rig r;
+        open_masses(&r, 1, &height, 0.5, 0.0);
+        fall(&r, 0.0, t * (1.0 + k * 1e-15));
+        show(&r, r.path.t1);
+        if (r.q.n_events > 0) {
+            assert_close(r.y1[1], 0.0, 1e-14);
+            assert_close(r.y1[2 * r.n_all + 1], 0.5 * g * t, 1e-13);
+        } else {
+            assert_true(k < 3);
+            assert_close(r.y1[1], -skin, 1e-14);
+        }
+        close_rig(&r);
+    }
+}
+
+/* ---- what follows from events ---- */
+
+/* Two masses on a spring, its length 1 m, 0.3 m/m aslant; the lower one strikes first. */
+static void open_pair(rig *r, dem_lattice *lattice, const double error[2])
+{
+    const double x[4] = {0.0, 0.03, sqrt(0.99), 0.13}, masses[2] = {1.0, 0.5}, v[4] = {0.2, -1.0, -0.4, -1.1};
+    const dem_index ends[2] = {0, 1};
+    support_lattice(lattice, 2, x, masses, 1, ends, 1.0, 300.0, NULL);
+    support_start(lattice, NULL, v);
+    open_rig(r, lattice, 0.8, 0.0, error);
+}
+
+static void swing(rig *r, dem_lattice *lattice, double h)
+{
+    double y[8], f[8];
+    triplets_start(lattice, y);
+    memcpy(r->y0, y, 4 * sizeof *y);
+    memcpy(r->y0 + 2 * r->n_all, y + 4, 4 * sizeof *y);
+    (void)triplets_derivative(0.0, y, f, lattice);
+    memcpy(r->f0, f, 4 * sizeof *y);
+    memcpy(r->f0 + 2 * r->n_all, f + 4, 4 * sizeof *y);
+    triplets_reach(lattice, h, y);
+    memcpy(r->y1, y, 4 * sizeof *y);
+    memcpy(r->y1 + 2 * r->n_all, y + 4, 4 * sizeof *y);
+    (void)triplets_derivative(h, y, f, lattice);
+    memcpy(r->f1, f, 4 * sizeof *y);
+    memcpy(r->f1 + 2 * r->n_all, f + 4, 4 * sizeof *y);
+    take_up(r, 0.0, h);
+}
+
+/* The pair from y to the time at which a mass is as deep as the skin, by bisection. */
+static double strike_time(dem_lattice *lattice, int node, double *y)
+{
+    double low = 0.0, high = 0.2, z[8];
+    while (high - low > 1e-15) {
+        const double t = 0.5 * (low + high);
+        memcpy(z, y, sizeof z);
+        if (t > 0.0) triplets_reach(lattice, t, z);
+        if (z[2 * node + 1] < -skin)
+            high = t;
+        else
+            low = t;
+    }
+    triplets_reach(lattice, high, y);
+    y[2 * node + 1] = 0.0;
+    y[4 + 2 * node + 1] *= -0.8;
+    return high;
+}
+
+/* The spring is turned by the impact of the first mass and pulls otherwise at the second: it strikes at another time
+ * than the step without impacts has it, by GSL's account too. */
+static void the_neighbours_events_are_looked_for_anew(void **state)
+{
+    const double h = 0.16;
+    dem_lattice lattice;
+    rig r;
+    double y[8];
+    (void)state;
+    open_pair(&r, &lattice, NULL);
+    swing(&r, &lattice, h);
+    const double alone = r.q.due[1];
+    show(&r, h);
+    assert_int_equal(r.q.n_events, 2);
+    triplets_start(&lattice, y);
+    const double first = strike_time(&lattice, 0, y), second = first + strike_time(&lattice, 1, y);
+    triplets_reach(&lattice, h - second, y);
+    print_message("# second impact at %.6f s, without the first at %.6f s, %.1e s off\n", second, alone,
+                  r.q.events[1].t - second);
+    assert_true(fabs(second - alone) > 1e-3);
+    assert_close(r.q.events[0].t, first, 5e-5); /* omega h = 4.8: coarse on purpose */
+    assert_close(r.q.events[1].t, second, 0.2 * fabs(second - alone));
+    dem_lattice_free(&lattice);
+    close_rig(&r);
+}
+
+/* The same with ever shorter steps, the impacts in one of them. */
+static void times_and_motion_converge_with_the_step(void **state)
+{
+    double wrong[2];
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const double h = 0.08 / (1 << k);
+        dem_lattice lattice;
+        rig r;
+        double y[8];
+        open_pair(&r, &lattice, NULL);
+        lattice.x[1] = 0.3 * h, lattice.x[3] = 0.7 * h; /* struck after about these shares of the step */
+        lattice.velocity[0] = lattice.velocity[2] = 0.0;
+        swing(&r, &lattice, h);
+        show(&r, h);
+        assert_int_equal(r.q.n_events, 2);
+        triplets_start(&lattice, y);
+        const double first = strike_time(&lattice, 0, y), second = first + strike_time(&lattice, 1, y);
+        triplets_reach(&lattice, h - second, y);
+        wrong[k] = fabs(r.q.events[1].t - second);
+        for (int c = 0; c < 4; c++) wrong[k] = fmax(wrong[k], fabs(r.y1[c] - y[c]));
+        dem_lattice_free(&lattice);
+        close_rig(&r);
+    }
+    print_message("# wrong by %.1e, %.1e\n", wrong[0], wrong[1]);
+    assert_true(wrong[1] < wrong[0] / 16.0 + 1e-12);
+}
+
+/* ---- rejection ---- */
+
+/* With a tolerance out of reach the first event ends it, and all can be taken back; without control the error is of no
+ * account. */
+static void an_error_beyond_what_is_allowed_ends_the_step(void **state)
+{
+    static const double strict[2] = {1e-12, 1e-12}, lax[2] = {1.0, 1.0};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dem_lattice lattice;
+        rig r;
+        open_pair(&r, &lattice, k == 0 ? strict : (k == 1 ? lax : NULL));
+        swing(&r, &lattice, 0.16);
+        const snapshot before = take_snapshot(&r, 0.1);
+        show(&r, 0.16);
+        assert_int_equal(r.q.n_events, k == 0 ? 1 : 2);
+        assert_true(k != 0 || queue_error(&r.q) > 1.0);
+        assert_true(k != 1 || (queue_error(&r.q) > 0.0 && queue_error(&r.q) < 1.0));
+        assert_true(k != 2 || queue_error(&r.q) == 0.0);
+        queue_undo(&r.q);
+        const snapshot undone = take_snapshot(&r, 0.1);
+        assert_same(&undone, &before);
+        dem_lattice_free(&lattice);
+        close_rig(&r);
+    }
+}
+
+/* Struck at a fifth of the step, the pair could go on for as long with an error (5/4)^6 times as large; where that is
+ * too much the next step has to be shorter. */
+static void what_events_have_done_bounds_the_next_step(void **state)
+{
+    double error = 0.0;
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const double one = k == 0 ? 1.0 : error * (k == 1 ? 1.5 : 30.0), tolerance[2] = {one, one};
+        dem_lattice lattice;
+        rig r;
+        open_pair(&r, &lattice, tolerance);
+        swing(&r, &lattice, 0.16);
+        assert_true(isinf(queue_reach(&r.q)) != 0);
+        show(&r, 0.16);
+        if (k == 0) error = queue_error(&r.q);
+        if (k == 1) assert_true(queue_error(&r.q) < 1.0 && queue_reach(&r.q) < 0.16 && queue_reach(&r.q) > 0.08);
+        if (k == 2) assert_true(isinf(queue_reach(&r.q)) != 0);
+        dem_lattice_free(&lattice);
+        close_rig(&r);
+    }
+}
+
+/* More bounces than are allowed: DEM_ERROR_CONTACT, and all can be taken back. */
+static void a_storm_can_be_taken_back(void **state)
+{
+    const double heights[2] = {0.02, 0.001};
+    rig r;
+    (void)state;
+    open_masses(&r, 2, heights, 0.9, 0.0);
+    r.c.sites.scene.rule.max_impacts = 3;
+    fall(&r, 0.0, 0.2);
+    const snapshot before = take_snapshot(&r, 0.1);
+    assert_int_equal(queue_show(&r.q, 0.2), DEM_ERROR_CONTACT);
+    assert_non_null(strstr(dem_status_message(), "more than 3 contact events"));
+    queue_undo(&r.q);
+    const snapshot undone = take_snapshot(&r, 0.1);
+    assert_same(&undone, &before);
+    close_rig(&r);
+}
+
+/* The next step knows nothing of the events of the last. */
+static void the_next_step_begins_anew(void **state)
+{
+    const double height = 0.02, t = time_of_fall(height);
+    rig r;
+    (void)state;
+    open_masses(&r, 1, &height, 0.5, 0.0);
+    fall(&r, 0.0, 0.1);
+    show(&r, 0.1);
+    assert_int_equal(r.q.n_events, 1);
+    const dem_index n_impacts = r.c.sites.books.counts.impacts;
+    memcpy(r.y0, r.y1, sizeof r.y0);
+    fall(&r, 0.1, 0.03);
+    assert_int_equal(r.q.n_events, 0);
+    assert_int_equal(r.q.n_stops, 0);
+    show(&r, 0.13);
+    assert_int_equal(r.q.n_events, 1);
+    assert_int_equal(r.c.sites.books.counts.impacts, n_impacts + 1);
+    assert_close(r.q.events[0].t, 2.0 * t, 1e-9);
+    queue_undo(&r.q);
+    assert_int_equal(r.c.sites.books.counts.impacts, n_impacts);
+    close_rig(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(events_come_in_the_order_of_time),
+        cmocka_unit_test(events_at_the_same_time_come_in_the_order_of_sites),
+        cmocka_unit_test(a_node_may_bounce_many_times_in_a_step),
+        cmocka_unit_test(a_step_without_events_is_left_as_it_is),
+        cmocka_unit_test(a_step_shown_at_a_time_is_what_it_is_then),
+        cmocka_unit_test(any_way_to_a_time_gives_the_same_bits),
+        cmocka_unit_test(undoing_brings_every_bit_back),
+        cmocka_unit_test(an_event_at_the_very_start_happens_once),
+        cmocka_unit_test(an_event_at_the_very_end_is_in_the_state_there),
+        cmocka_unit_test(the_neighbours_events_are_looked_for_anew),
+        cmocka_unit_test(times_and_motion_converge_with_the_step),
+        cmocka_unit_test(an_error_beyond_what_is_allowed_ends_the_step),
+        cmocka_unit_test(what_events_have_done_bounds_the_next_step),
+        cmocka_unit_test(a_storm_can_be_taken_back),
+        cmocka_unit_test(the_next_step_begins_anew),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,647 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* local_correction.c: an event's change of a step against two oracles that know of no rings: one step of GSL's rkf45,
+ * which is Fehlberg's, for the change of the whole body, books and all, and its error estimate; and the body itself,
+ * integrated by GSL's rk8pd with the jump of the velocity in it. */
+#include "verification/triplets.h"
+
+#include <gsl/gsl_errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "contact/automaton.h"
+#include "events/local_correction.h"
+#include "forces/diagnostics.h"
+#include "verification/support.h"
+
+static const double spacing = 0.01, start = 2e-4, position_error = 1e-8, velocity_error = 1e-5;
+
+/* What a case has besides springs. */
+typedef struct kind {
+    double nu, damping_time, mass_damping;
+    bool drives, ridges, parabolic;
+} kind;
+
+/* A block of rubber whose lower edge is y = 0, smoothly deformed and moving, and a step of it. */
+typedef struct step {
+    kind kind;
+    dem_model *model;
+    boundaries b;
+    contact c, before; /* contacts as they are, and as they were */
+    dem_index n, n_all;
+    double h;
+    double *y0, *f0, *y1, *f1, *state, *first, *last;
+    path path;
+    trail trail;
+    patch patch;
+} step;
+
+/* ---- the whole body ---- */
+
+/* Derivative of a state, of nodes and books. */
+static void derive(const step *s, contact *c, double t, const double *y, double *f)
+{
+    const forces *load = &c->sites.scene.rule.load;
+    const dem_index n = 2 * s->n_all, n_obstacles = s->model->obstacles.n;
+    const double *v = y + n;
+    double *a = f + n, *rate = a + 2 * s->n;
+    memcpy(f, v, (size_t)n * sizeof *f);
+    for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
+    contact_constrain(c, y, a);
+    const double work = boundaries_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
+    for (dem_index k = 0; k < 4 * n_obstacles + 4; k++) rate[k] = 0.0;
+    contact_account(c, y, rate);
+    rate[4 * n_obstacles + 1] = diagnostics_damping_power(s->model, load, y, v);
+    rate[4 * n_obstacles + 2] = work;
+    rate[4 * n_obstacles + 3] = 1.0;
+}
+
+static int of_the_body(double t, const double y[], double f[], void *context)
+{
+    step *s = context;
+    derive(s, &s->before, t, y, f);
+    return GSL_SUCCESS;
+}
+
+/* d' of the change d: the derivative with it and the contacts after the event, less that without and before. */
+static int of_the_change(double t, const double d[], double f[], void *context)
+{
+    step *s = context;
+    const dem_index n = 4 * s->n_all;
+    path_state(&s->path, t, s->first);
+    derive(s, &s->before, t, s->first, s->last);
+    for (dem_index k = 0; k < n; k++) s->first[k] += d[k];
+    derive(s, &s->c, t, s->first, f);
+    for (dem_index k = 0; k < n; k++) f[k] -= s->last[k];
+    return GSL_SUCCESS;
+}
+
+static void apply(step *s, const gsl_odeiv2_step_type *type, int (*rates)(double, const double *, double *, void *),
+                  double t, double h, double *y, double *error)
+{
+    const size_t size = 4 * (size_t)s->n_all;
+    gsl_odeiv2_system system = {rates, NULL, size, s};
+    gsl_odeiv2_step *gsl = gsl_odeiv2_step_alloc(type, size);
+    assert_non_null(gsl);
+    assert_int_equal(gsl_odeiv2_step_apply(gsl, t, h, y, error, NULL, NULL, &system), GSL_SUCCESS);
+    gsl_odeiv2_step_free(gsl);
+}
+
+/* ---- the step ---- */
+
+static double *zeros(const step *s)
+{
+    double *y = calloc(4 * (size_t)s->n_all, sizeof *y);
+    assert_non_null(y);
+    return y;
+}
+
+static void make_model(step *s)
+{
+    static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
+    static const double ridge_points[10] = {-1.0, -1.0, -0.013, 0.0, 0.003, -0.01, 0.014, 0.0, 1.0, -1.0};
+    const dem_obstacle ground = {.n_points = s->kind.ridges ? 5 : 2,
+                                 .points = s->kind.ridges ? ridge_points : floor_points,
+                                 .restitution = 0.5,
+                                 .friction = 0.3};
+    const dem_material rubber = {.youngs_modulus = 1e7,
+                                 .poissons_ratio = s->kind.nu,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02,
+                                 .damping_time = s->kind.damping_time};
+    dem_lattice lattice;
+    assert_ok(dem_lattice_rectangle(&lattice, 0.15, 0.13, spacing));
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    assert_ok(dem_model_create(&s->model, &lattice, &ground, 1));
+    dem_lattice_free(&lattice);
+}
+
+static dem_index node_near(const step *s, double x, double y)
+{
+    dem_index best = 0;
+    double least = INFINITY;
+    for (dem_index i = 0; i < s->n; i++) {
+        const vec2 at = vec2_at(s->model->lattice.x, i);
+        const double d = hypot(at.x - x, at.y - y);
+        if (d >= least) continue;
+        least = d;
+        best = i;
+    }
+    return best;
+}
+
+/* A node that is driven upwards, near the middle of the lower edge, and one that is pushed. */
+static void make_boundaries(step *s)
+{
+    const dem_index driven = node_near(s, 0.0, 0.017), pushed = node_near(s, 0.02, 0.01);
+    const dem_boundary list[2] = {{.kind = DEM_BOUNDARY_VELOCITY,
+                                   .components = DEM_COMPONENT_Y,
+                                   .n_nodes = 1,
+                                   .nodes = &driven,
+                                   .value = {0.0, 3.0},
+                                   .ramp = 1e-3},
+                                  {.kind = DEM_BOUNDARY_FORCE,
+                                   .components = 3,
+                                   .n_nodes = 1,
+                                   .nodes = &pushed,
+                                   .value = {50.0, -20.0},
+                                   .ramp = 1e-3}};
+    dem_lattice lattice = s->model->lattice;
+    unsigned char *flags = malloc((size_t)s->n);
+    assert_non_null(flags);
+    memcpy(flags, lattice.flags, (size_t)s->n);
+    flags[driven] = 0;
+    lattice.flags = flags;
+    assert_ok(boundaries_compile(&s->b, list, 2, &lattice, 1));
+    free(flags);
+}
+
+static void make_contacts(step *s)
+{
+    const contact_rule rule = {.skin = 1e-8,
+                               .position_error = 1e-9,
+                               .max_step = s->h,
+                               .storm_time = 1.0,
+                               .max_impacts = 100,
+                               .vertices = true,
+                               .n_books = s->n_all - s->n,
+                               .load = {.gravity = {0.0, -9.81},
+                                        .mass_damping = s->kind.mass_damping,
+                                        .boundaries = s->kind.drives ? &s->b : NULL,
+                                        .clock = 2 * s->n_all - 1}};
+    assert_ok(contact_create(&s->c, s->model, &rule));
+    assert_ok(contact_create(&s->before, s->model, &rule));
+}
+
+/* Stretched, sheared and bent by some percent, at speeds of some m/s. */
+static void put_start(step *s)
+{
+    double *v = s->y0 + 2 * s->n_all;
+    for (dem_index i = 0; i < s->n; i++) {
+        const vec2 x = vec2_at(s->model->lattice.x, i);
+        vec2_put(s->y0, i, (vec2){x.x * (1.0 + 0.4 * x.y) - 0.02 * x.y, x.y * (0.98 + 0.3 * x.x)});
+        vec2_put(v, i, (vec2){1.0 + 20.0 * x.x * x.y + 3.0 * x.y, -4.0 + 10.0 * x.y - 15.0 * x.x * x.x});
+        if (s->b.held == NULL || s->b.held[i] == 0) continue;
+        v[2 * i + 1] = boundary_velocity(&s->b.list[0], start).y;
+    }
+    v[2 * s->n_all - 1] = start;
+}
+
+static void open_step(step *s, kind k)
+{
+    *s = (step){.kind = k};
+    make_model(s);
+    s->n = s->model->lattice.n_nodes;
+    s->n_all = s->n + 4;
+    s->h = 0.5 / s->model->omega_max;
+    if (k.drives) make_boundaries(s);
+    make_contacts(s);
+    s->y0 = zeros(s), s->f0 = zeros(s), s->y1 = zeros(s), s->f1 = zeros(s);
+    s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
+    put_start(s);
+    assert_ok(patch_create(&s->patch, &s->c.sites, &(patch_rule){5, position_error, velocity_error, s->b.held}));
+    assert_ok(trail_create(&s->trail, s->n_all));
+}
+
+static void close_step(step *s)
+{
+    patch_destroy(&s->patch);
+    trail_destroy(&s->trail);
+    contact_destroy(&s->c);
+    contact_destroy(&s->before);
+    boundaries_free(&s->b);
+    dem_model_destroy(s->model);
+    double *const arrays[] = {s->y0, s->f0, s->y1, s->f1, s->state, s->first, s->last};
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) free(arrays[k]);
+}
+
+/* Takes the step with the contacts that there are. */
+static void go(step *s)
+{
+    double *error = zeros(s);
+    memcpy(s->y1, s->y0, 4 * (size_t)s->n_all * sizeof *s->y1);
+    apply(s, gsl_odeiv2_step_rkf45, of_the_body, start, s->h, s->y1, error);
+    s->y1[4 * s->n_all - 1] = start + s->h;
+    derive(s, &s->before, start, s->y0, s->f0);
+    derive(s, &s->before, start + s->h, s->y1, s->f1);
+    s->path = (path){.n_nodes = s->n_all,
+                     .t0 = start,
+                     .t1 = start + s->h,
+                     .end = start + s->h,
+                     .y0 = s->y0,
+                     .f0 = s->f0,
+                     .y1 = s->y1,
+                     .f1 = s->f1,
+                     .parabolic = s->kind.parabolic,
+                     .trail = &s->trail};
+    trail_start(&s->trail, s->path.t1, s->y1, s->f1);
+    contact_expect(&s->c, &s->path, s->state);
+    free(error);
+}
+
+/* Closes a contact now, and before if it was there. */
+static void touch(step *s, dem_index k, dem_index feature, int sign, bool was_there)
+{
+    const contact_touch touch = {.feature = feature, .sign = sign, .place = 0.4};
+    assert_ok(sites_close(&s->c.sites, k, touch));
+    if (was_there) assert_ok(sites_close(&s->before.sites, k, touch));
+}
+
+/* ---- one event ---- */
+
+/* Rings round the nodes marked 0; -1: not reached. A group of contacts is in the ring of its nearest node. */
+static void count_rings(const step *s, int *ring, int most)
+{
+    const springs *sp = &s->model->springs;
+    for (int r = 0; r <= most; r++) {
+        for (dem_index i = 0; i < s->n && r > 0; i++)
+            for (dem_index q = sp->row[i]; q < sp->row[i + 1] && ring[i] == r - 1; q++)
+                if (ring[sp->neighbour[q]] < 0) ring[sp->neighbour[q]] = r;
+        for (dem_index i = 0; i < s->n; i++)
+            for (dem_index j = 0; j < s->n && ring[i] == r && sites_group_at(&s->c.sites, i) >= 0; j++)
+                if (ring[j] < 0 && sites_group_at(&s->c.sites, j) == sites_group_at(&s->c.sites, i)) ring[j] = r;
+    }
+}
+
+/* The change at the end of the step against GSL's; books are sums of thousands of terms of 1e-13. */
+static void check_change(const step *s, const double *was, const double *change, double jump)
+{
+    const dem_index n = 2 * s->n_all;
+    for (dem_index k = 0; k < n; k++) {
+        const bool book = k >= 2 * s->n;
+        assert_close(s->y1[n + k] - was[n + k], change[n + k], book ? 1e-12 : 2e-14 * (jump + fabs(s->y1[n + k])));
+        if (!book) assert_close(s->y1[k] - was[k], change[k], 1e-16 + 2e-14 * jump * s->h);
+    }
+}
+
+static double norm_of(const step *s, const double *error)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < 2 * s->n; k++)
+        sum += pow(error[k] / position_error, 2.0) + pow(error[2 * s->n_all + k] / velocity_error, 2.0);
+    return sum / (4.0 * (double)s->n);
+}
+
+/* What is outside has not changed by a bit and goes on as it did; the oracle's change ends on the last ring too.
+ * Returns how many coordinates change there: where only an acceleration jumps it does not get that far. */
+static int check_rings(const step *s, const int *ring, const double *was, const double *change, const dem_index *turned)
+{
+    const int last = s->kind.damping_time > 0.0 ? 6 : 3;
+    int n_last = 0, n_outside = 0;
+    for (dem_index k = 0; k < 2 * s->n; k++) {
+        const dem_index i = k / 2, v = 2 * s->n_all + k;
+        const bool changes = change[k] != 0.0 || change[v] != 0.0;
+        n_last += ring[i] == last && changes;
+        if (ring[i] >= 0 && ring[i] <= last) continue;
+        assert_false(changes);
+        assert_memory_equal(s->y1 + k, was + k, sizeof *was);
+        assert_memory_equal(s->y1 + v, was + v, sizeof *was);
+        assert_int_equal(trail_has(&s->trail, i), turned[i] >= 0);
+        n_outside++;
+    }
+    assert_true(n_outside > 0);
+    return n_last;
+}
+
+/* A velocity jumps at node i at a share of the step, and contacts are what the caller made them meanwhile. */
+static void begin(step *s, dem_index site, double share)
+{
+    assert_ok(patch_open(&s->patch, &s->path, site, start + share * s->h, s->state));
+}
+
+static void finish(step *s, dem_index site, vec2 shift, vec2 jump)
+{
+    const size_t size = 4 * (size_t)s->n_all * sizeof(double);
+    const dem_index i = s->c.sites.list[site].node;
+    double *was = zeros(s), *change = zeros(s), *estimate = zeros(s), error;
+    int *ring = malloc((size_t)s->n * sizeof *ring);
+    dem_index *turned = malloc((size_t)s->n * sizeof *turned);
+    assert_true(ring != NULL && turned != NULL);
+    for (dem_index j = 0; j < s->n; j++) ring[j] = j == i || j == s->c.sites.list[site].other ? 0 : -1;
+    for (dem_index e = s->model->surface.row[i]; e < s->model->surface.row[i + 1] && s->kind.ridges; e++)
+        for (int end = 0; end < 2; end++) ring[s->model->surface.ends[2 * s->model->surface.at[e] + end]] = 0;
+    count_rings(s, ring, s->kind.damping_time > 0.0 ? 7 : 4);
+    vec2_put(change, i, shift);
+    vec2_put(change, s->n_all + i, jump);
+    vec2_put(s->state, i, vec2_add(vec2_at(s->state, i), shift));
+    vec2_put(s->state, s->n_all + i, vec2_add(vec2_at(s->state, s->n_all + i), jump));
+    memcpy(turned, s->trail.place, (size_t)s->n * sizeof *turned);
+    memcpy(was, s->y1, size);
+    apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->patch.t, s->path.t1 - s->patch.t, change, estimate);
+    assert_ok(patch_close(&s->patch, &s->path, &s->trail, s->state, &error));
+    check_change(s, was, change, 1.0 + vec2_norm(jump));
+    const int n_last = check_rings(s, ring, was, change, turned);
+    assert_true(n_last > 0 || s->patch.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
+    assert_close(error, norm_of(s, estimate), 1e-7 * error + 1e-18);
+    free(ring);
+    free(turned);
+    free(was);
+    free(change);
+    free(estimate);
+}
+
+/* The end's derivative is that of the end's state, where the change has got to. */
+static void check_derivative(step *s)
+{
+    double *f = zeros(s);
+    derive(s, &s->c, s->path.t1, s->y1, f);
+    for (dem_index j = 0; j < s->patch.ball.end[s->patch.ball.n_rings - 2]; j++)
+        for (dem_index k = 2 * s->patch.ball.nodes[j].i; k < 2 * s->patch.ball.nodes[j].i + 2; k++) {
+            assert_close(s->f1[k], f[k], 1e-13 * (1.0 + fabs(f[k])));
+            assert_close(s->f1[2 * s->n_all + k], f[2 * s->n_all + k], 1e-10 * s->model->omega_max);
+        }
+    for (dem_index k = 2 * (s->n_all + s->n); k < 4 * s->n_all - 1; k++)
+        assert_close(s->f1[k], f[k], 1e-8 * (1.0 + fabs(f[k])));
+    free(f);
+}
+
+static const vec2 nothing = {0.0, 0.0};
+
+/* ---- the same as of the whole body ---- */
+
+static const kind plain = {.nu = 1.0 / 3.0};
+
+static dem_index lower_node(const step *s, double x)
+{
+    return s->c.sites.of_node[node_near(s, x, 0.0)];
+}
+
+/* Anywhere on the lower edge, a corner too, early and late in the step. */
+static void an_impact_changes_three_rings_as_a_step_of_the_whole_body_would(void **state)
+{
+    static const double places[3] = {0.0, -0.075, 0.04}, shares[4] = {0.0, 0.3, 0.7, 0.999};
+    (void)state;
+    for (int p = 0; p < 3; p++)
+        for (int q = 0; q < 4; q++) {
+            step s;
+            open_step(&s, plain);
+            go(&s);
+            begin(&s, lower_node(&s, places[p]), shares[q]);
+            finish(&s, lower_node(&s, places[p]), (vec2){0.0, 1e-8}, (vec2){0.5, 6.0});
+            if (q == 1) check_derivative(&s);
+            close_step(&s);
+        }
+}
+
+static void so_it_does_with_area_terms_and_mass_damping(void **state)
+{
+    step s;
+    (void)state;
+    open_step(&s, (kind){.nu = 0.2, .mass_damping = 200.0});
+    go(&s);
+    begin(&s, lower_node(&s, 0.02), 0.25);
+    finish(&s, lower_node(&s, 0.02), nothing, (vec2){-1.0, 7.0});
+    close_step(&s);
+}
+
+static void damped_springs_carry_it_over_six_rings(void **state)
+{
+    step s;
+    (void)state;
+    open_step(&s, (kind){.nu = 1.0 / 3.0, .damping_time = 1e-4});
+    go(&s);
+    begin(&s, lower_node(&s, -0.075), 0.25);
+    finish(&s, lower_node(&s, -0.075), (vec2){0.0, 1e-8}, (vec2){-1.0, 7.0});
+    check_derivative(&s);
+    close_step(&s);
+}
+
+/* The way of Verlet's method. */
+static void it_starts_from_parabolas_as_well(void **state)
+{
+    step s;
+    (void)state;
+    open_step(&s, (kind){.nu = 1.0 / 3.0, .parabolic = true});
+    go(&s);
+    begin(&s, lower_node(&s, 0.0), 0.4);
+    finish(&s, lower_node(&s, 0.0), nothing, (vec2){-1.0, 7.0});
+    close_step(&s);
+}
+
+/* One component given, a force that grows: their work is in the books. */
+static void prescribed_nodes_stay_on_their_way(void **state)
+{
+    step s;
+    double was[2];
+    (void)state;
+    open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true});
+    go(&s);
+    const dem_index driven = node_near(&s, 0.0, 0.017), work = s.n_all - 1;
+    was[0] = s.y1[2 * driven + 1], was[1] = s.y1[2 * (s.n_all + work)];
+    begin(&s, lower_node(&s, 0.0), 0.25);
+    finish(&s, lower_node(&s, 0.0), nothing, (vec2){0.0, 7.0});
+    assert_close(s.y1[2 * driven + 1], was[0], 0.0);
+    assert_true(s.y1[2 * (s.n_all + work)] != was[1]);
+    close_step(&s);
+}
+
+/* A neighbour slides, another sticks; the node between them strikes, closes and slides, or sticks, or opens. */
+static void contacts_near_by_hold_and_rub(void **state)
+{
+    (void)state;
+    for (int after = -1; after <= 2; after++) { /* sign of the contact; 2: it is released */
+        step s;
+        open_step(&s, plain);
+        const dem_index k = lower_node(&s, 0.0);
+        touch(&s, lower_node(&s, spacing), 0, 1, true);
+        touch(&s, lower_node(&s, -2.0 * spacing), 0, 0, true);
+        if (after == 2) touch(&s, k, 0, 1, true);
+        go(&s);
+        begin(&s, k, 0.35);
+        if (after == 2)
+            assert_ok(sites_open(&s.c.sites, k, 0));
+        else
+            touch(&s, k, 0, after, false);
+        finish(&s, k, nothing, after == 2 ? nothing : (vec2){after == 0 ? -1.0 : 0.5, 4.0});
+        check_derivative(&s);
+        close_step(&s);
+    }
+}
+
+static void so_they_do_where_springs_are_damped(void **state)
+{
+    step s;
+    (void)state;
+    open_step(&s, (kind){.nu = 0.3, .damping_time = 1e-4, .mass_damping = 50.0, .drives = true});
+    const dem_index k = lower_node(&s, 0.03);
+    touch(&s, lower_node(&s, 0.03 + spacing), 0, 1, true);
+    go(&s);
+    begin(&s, k, 0.35);
+    touch(&s, k, 0, -1, false);
+    finish(&s, k, nothing, (vec2){0.5, 4.0});
+    close_step(&s);
+}
+
+/* Edges on two ridges are two groups, of two nodes each; a node near them strikes. */
+static void edges_on_vertices_move_together(void **state)
+{
+    step s;
+    (void)state;
+    open_step(&s, (kind){.nu = 1.0 / 3.0, .ridges = true});
+    const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->n_sites;
+    dem_index left = -1, right = -1;
+    for (dem_index e = n_nodes; e < s.c.sites.n; e++) {
+        const double a = s.model->lattice.x[2 * s.c.sites.list[e].node],
+                     b = s.model->lattice.x[2 * s.c.sites.list[e].other];
+        if (s.model->lattice.x[2 * s.c.sites.list[e].node + 1] > 1e-9) continue;
+        if (s.model->lattice.x[2 * s.c.sites.list[e].other + 1] > 1e-9) continue;
+        if ((a + 0.013) * (b + 0.013) < 0.0) left = e;
+        if ((a - 0.014) * (b - 0.014) < 0.0) right = e;
+    }
+    assert_true(left >= 0 && right >= 0);
+    touch(&s, left, 0, 1, true);
+    touch(&s, right, 1, 0, true);
+    go(&s);
+    begin(&s, k, 0.35);
+    finish(&s, k, nothing, (vec2){0.5, 4.0});
+    close_step(&s);
+}
+
+/* What the first has done is part of the way to which the second adds. */
+static void a_second_event_adds_to_the_first(void **state)
+{
+    step s;
+    (void)state;
+    open_step(&s, plain);
+    const dem_index k = lower_node(&s, 0.0), next = lower_node(&s, spacing);
+    go(&s);
+    begin(&s, k, 0.2);
+    finish(&s, k, nothing, (vec2){0.5, 6.0});
+    begin(&s, next, 0.6);
+    finish(&s, next, nothing, (vec2){0.0, 5.0});
+    begin(&s, k, 0.6); /* and at once another one */
+    finish(&s, k, nothing, (vec2){0.0, 3.0});
+    close_step(&s);
+}
+
+/* ---- closed forms ---- */
+
+/* A node by itself lands on the floor and slides: m g holds it, mu m g slows it; the books have what that comes to. */
+static void a_node_that_lands_is_booked_by_closed_forms(void **state)
+{
+    const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
+    const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
+    const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
+    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_books = 4, .load = {.gravity = {0.0, -g}}};
+    double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, error;
+    dem_lattice lattice;
+    dem_model *model;
+    contact c;
+    patch near;
+    trail tr;
+    (void)state;
+    support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
+    assert_ok(dem_model_create(&model, &lattice, &ground, 1));
+    dem_lattice_free(&lattice);
+    assert_ok(contact_create(&c, model, &rule));
+    assert_ok(patch_create(&near, &c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
+    assert_ok(trail_create(&tr, 5));
+    y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
+    f0[11] = f1[11] = -g;
+    y1[0] = v * h, y1[1] = y0[1] - 0.5 * g * h * h, y1[10] = v, y1[11] = -g * h;
+    const path p = {5, 0.0, h, h, y0, f0, y1, f1, false, &tr};
+    trail_start(&tr, h, y1, f1);
+    assert_ok(patch_open(&near, &p, 0, at, y));
+    assert_close(y[1], 0.0, 1e-16);
+    assert_close(y[11], -g * at, 1e-15);
+    y[11] = 0.0;
+    assert_ok(sites_close(&c.sites, 0, (contact_touch){.feature = 0, .sign = 1}));
+    assert_ok(patch_close(&near, &p, &tr, y, &error));
+    assert_close(error, 0.0, 1e-25);
+    assert_close(y1[0], v * h - 0.5 * mu * g * tau * tau, 1e-15);
+    assert_close(y1[1], 0.0, 1e-15);
+    assert_close(y1[10], v - mu * g * tau, 1e-15);
+    assert_close(y1[11], 0.0, 1e-15);
+    assert_close(y1[12], -mu * m * g * tau, 1e-14); /* impulse of the obstacle, N s */
+    assert_close(y1[13], m * g * tau, 1e-14);
+    assert_close(y1[14], -mu * m * g * tau, 1e-14); /* that of friction */
+    assert_close(y1[15], 0.0, 0.0);
+    assert_close(y1[16], mu * m * g * (v * tau - 0.5 * mu * g * tau * tau), 1e-14); /* J */
+    assert_close(trail_velocity(&tr, at + 0.5 * tau, 0).x, v - 0.5 * mu * g * tau, 1e-14);
+    trail_undo(&tr);
+    assert_close(y1[13], 0.0, 0.0);
+    patch_destroy(&near);
+    trail_destroy(&tr);
+    contact_destroy(&c);
+    dem_model_destroy(model);
+}
+
+/* ---- the body itself ---- */
+
+/* Of a step of length h with a jump of 5 m/s in it: what is wrong at its end, and within, in positions. */
+static void errors_of_jump(double h, double *at_end, double *inside)
+{
+    const double at = 0.3 * h, at_inside = 0.65 * h;
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
+    const double points[4] = {-1.0, -0.5, 1.0, -0.5};
+    const dem_obstacle ground = {.n_points = 2, .points = points};
+    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_books = 0};
+    dem_lattice l;
+    step s = {.h = h};
+    double error;
+    assert_ok(dem_lattice_rectangle(&l, 0.1, 0.08, spacing));
+    assert_ok(dem_lattice_assemble(&l, &rubber));
+    assert_ok(dem_model_create(&s.model, &l, &ground, 1));
+    s.n = s.n_all = l.n_nodes;
+    assert_ok(contact_create(&s.c, s.model, &rule));
+    assert_ok(patch_create(&s.patch, &s.c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
+    assert_ok(trail_create(&s.trail, s.n));
+    s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
+    s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);
+    put_start(&s);
+    memcpy(s.y1, s.y0, 4 * (size_t)s.n * sizeof(double));
+    memcpy(s.first, s.y0, 4 * (size_t)s.n * sizeof(double));
+    triplets_reach(&l, h, s.y1);
+    (void)triplets_derivative(0.0, s.y0, s.f0, &l);
+    (void)triplets_derivative(h, s.y1, s.f1, &l);
+    s.path = (path){s.n, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.trail};
+    trail_start(&s.trail, h, s.y1, s.f1);
+    const dem_index struck = node_near(&s, 0.0, 0.0);
+    assert_ok(patch_open(&s.patch, &s.path, s.c.sites.of_node[struck], at, s.state));
+    s.state[2 * (s.n + struck) + 1] += 5.0;
+    assert_ok(patch_close(&s.patch, &s.path, &s.trail, s.state, &error));
+    triplets_reach(&l, at, s.first);
+    s.first[2 * (s.n + struck) + 1] += 5.0;
+    triplets_reach(&l, at_inside - at, s.first);
+    path_state(&s.path, at_inside, s.last);
+    *at_end = *inside = 0.0;
+    for (dem_index k = 0; k < 2 * s.n; k++) *inside = fmax(*inside, fabs(s.last[k] - s.first[k]));
+    triplets_reach(&l, h - at_inside, s.first);
+    for (dem_index k = 0; k < 2 * s.n; k++) *at_end = fmax(*at_end, fabs(s.y1[k] - s.first[k]));
+    dem_lattice_free(&l);
+    close_step(&s);
+}
+
+/* Local errors of a method of order 5, and of the quintic: h^6 at least. */
+static void its_error_falls_with_the_sixth_power_of_the_step(void **state)
+{
+    const double omega = 239.0 / spacing;
+    double end[3], inside[3];
+    (void)state;
+    for (int k = 0; k < 3; k++) errors_of_jump(2.0 / omega / (1 << k), &end[k], &inside[k]);
+    for (int k = 0; k < 2; k++) {
+        print_message("# order %.2f at the end, %.2f within; error %.1e spacings\n", log2(end[k] / end[k + 1]),
+                      log2(inside[k] / inside[k + 1]), end[k + 1] / spacing);
+        assert_true(log2(end[k] / end[k + 1]) > 5.5);
+        assert_true(log2(inside[k] / inside[k + 1]) > 5.5);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_impact_changes_three_rings_as_a_step_of_the_whole_body_would),
+        cmocka_unit_test(so_it_does_with_area_terms_and_mass_damping),
+        cmocka_unit_test(damped_springs_carry_it_over_six_rings),
+        cmocka_unit_test(it_starts_from_parabolas_as_well),
+        cmocka_unit_test(prescribed_nodes_stay_on_their_way),
+        cmocka_unit_test(contacts_near_by_hold_and_rub),
+        cmocka_unit_test(so_they_do_where_springs_are_damped),
+        cmocka_unit_test(edges_on_vertices_move_together),
+        cmocka_unit_test(a_second_event_adds_to_the_first),
+        cmocka_unit_test(a_node_that_lands_is_booked_by_closed_forms),
+        cmocka_unit_test(its_error_falls_with_the_sixth_power_of_the_step),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* neighbourhood.c: rings by distances over the lattice, found another way, and the accelerations that the model gives.
+ * */
+#include "events/neighbourhood.h"
+
+#include <stdlib.h>
+
+#include "contact/automaton.h"
+#include "verification/support.h"
+
+typedef struct rig {
+    dem_model *model;
+    contact c;
+    ball b;
+    dem_index n;
+    double *y, *x, *v, *a; /* [4 n] states and what the ball has of them */
+} rig;
+
+/* A block on a floor, deformed and moving; nu other than 1/3 brings the area term. */
+static void open_rig(rig *r, double poissons_ratio, int n_rings)
+{
+    static const double points[4] = {-1.0, 0.0, 1.0, 0.0};
+    const dem_obstacle floor = {.n_points = 2, .points = points, .friction = 0.3};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = poissons_ratio, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
+    dem_lattice block;
+    assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
+    assert_ok(dem_lattice_assemble(&block, &rubber));
+    *r = (rig){.n = block.n_nodes};
+    assert_ok(dem_model_create(&r->model, &block, &floor, 1));
+    const contact_rule rule = {.skin = 1e-9, .max_step = 1e-6, .load = {.gravity = {0.0, -9.81}, .mass_damping = 3.0}};
+    assert_ok(contact_create(&r->c, r->model, &rule));
+    assert_ok(ball_create(&r->b, &r->c.sites, n_rings));
+    r->y = calloc(4 * (size_t)r->n, sizeof(double));
+    r->x = calloc(3 * 2 * (size_t)r->n, sizeof(double));
+    assert_true(r->y != NULL && r->x != NULL);
+    r->v = r->x + 2 * r->n;
+    r->a = r->v + 2 * r->n;
+    for (dem_index k = 0; k < 2 * r->n; k++) {
+        r->y[k] = block.x[k] + 1e-4 * sin(3.0 * (double)k);
+        r->y[2 * r->n + k] = cos(5.0 * (double)k);
+    }
+    dem_lattice_free(&block);
+}
+
+static void close_rig(rig *r)
+{
+    ball_destroy(&r->b);
+    contact_destroy(&r->c);
+    dem_model_destroy(r->model);
+    free(r->y);
+    free(r->x);
+}
+
+static dem_index bottom_site(const rig *r)
+{
+    dem_index lowest = 0;
+    for (dem_index k = 0; k < r->model->n_sites; k++)
+        if (r->model->lattice.x[2 * r->model->sites[k] + 1] < r->model->lattice.x[2 * r->model->sites[lowest] + 1])
+            lowest = k;
+    return lowest + 4;
+}
+
+/* Steps over springs from a node to all others: what has been reached goes on until nothing is new. */
+static int *distances(const rig *r, dem_index from)
+{
+    const dem_lattice *l = &r->model->lattice;
+    int *d = malloc((size_t)r->n * sizeof *d);
+    bool more = true;
+    assert_non_null(d);
+    for (dem_index i = 0; i < r->n; i++) d[i] = i == from ? 0 : 1000;
+    while (more) {
+        more = false;
+        for (dem_index k = 0; k < l->n_springs; k++)
+            for (int e = 0; e < 2; e++) {
+                const dem_index i = l->ends[2 * k + e], j = l->ends[2 * k + 1 - e];
+                if (d[i] + 1 >= d[j]) continue;
+                d[j] = d[i] + 1;
+                more = true;
+            }
+    }
+    return d;
+}
+
+static void rings_are_distances(void **state)
+{
+    rig r;
+    (void)state;
+    open_rig(&r, 1.0 / 3.0, 4);
+    const dem_index site = bottom_site(&r);
+    for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
+        int *d = distances(&r, r.model->sites[site + turn]);
+        assert_ok(ball_gather(&r.b, site + turn));
+        for (dem_index i = 0; i < r.n; i++) {
+            assert_int_equal(r.b.number[i] >= 0, d[i] <= 4);
+            for (int ring = 0; ring <= 4; ring++) assert_int_equal(ball_has(&r.b, i, ring), d[i] <= ring);
+        }
+        for (dem_index j = 0; j < r.b.n; j++) assert_int_equal(r.b.number[r.b.nodes[j].i], j);
+        free(d);
+    }
+    close_rig(&r);
+}
+
+/* As far as two rings. Sums of forces of 1e3 N on 0.02 kg, in another order: 1e-16 times some ten of them. */
+static void check_accelerations(rig *r)
+{
+    const ball_state s = {r->x, r->v, calloc(4 * (size_t)r->n, sizeof(double))};
+    assert_non_null(s.y);
+    for (dem_index j = 0; j < r->b.n; j++) {
+        vec2_put(r->x, j, vec2_at(r->y, r->b.nodes[j].i));
+        vec2_put(r->v, j, vec2_at(r->y, r->n + r->b.nodes[j].i));
+    }
+    ball_put(&r->b, &s, r->b.end[3]);
+    ball_accelerate(&r->b, 2, &s, r->a);
+    double *all = calloc(2 * (size_t)r->n, sizeof *all);
+    assert_non_null(all);
+    for (dem_index i = 0; i < r->n; i++)
+        vec2_put(all, i, forces_acceleration(r->model, &r->c.sites.scene.rule.load, i, r->y, r->y + 2 * r->n));
+    reactions_hold(&r->c.sites.reactions, r->y, r->y + 2 * r->n, all);
+    for (dem_index k = 0; k < 2 * r->b.end[2]; k++) assert_close(r->a[k], all[2 * r->b.nodes[k / 2].i + (k & 1)], 1e-9);
+    free(all);
+    free(s.y);
+}
+
+static void accelerations_are_the_models(void **state)
+{
+    (void)state;
+    for (int area = 0; area < 2; area++) {
+        rig r;
+        open_rig(&r, area ? 0.2 : 1.0 / 3.0, 4);
+        assert_int_equal(r.b.plain, !area);
+        assert_ok(ball_gather(&r.b, bottom_site(&r)));
+        check_accelerations(&r);
+        close_rig(&r);
+    }
+}
+
+static void a_closed_contact_holds_its_node(void **state)
+{
+    rig r;
+    (void)state;
+    open_rig(&r, 1.0 / 3.0, 4);
+    const dem_index site = bottom_site(&r);
+    assert_ok(ball_gather(&r.b, site));
+    assert_int_equal(r.b.n_groups, 0);
+    assert_ok(sites_close(&r.c.sites, site + 1, (contact_touch){.feature = 0, .sign = 1}));
+    assert_ok(sites_close(&r.c.sites, site, (contact_touch){.feature = 0, .sign = 0}));
+    assert_ok(ball_regroup(&r.b));
+    assert_int_equal(r.b.n_groups, 2);
+    assert_int_equal(r.b.groups[0].ring, 0);
+    assert_int_equal(r.b.groups[1].ring, 1);
+    check_accelerations(&r);
+    assert_close(r.a[0], 0.0, 0.0); /* the node of the site sticks */
+    assert_close(r.a[1], 0.0, 0.0);
+    close_rig(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rings_are_distances),
+        cmocka_unit_test(accelerations_are_the_models),
+        cmocka_unit_test(a_closed_contact_holds_its_node),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

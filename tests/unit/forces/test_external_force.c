@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* external_force.c: what is asked, what is answered, and what becomes of a failure. */
+#include "forces/external_force.h"
+
+#include <string.h>
+
+#include "unit/close.h"
+
+enum { n_nodes = 4 };
+
+/* Answers with number, place, velocity and time, so that what comes where shows; fails as it is told. */
+typedef struct source {
+    long calls;
+    dem_index bad; /* node whose force is not finite; -1: none */
+    double bad_value;
+    dem_status status;
+} source;
+
+static vec2 right(dem_index node, double t, vec2 x, vec2 v)
+{
+    return (vec2){100.0 * (double)node + x.x - v.y, t + 3.0 * x.y + 2.0 * v.x};
+}
+
+static dem_status answer(void *context, const dem_force_query *q, double *force)
+{
+    source *s = context;
+    s->calls++;
+    for (dem_index k = 0; k < q->n; k++) {
+        assert_true(force[2 * k] == 0.0 && force[2 * k + 1] == 0.0);
+        vec2_put(force, k, right(q->nodes[k], q->t, vec2_at(q->x, k), vec2_at(q->v, k)));
+        if (q->nodes[k] == s->bad) force[2 * k + 1] = s->bad_value;
+    }
+    return s->status;
+}
+
+static coupling *make(source *s)
+{
+    dem_options options = dem_options_default();
+    coupling *c;
+    *s = (source){.bad = -1};
+    options.force = answer;
+    options.force_context = s;
+    assert_int_equal(coupling_create(&c, &options, n_nodes), DEM_OK);
+    assert_non_null(c);
+    return c;
+}
+
+static const double x[2 * n_nodes] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
+static const double v[2 * n_nodes] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+
+static void ask_all(coupling *c, double t)
+{
+    coupling_ask(c, &(dem_force_query){t, n_nodes, c->all, x, v});
+}
+
+static void without_a_force_there_is_no_coupling(void **state)
+{
+    const dem_options options = dem_options_default();
+    coupling *c = (coupling *)1;
+    (void)state;
+    assert_int_equal(coupling_create(&c, &options, n_nodes), DEM_OK);
+    assert_null(c);
+    assert_false(coupling_failed(NULL));
+    coupling_destroy(NULL);
+}
+
+static void one_node_has_the_same_answer_as_all(void **state)
+{
+    source s;
+    (void)state;
+    coupling *c = make(&s);
+    ask_all(c, 0.25);
+    assert_int_equal(s.calls, 1);
+    for (dem_index i = 0; i < n_nodes; i++) {
+        const vec2 wanted = right(i, 0.25, vec2_at(x, i), vec2_at(v, i));
+        const vec2 alone = coupling_force(c, 0.25, i, vec2_at(x, i), vec2_at(v, i));
+        assert_close(c->answer[2 * i], wanted.x, 0.0);
+        assert_close(c->answer[2 * i + 1], wanted.y, 0.0);
+        assert_memory_equal(&alone, &c->answer[2 * i], sizeof alone);
+    }
+    assert_int_equal(s.calls, 1 + n_nodes);
+    coupling_destroy(c);
+}
+
+static void power_is_force_times_velocity(void **state)
+{
+    source s;
+    double power = 0.0;
+    (void)state;
+    coupling *c = make(&s);
+    ask_all(c, 2.0);
+    for (dem_index i = 0; i < n_nodes; i++)
+        power += vec2_dot(right(i, 2.0, vec2_at(x, i), vec2_at(v, i)), vec2_at(v, i));
+    assert_close(coupling_power(c, v), power, 1e-15 * power);
+    coupling_destroy(c);
+}
+
+/* Nobody is asked any more, and forces are 0, until the failure has been told. */
+static void fail_and_recover(coupling *c, source *s, dem_status status, const char *message)
+{
+    static const double nothing[2 * n_nodes];
+    ask_all(c, 0.5);
+    assert_true(coupling_failed(c));
+    assert_memory_equal(c->answer, nothing, sizeof nothing);
+    const long calls = s->calls;
+    ask_all(c, 0.75);
+    const vec2 alone = coupling_force(c, 0.75, 0, vec2_at(x, 0), vec2_at(v, 0));
+    assert_memory_equal(c->answer, nothing, sizeof nothing);
+    assert_memory_equal(&alone, nothing, sizeof alone);
+    assert_int_equal(s->calls, calls);
+    assert_int_equal(coupling_report(c), status);
+    assert_string_equal(dem_status_message(), message);
+    assert_false(coupling_failed(c));
+    *s = (source){.bad = -1};
+    ask_all(c, 0.75);
+    assert_false(coupling_failed(c));
+    assert_int_equal(s->calls, 1);
+}
+
+static void a_failure_lasts_until_it_is_told(void **state)
+{
+    static const double bad[] = {NAN, INFINITY, -INFINITY};
+    source s;
+    (void)state;
+    coupling *c = make(&s);
+    s.status = DEM_STOPPED;
+    fail_and_recover(c, &s, DEM_STOPPED, "the external force was refused at t = 0.5 s");
+    s.status = DEM_ERROR_IO;
+    fail_and_recover(c, &s, DEM_ERROR_IO, "the external force was refused at t = 0.5 s");
+    for (int k = 0; k < 3; k++) {
+        s.bad = 2;
+        s.bad_value = bad[k];
+        fail_and_recover(c, &s, DEM_ERROR_INTEGRATOR, "the external force on node 2 is not finite at t = 0.5 s");
+    }
+    coupling_destroy(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(without_a_force_there_is_no_coupling),
+        cmocka_unit_test(one_node_has_the_same_answer_as_all),
+        cmocka_unit_test(power_is_force_times_velocity),
+        cmocka_unit_test(a_failure_lasts_until_it_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,546 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* kernel.c and the sweeps: every kernel with 1, 2 and 3 threads against forces_acceleration(), which sums up row by
+ * row. They are to be equal, so that no tolerance is needed: 0 and -0 count as equal. */
+#include "verification/support.h"
+
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "forces/kernel.h"
+
+typedef struct scene {
+    dem_model *model;
+    double *x, *v, *a, *u;
+    gsl_rng *random;
+} scene;
+
+static double about_zero(gsl_rng *r, double size)
+{
+    return size * (2.0 * gsl_rng_uniform(r) - 1.0);
+}
+
+static double *copy_doubles(const double *from, dem_index n)
+{
+    double *to = malloc((size_t)n * sizeof *to);
+    assert_non_null(to);
+    return memcpy(to, from, (size_t)n * sizeof *to);
+}
+
+/* Positions at rest, moved at random by up to `share` of the spacing, and random velocities. */
+static scene make_scene(const dem_lattice *lattice, double share)
+{
+    scene s = {.random = gsl_rng_alloc(gsl_rng_mt19937)};
+    gsl_rng_set(s.random, 7);
+    assert_ok(dem_model_create(&s.model, lattice, NULL, 0));
+    const dem_index n = 2 * lattice->n_nodes;
+    s.x = copy_doubles(lattice->x, n);
+    s.v = copy_doubles(lattice->x, n);
+    s.a = copy_doubles(lattice->x, n);
+    s.u = copy_doubles(lattice->x, n);
+    for (dem_index k = 0; k < n; k++) {
+        s.x[k] += about_zero(s.random, share * dem_model_spacing(s.model));
+        s.v[k] = about_zero(s.random, 10.0);
+    }
+    return s;
+}
+
+static void free_scene(scene *s)
+{
+    dem_model_destroy(s->model);
+    gsl_rng_free(s->random);
+    free(s->x);
+    free(s->v);
+    free(s->a);
+    free(s->u);
+}
+
+static void check_kernel(scene *s, const forces *load, dem_kernel kind, int n_threads)
+{
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    for (int round = 0; round < 2; round++) { /* what the first has left in the ring does not matter */
+        const dem_index n = s->model->lattice.n_nodes;
+        const kernel_state y = {.x = s->x, .v = s->v, .u = round ? s->u : NULL, .a = s->a};
+        for (dem_index c = 0; c < 2 * n; c++) s->a[c] = s->u[c] = NAN;
+        assert_true(isfinite(kernel_accelerate(&k, load, &y)));
+        if (round) assert_memory_equal(s->u, s->v, 2 * (size_t)n * sizeof *s->v);
+        for (dem_index i = 0; i < n; i++) {
+            const vec2 a = forces_acceleration(s->model, load, i, s->x, s->v);
+            if (a.x != s->a[2 * i] || a.y != s->a[2 * i + 1])
+                fail_msg("%s, %d threads, node %lld of %lld: (%.17g, %.17g) instead of (%.17g, %.17g)",
+                         dem_kernel_name(kind), n_threads, (long long)i, (long long)n, s->a[2 * i], s->a[2 * i + 1],
+                         a.x, a.y);
+        }
+    }
+    kernel_destroy(&k);
+}
+
+/* v' = v0 + h/2 a0, x1 = x0 + h v', v1 = (v' + h/2 a0) + h/2 (a1 - a0), number by number. */
+static void check_leap(scene *s, const forces *load, dem_kernel kind, int n_threads)
+{
+    const dem_index n = 2 * s->model->lattice.n_nodes;
+    const double h = 0.1 * dem_model_spacing(s->model) / 10.0;
+    double *a0 = copy_doubles(s->v, n), *x1 = copy_doubles(s->x, n), *v1 = copy_doubles(s->v, n);
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    for (dem_index c = 0; c < n; c++) {
+        a0[c] = about_zero(s->random, 10.0 / h);
+        x1[c] = v1[c] = s->a[c] = 1.0;
+    }
+    const sweep_leap leap = {h, s->x, s->v, a0, x1, v1};
+    const kernel_state y = {.x = x1, .v = v1, .a = s->a, .leap = &leap};
+    assert_true(isfinite(kernel_accelerate(&k, load, &y)));
+    for (dem_index c = 0; c < n; c++) assert_close(x1[c], s->x[c] + h * (s->v[c] + 0.5 * h * a0[c]), 0.0);
+    for (dem_index c = 0; c < n; c++) {
+        const vec2 a = forces_acceleration(s->model, load, c / 2, x1, s->v);
+        const double a1 = c % 2 ? a.y : a.x, half = s->v[c] + 0.5 * h * a0[c];
+        assert_close(s->a[c], a1, 0.0);
+        assert_close(v1[c], half + 0.5 * h * a0[c] + 0.5 * h * (a1 - a0[c]), 0.0);
+    }
+    kernel_destroy(&k);
+    free(a0);
+    free(x1);
+    free(v1);
+}
+
+static bool may_leap(const scene *s, const forces *load)
+{
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
+    const bool may = kernel_may_leap(&k, load);
+    kernel_destroy(&k);
+    return may;
+}
+
+/* sqrt(1 + largest bound/omega_max^2), node by node. */
+static double stiffening_of(const scene *s)
+{
+    const dem_model *m = s->model;
+    double added = 0.0;
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
+        added = fmax(added, triangles_guard_bound(&m->triangles, i, s->x) * m->inverse_mass[i]);
+    return sqrt(1.0 + added / (m->omega_max * m->omega_max));
+}
+
+static void check_stiffening(scene *s, dem_kernel kind, int n_threads)
+{
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    assert_close(kernel_stiffening(&k, s->x), stiffening_of(s), 0.0);
+    kernel_destroy(&k);
+}
+
+static void check_load(scene *s, const forces *load)
+{
+    for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++)
+        for (int n_threads = 1; n_threads <= 3; n_threads++)
+            if (dem_kernel_check(kind) == DEM_OK) {
+                check_kernel(s, load, kind, n_threads);
+                if (may_leap(s, load)) check_leap(s, load, kind, n_threads);
+                check_stiffening(s, kind, n_threads);
+            }
+}
+
+static void check_lattice(const dem_lattice *lattice, double share)
+{
+    const forces plain = {.gravity = {0.5, -9.81}}, drag = {.gravity = {0.0, -9.81}, .mass_damping = 3.0};
+    scene s = make_scene(lattice, share);
+    check_load(&s, &plain);
+    check_load(&s, &drag);
+    free_scene(&s);
+}
+
+static const dem_material rubber = {
+    .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 0.5, .guard = 0.02};
+
+static dem_lattice make_solid(double width, double height, const dem_material *material)
+{
+    dem_lattice lattice;
+    assert_ok(dem_lattice_rectangle(&lattice, width, height, 1e-2));
+    assert_ok(dem_lattice_assemble(&lattice, material));
+    return lattice;
+}
+
+/* From one cell to rows longer than several blocks, with every number of nodes left over. */
+static void rectangles_of_all_sizes_agree(void **state)
+{
+    (void)state;
+    for (int rows = 1; rows <= 5; rows += 2)
+        for (int columns = 1; columns <= 21; columns++) {
+            dem_lattice lattice = make_solid(1e-2 * columns + 1e-4, 0.9e-2 * rows + 1e-2, &rubber);
+            check_lattice(&lattice, 0.05);
+            dem_lattice_free(&lattice);
+        }
+}
+
+static int outside_hole(void *context, const double x[2])
+{
+    (void)context;
+    return hypot(x[0] - 0.08, x[1] - 0.1) > 0.043;
+}
+
+static dem_lattice make_holed(const dem_material *material)
+{
+    dem_lattice lattice;
+    assert_ok(dem_lattice_disc(&lattice, 0.15, 1e-2));
+    dem_lattice_move(&lattice, 0.1, (const double[2]){0.15, 0.15});
+    assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
+    assert_ok(dem_lattice_assemble(&lattice, material));
+    return lattice;
+}
+
+/* Discs with holes; every law there is: with and without area term, guard and damping of the springs. */
+static void every_law_agrees_on_bodies_with_holes(void **state)
+{
+    (void)state;
+    for (int laws = 0; laws < 8; laws++) {
+        dem_material material = rubber;
+        if (laws & 1) material.poissons_ratio = 0.45;
+        if (laws & 2) material.guard = 0.0;
+        if (laws & 4) material.damping_time = 1e-5;
+        dem_lattice lattice = make_holed(&material);
+        check_lattice(&lattice, 0.1);
+        dem_lattice_free(&lattice);
+    }
+}
+
+/* Moved by up to 0.6 of a spacing, many triangles are below the guard's onset, and some are inverted. */
+static void squeezed_triangles_agree(void **state)
+{
+    (void)state;
+    for (int stiff = 0; stiff < 2; stiff++) {
+        dem_material material = rubber;
+        if (stiff) material.poissons_ratio = 0.2;
+        dem_lattice lattice = make_holed(&material);
+        check_lattice(&lattice, 0.6);
+        scene s = make_scene(&lattice, 0.6);
+        assert_true(stiffening_of(&s) > 2.0);
+        free_scene(&s);
+        dem_lattice_free(&lattice);
+    }
+}
+
+static void squares_agree(void **state)
+{
+    const dem_material raw = {.bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6};
+    dem_lattice lattice;
+    (void)state;
+    assert_ok(dem_lattice_squares(&lattice, 0.2, 0.13, 0.01));
+    assert_ok(dem_lattice_assemble_squares(&lattice, &raw, 0.5));
+    check_lattice(&lattice, 0.2);
+    dem_lattice_free(&lattice);
+}
+
+/* ---- numberings ---- */
+
+static void swap_nodes(dem_lattice *l, const dem_index *number)
+{
+    double *x = copy_doubles(l->x, 2 * l->n_nodes), *mass = copy_doubles(l->mass, l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        memcpy(l->x + 2 * number[i], x + 2 * i, 2 * sizeof *x);
+        l->mass[number[i]] = mass[i];
+    }
+    for (dem_index k = 0; k < 2 * l->n_springs; k++) l->ends[k] = number[l->ends[k]];
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) l->triangles[k] = number[l->triangles[k]];
+    free(x);
+    free(mass);
+}
+
+static dem_index *shuffled(dem_index n)
+{
+    dem_index *number = malloc((size_t)n * sizeof *number);
+    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    assert_non_null(number);
+    for (dem_index k = 0; k < n; k++) number[k] = k;
+    for (dem_index k = n - 1; k > 0; k--) {
+        const dem_index j = (dem_index)gsl_rng_uniform_int(r, (unsigned long)k + 1), kept = number[k];
+        number[k] = number[j];
+        number[j] = kept;
+    }
+    gsl_rng_free(r);
+    return number;
+}
+
+/* The second and third body have so many nodes that the model finds a better numbering for itself. */
+static void any_numbering_agrees(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        const int large = k > 0;
+        dem_material material = rubber;
+        material.poissons_ratio = 0.4;
+        material.damping_time = k < 2 ? 1e-5 : 0.0;
+        dem_lattice lattice = make_solid(large ? 0.6 : 0.2, large ? 0.4 : 0.1, &material);
+        dem_index *number = shuffled(lattice.n_nodes);
+        swap_nodes(&lattice, number);
+        check_lattice(&lattice, 0.1);
+        scene s = make_scene(&lattice, 0.1);
+        assert_int_equal(s.model->layout.order != NULL, large);
+        free_scene(&s);
+        dem_lattice_free(&lattice);
+        free(number);
+    }
+}
+
+/* Springs of stiffness and length of their own between random nodes. */
+static void random_springs_agree(void **state)
+{
+    enum { n = 203, most = 4 * n };
+    static double x[2 * n], mass[n], rest_length[most], stiffness[most], viscosity[most];
+    static dem_index ends[2 * most];
+    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    dem_lattice lattice = {.dim = 2,
+                           .n_nodes = n,
+                           .x = x,
+                           .mass = mass,
+                           .ends = ends,
+                           .rest_length = rest_length,
+                           .stiffness = stiffness,
+                           .viscosity = viscosity};
+    (void)state;
+    for (dem_index i = 0; i < n; i++) {
+        x[2 * i] = 20.0 * gsl_rng_uniform(r);
+        x[2 * i + 1] = 20.0 * gsl_rng_uniform(r);
+        mass[i] = 1.0 + gsl_rng_uniform(r);
+    }
+    for (dem_index i = 0; i < n; i++)
+        for (dem_index step = 1; step <= 13 && i + step < n; step += 4) {
+            const dem_index k = lattice.n_springs++;
+            ends[2 * k + (i & 1)] = i;
+            ends[2 * k + 1 - (i & 1)] = i + step;
+            rest_length[k] = 1.0 + gsl_rng_uniform(r);
+            stiffness[k] = 1e3 * (1.0 + gsl_rng_uniform(r));
+            viscosity[k] = gsl_rng_uniform(r);
+        }
+    gsl_rng_free(r);
+    check_lattice(&lattice, 0.01);
+}
+
+/* A wheel: one node has a spring to each other. A layout of it would take n^2 of memory, and is not made. */
+static void a_hub_of_many_springs_agrees(void **state)
+{
+    const dem_index sizes[] = {40, 3000};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const dem_index n = sizes[k];
+        double *x = malloc(2 * (size_t)n * sizeof *x), *mass = malloc((size_t)n * sizeof *mass);
+        double *ones = malloc((size_t)n * sizeof *ones);
+        dem_index *ends = malloc(2 * (size_t)n * sizeof *ends);
+        assert_true(x && mass && ones && ends);
+        for (dem_index i = 0; i < n; i++) {
+            x[2 * i] = i == 0 ? 0.0 : cos((double)i);
+            x[2 * i + 1] = i == 0 ? 0.0 : sin((double)i);
+            mass[i] = ones[i] = 1.0;
+            ends[2 * i] = 0;
+            ends[2 * i + 1] = i + 1;
+        }
+        const dem_lattice lattice = {.dim = 2,
+                                     .n_nodes = n,
+                                     .n_springs = n - 1,
+                                     .x = x,
+                                     .mass = mass,
+                                     .ends = ends,
+                                     .rest_length = ones,
+                                     .stiffness = ones};
+        check_lattice(&lattice, 0.1);
+        scene s = make_scene(&lattice, 0.1);
+        assert_int_equal(s.model->layout.n_blocks, k == 0 ? n / LAYOUT_LANES : 0);
+        free_scene(&s);
+        free(x);
+        free(mass);
+        free(ones);
+        free(ends);
+    }
+}
+
+/* ---- what is done from outside ---- */
+
+/* Fixed nodes stay, pushed ones are pushed, some of them twice. */
+static void fixed_and_pushed_nodes_agree(void **state)
+{
+    dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    const dem_index pushed[] = {3, 17, 40}, others[] = {17, 5};
+    const dem_boundary list[] = {{.kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = pushed, .value = {1e3, -2e3}},
+                                 {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = others, .value = {5.0, 1.0}}};
+    boundaries pushes;
+    (void)state;
+    lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
+    assert_non_null(lattice.flags);
+    for (dem_index i = 0; i < lattice.n_nodes; i += 7) lattice.flags[i] = DEM_NODE_FIXED;
+    scene s = make_scene(&lattice, 0.1);
+    assert_ok(boundaries_compile(&pushes, list, 2, &s.model->lattice, 0));
+    const forces load = {
+        .gravity = {0.0, -9.81}, .mass_damping = 1.0, .boundaries = &pushes, .clock = lattice.n_nodes - 1};
+    check_load(&s, &load);
+    boundaries_free(&pushes);
+    free_scene(&s);
+    dem_lattice_free(&lattice);
+}
+
+/* Springs along rows only, triangles between rows: these reach further. */
+static void triangles_may_reach_further_than_springs(void **state)
+{
+    const forces load = {.gravity = {0.5, -9.81}};
+    dem_material material = rubber;
+    (void)state;
+    material.poissons_ratio = 0.2;
+    dem_lattice lattice = make_solid(0.6, 0.6, &material);
+    dem_index kept = 0;
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        const dem_index *ends = lattice.ends + 2 * k;
+        if (ends[1] - ends[0] != 1 && ends[0] - ends[1] != 1) continue;
+        memmove(lattice.ends + 2 * kept, ends, 2 * sizeof *ends);
+        lattice.rest_length[kept] = lattice.rest_length[k];
+        lattice.stiffness[kept++] = lattice.stiffness[k];
+    }
+    lattice.n_springs = kept;
+    scene s = make_scene(&lattice, 0.1);
+    assert_int_equal(s.model->layout.reach, 1);
+    assert_true(may_leap(&s, &load));
+    check_load(&s, &load);
+    free_scene(&s);
+    dem_lattice_free(&lattice);
+}
+
+/* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
+static void what_depends_on_more_than_positions_does_not_leap(void **state)
+{
+    const boundaries pushes = {0};
+    const forces plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        dem_material material = rubber;
+        if (k == 1) material.damping_time = 1e-5;
+        dem_lattice lattice = make_solid(k == 2 ? 0.6 : 0.2, k == 2 ? 0.4 : 0.1, &material);
+        dem_index *number = shuffled(lattice.n_nodes);
+        if (k == 2) swap_nodes(&lattice, number);
+        scene s = make_scene(&lattice, 0.1);
+        assert_int_equal(may_leap(&s, &plain), k == 0);
+        assert_false(may_leap(&s, &drag));
+        assert_false(may_leap(&s, &pushed));
+        free_scene(&s);
+        dem_lattice_free(&lattice);
+        free(number);
+    }
+}
+
+static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
+{
+    const forces load = {.gravity = {0.0, -9.81}};
+    dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    scene s = make_scene(&lattice, 0.1);
+    (void)state;
+    for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++) {
+        kernel k;
+        if (dem_kernel_check(kind) != DEM_OK) continue;
+        assert_ok(kernel_create(&k, s.model, kind, 2));
+        const kernel_state y = {.x = s.x, .v = s.v, .u = s.u, .a = s.a};
+        for (dem_index i = 0; i < lattice.n_nodes; i++) {
+            double *const number = i % 3 == 0 ? &s.v[2 * i] : &s.x[2 * i], kept = *number;
+            *number = i & 1 ? (double)NAN : (double)INFINITY;
+            assert_true(!isfinite(kernel_accelerate(&k, &load, &y)));
+            *number = kept;
+        }
+        kernel_destroy(&k);
+    }
+    free_scene(&s);
+    dem_lattice_free(&lattice);
+}
+
+/* ---- what the guard stiffens ---- */
+
+/* A triangle squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Opposite to node 2 is the side of 1 m, to node 1
+ * the diagonal, to node 0 the side of 0.2 m; each in turn is so light that it decides. What the guard adds stands
+ * beside omega_max^2. */
+static void the_guard_stiffens_what_it_squeezes(void **state)
+{
+    double rest[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0}, mass[3] = {1.0, 2.0, 3.0}, length[2] = {1.0, 1.0};
+    double stiffness[2] = {10.0, 10.0}, guard[1] = {10.0};
+    dem_index ends[4] = {0, 1, 1, 2}, corners[3] = {0, 1, 2};
+    const double x[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.2}, L = log(2.0), J = 0.2, A0 = 0.5;
+    const double w1 = 3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
+    const double side[3] = {0.2 * 0.2, 1.0 + 0.2 * 0.2, 1.0};
+    const dem_lattice lattice = {.dim = 2,
+                                 .n_nodes = 3,
+                                 .n_springs = 2,
+                                 .n_triangles = 1,
+                                 .x = rest,
+                                 .mass = mass,
+                                 .ends = ends,
+                                 .rest_length = length,
+                                 .stiffness = stiffness,
+                                 .triangles = corners,
+                                 .guard = guard};
+    (void)state;
+    for (int light = -1; light < 3; light++) {
+        double added = 0.0;
+        for (int i = 0; i < 3; i++) mass[i] = i == light ? 0.1 : 1.0 + i;
+        for (int i = 0; i < 3 && light >= 0; i++)
+            added = fmax(added, 10.0 * (3.0 * w2 * 0.25 * side[i] / A0 + 0.5 * sqrt(3.0) * w1) / mass[i]);
+        guard[0] = light < 0 ? 0.0 : 10.0;
+        scene s = make_scene(&lattice, 0.0);
+        kernel k;
+        const double omega = dem_model_omega_max(s.model);
+        assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
+        assert_close(kernel_stiffening(&k, rest), 1.0, 0.0);
+        assert_close(kernel_stiffening(&k, x), sqrt(1.0 + added / (omega * omega)), 1e-12);
+        kernel_destroy(&k);
+        free_scene(&s);
+    }
+}
+
+/* ---- names ---- */
+
+static void kernels_have_names(void **state)
+{
+    dem_kernel kind;
+    (void)state;
+    for (dem_kernel k = DEM_KERNEL_AUTO; k <= DEM_KERNEL_AVX512; k++) {
+        assert_ok(dem_kernel_find(&kind, dem_kernel_name(k)));
+        assert_int_equal(kind, k);
+    }
+    assert_null(dem_kernel_name((dem_kernel)99));
+    assert_int_equal(dem_kernel_find(&kind, "abacus"), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_kernel_find(NULL, "auto"), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_kernel_check((dem_kernel)99), DEM_ERROR_ARGUMENT);
+    assert_ok(dem_kernel_check(DEM_KERNEL_AUTO));
+    assert_ok(dem_kernel_check(DEM_KERNEL_PORTABLE));
+}
+
+static void the_choice_left_open_is_the_last_that_runs(void **state)
+{
+    dem_lattice lattice = make_solid(0.05, 0.05, &rubber);
+    scene s = make_scene(&lattice, 0.1);
+    kernel k;
+    (void)state;
+    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
+    assert_ok(dem_kernel_check(k.kind));
+    assert_true(k.kind != DEM_KERNEL_AUTO);
+    assert_true(k.kind == DEM_KERNEL_AVX512 || dem_kernel_check(k.kind + 1) == DEM_ERROR_ARGUMENT);
+    kernel_destroy(&k);
+    assert_int_equal(kernel_create(&k, s.model, (dem_kernel)99, 1), DEM_ERROR_ARGUMENT);
+    free_scene(&s);
+    dem_lattice_free(&lattice);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rectangles_of_all_sizes_agree),
+        cmocka_unit_test(every_law_agrees_on_bodies_with_holes),
+        cmocka_unit_test(squeezed_triangles_agree),
+        cmocka_unit_test(squares_agree),
+        cmocka_unit_test(any_numbering_agrees),
+        cmocka_unit_test(random_springs_agree),
+        cmocka_unit_test(a_hub_of_many_springs_agrees),
+        cmocka_unit_test(fixed_and_pushed_nodes_agree),
+        cmocka_unit_test(triangles_may_reach_further_than_springs),
+        cmocka_unit_test(what_depends_on_more_than_positions_does_not_leap),
+        cmocka_unit_test(a_number_that_is_not_finite_shows_in_the_sum),
+        cmocka_unit_test(the_guard_stiffens_what_it_squeezes),
+        cmocka_unit_test(kernels_have_names),
+        cmocka_unit_test(the_choice_left_open_is_the_last_that_runs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

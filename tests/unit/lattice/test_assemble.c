@@ -1,0 +1,506 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* assemble.c: springs, masses and what triangles have, of triangulations and of square cells. */
+#include <stdbool.h>
+
+#include "unit/solids.h"
+
+static const double spacing = 2.5e-3; /* m */
+
+/* Triangles with both ends of a spring among their corners. */
+static int triangles_at(const dem_lattice *lattice, dem_index spring)
+{
+    int n = 0;
+    for (dem_index t = 0; t < lattice->n_triangles; t++) {
+        int shared = 0;
+        for (int c = 0; c < 3; c++)
+            for (int e = 0; e < 2; e++) shared += lattice->triangles[3 * t + c] == lattice->ends[2 * spring + e];
+        n += shared == 2;
+    }
+    return n;
+}
+
+#define assert_refused(call, status, message)                                                                          \
+    do {                                                                                                               \
+        assert_int_equal(call, status);                                                                                \
+        assert_string_equal(dem_status_message(), message);                                                            \
+    } while (0)
+
+/* ---- triangulations ---- */
+
+static void springs_come_by_lower_then_upper_node_without_duplicates(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_solid(0.03, 0.03, spacing);
+    assert_int_equal(lattice.n_nodes - lattice.n_springs + lattice.n_triangles, 1); /* Euler */
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        const dem_index *end = lattice.ends + 2 * k;
+        assert_true(end[0] < end[1]);
+        if (k > 0) assert_true(end[-2] < end[0] || (end[-2] == end[0] && end[-1] < end[1]));
+        assert_close(lattice.rest_length[k], spacing, 1e-13 * spacing);
+    }
+    dem_lattice_free(&lattice);
+}
+
+static void stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary(void **state)
+{
+    (void)state;
+    const double inside = sqrt(3.0) / 2.0 * rubber.youngs_modulus * rubber.thickness * spacing;
+    dem_lattice lattice = make_solid(0.03, 0.03, spacing);
+    dem_index n_boundary = 0;
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        const int n = triangles_at(&lattice, k);
+        assert_true(n == 1 || n == 2);
+        assert_close(lattice.stiffness[k], 0.5 * n * inside, 1e-12 * inside);
+        n_boundary += n == 1;
+    }
+    assert_int_equal(n_boundary, 3 * lattice.n_triangles - 2 * (lattice.n_springs - n_boundary));
+    dem_lattice_free(&lattice);
+}
+
+static void masses_guard_thickness_and_modulus_are_those_of_the_triangles(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_solid(0.08, 0.13, spacing);
+    const double share = rubber.density * rubber.thickness * sqrt(3.0) / 12.0 * spacing * spacing;
+    double mass = 0.0;
+    for (dem_index i = 0; i < lattice.n_nodes; i++) mass += lattice.mass[i];
+    assert_close(mass, 3.0 * share * (double)lattice.n_triangles, 1e-12 * mass);
+    assert_close(lattice.mass[0], share, 1e-12 * share); /* the corner belongs to one triangle */
+    assert_close(lattice.mass[33 + 1], 6.0 * share, 1e-11 * share);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        assert_close(lattice.guard[t], 0.02 * 1e7 * 0.5, 1e-9);
+        assert_close(lattice.thickness[t], 0.5, 0.0);
+        assert_close(lattice.modulus[t], 1e7, 0.0);
+    }
+    dem_lattice_free(&lattice);
+}
+
+static void a_material_without_guard_leaves_guard_NULL(void **state)
+{
+    (void)state;
+    dem_material plain = rubber;
+    plain.guard = 0.0;
+    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
+    assert_int_equal(dem_lattice_assemble(&lattice, &plain), DEM_OK);
+    assert_null(lattice.guard);
+    assert_non_null(lattice.mass);
+    dem_lattice_free(&lattice);
+}
+
+static void viscosity_is_damping_time_times_stiffness(void **state)
+{
+    (void)state;
+    dem_material damped = rubber;
+    damped.damping_time = 3e-5;
+    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
+    assert_null(plain.viscosity);
+    assert_int_equal(dem_lattice_assemble(&lattice, &damped), DEM_OK);
+    assert_memory_equal(lattice.stiffness, plain.stiffness, (size_t)plain.n_springs * sizeof(double));
+    for (dem_index k = 0; k < lattice.n_springs; k++)
+        assert_close(lattice.viscosity[k], 3e-5 * plain.stiffness[k], 0.0);
+    dem_lattice_free(&lattice);
+    dem_lattice_free(&plain);
+}
+
+/* Energy (1) and of the area term under x -> (1 + s strain) x; strain = xx, yy, xy. */
+static double energy_of(const dem_lattice *lattice, const double strain[3], double s)
+{
+    const double J = (1.0 + s * strain[0]) * (1.0 + s * strain[1]) - s * s * strain[2] * strain[2];
+    double energy = 0.0;
+    for (dem_index t = 0; t < lattice->n_triangles && lattice->area_stiffness != NULL; t++)
+        energy += 0.5 * lattice->area_stiffness[t] * area_of(lattice, t) * (J - 1.0) * (J - 1.0);
+    for (dem_index k = 0; k < lattice->n_springs; k++) {
+        const double *a = lattice->x + 2 * lattice->ends[2 * k], *b = lattice->x + 2 * lattice->ends[2 * k + 1];
+        const double dx = b[0] - a[0], dy = b[1] - a[1], rest = lattice->rest_length[k];
+        const double length =
+            hypot(dx + s * (strain[0] * dx + strain[2] * dy), dy + s * (strain[2] * dx + strain[1] * dy));
+        energy += 0.5 * lattice->stiffness[k] * (length - rest) * (length - rest) / rest;
+    }
+    return energy;
+}
+
+/* Hooke's law of a solid in three dimensions: of plane strain as it is, of plane stress with the strain across that
+ * leaves no stress there. The third order in s cancels in the mean of s and -s; the fourth is of order s^2. */
+static void expect_energy_of(const dem_material *solid, const double e[3])
+{
+    const double nu = solid->poissons_ratio, s = 1e-4, G = 0.5 * solid->youngs_modulus / (1.0 + nu);
+    const double lambda = 2.0 * G * nu / (1.0 - 2.0 * nu);
+    const double across = solid->plane == DEM_PLANE_STRAIN ? 0.0 : -nu / (1.0 - nu) * (e[0] + e[1]);
+    const double trace = e[0] + e[1] + across;
+    const double squares = e[0] * e[0] + e[1] * e[1] + across * across + 2.0 * e[2] * e[2];
+    dem_lattice lattice = make_rectangle(0.03, 0.05, spacing);
+    assert_int_equal(dem_lattice_assemble(&lattice, solid), DEM_OK);
+    const double volume = (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing * solid->thickness;
+    const double expected = s * s * volume * (0.5 * lambda * trace * trace + G * squares);
+    const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
+    assert_close(mean / expected, 1.0, 1e-7);
+    dem_lattice_free(&lattice);
+}
+
+static void a_uniformly_strained_block_has_the_energy_of_its_solid(void **state)
+{
+    (void)state;
+    static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {1, 1, 0}, {0.3, -0.7, 0.5}};
+    static const double ratios[] = {-0.3, 0.0, 0.1, 0.25, 1.0 / 3.0, 0.45};
+    dem_material solid = rubber;
+    for (int plane = 0; plane < 2; plane++)
+        for (size_t n = 0; n < sizeof ratios / sizeof *ratios; n++)
+            for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
+                solid.plane = plane == 0 ? DEM_PLANE_STRESS : DEM_PLANE_STRAIN;
+                solid.poissons_ratio = ratios[n];
+                expect_energy_of(&solid, strains[k]);
+            }
+}
+
+/* kappa = E h (3 nu - 1)/(2 (1 - nu^2)): at 0.5 E h/3; springs alone have 1/3 in plane stress, 1/4 in plane strain. */
+static void area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it(void **state)
+{
+    (void)state;
+    const dem_plane planes[3] = {DEM_PLANE_STRESS, DEM_PLANE_STRESS, DEM_PLANE_STRAIN};
+    const double ratios[3] = {0.5, 1.0 / 3.0, 0.25};
+    for (int k = 0; k < 3; k++) {
+        dem_material solid = rubber;
+        solid.poissons_ratio = ratios[k], solid.plane = planes[k];
+        dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
+        assert_int_equal(dem_lattice_assemble(&lattice, &solid), DEM_OK);
+        for (dem_index t = 0; k == 0 && t < lattice.n_triangles; t++)
+            assert_close(lattice.area_stiffness[t], 1e7 * 0.5 / 3.0, 1e-8);
+        if (k > 0) assert_null(lattice.area_stiffness);
+        dem_lattice_free(&lattice);
+    }
+}
+
+/* ---- springs of one stiffness ---- */
+
+/* All of E_ij, on the boundary too; no area term. The guard is that of the E h for which the rule of triangles gives
+ * E_ij inside: E_ij = sqrt(3)/2 E h a. */
+static void every_spring_may_have_the_same_stiffness(void **state)
+{
+    (void)state;
+    const dem_material raw = {
+        .bond_stiffness = 300.0, .density = 1050.0, .thickness = 0.5, .guard = 0.02, .damping_time = 1e-3};
+    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
+    assert_int_equal(dem_lattice_assemble(&lattice, &raw), DEM_OK);
+    assert_int_equal(lattice.n_springs, plain.n_springs);
+    assert_memory_equal(lattice.ends, plain.ends, 2 * (size_t)plain.n_springs * sizeof *plain.ends);
+    assert_memory_equal(lattice.mass, plain.mass, (size_t)plain.n_nodes * sizeof *plain.mass);
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        assert_close(lattice.stiffness[k], 300.0, 0.0);
+        assert_close(lattice.viscosity[k], 0.3, 1e-16);
+    }
+    for (dem_index t = 0; t < lattice.n_triangles; t++)
+        assert_close(lattice.guard[t], 0.02 * 300.0 * 2.0 / sqrt(3.0) / spacing, 1e-9);
+    assert_null(lattice.area_stiffness);
+    assert_null(lattice.modulus);
+    dem_lattice_free(&lattice);
+    dem_lattice_free(&plain);
+}
+
+/* ---- squares ---- */
+
+static dem_lattice make_squares(double width, double height)
+{
+    dem_lattice lattice;
+    assert_int_equal(dem_lattice_squares(&lattice, width, height, spacing), DEM_OK);
+    return lattice;
+}
+
+/* Sides k = E h/(1 + nu), half of it on the boundary; diagonals r k; times their lengths. Masses: quarters of cells. */
+static void squares_have_sides_and_both_diagonals(void **state)
+{
+    (void)state;
+    const double r = 0.3, k = 1e7 * 0.5 / (1.0 + 1.0 / 3.0), cell = 1050.0 * 0.5 * spacing * spacing;
+    dem_lattice lattice = make_squares(4.0 * spacing, 3.0 * spacing);
+    dem_index n_sides = 0, n_diagonals = 0;
+    assert_int_equal(dem_lattice_assemble_squares(&lattice, &rubber, r), DEM_OK);
+    for (dem_index s = 0; s < lattice.n_springs; s++) {
+        const dem_index i = lattice.ends[2 * s], j = lattice.ends[2 * s + 1];
+        const double *a = lattice.x + 2 * i, *b = lattice.x + 2 * j;
+        const bool across = a[0] != b[0] && a[1] != b[1];
+        const bool rim =
+            (a[0] == b[0] && fabs(a[0]) > 1.5 * spacing) || (a[1] == b[1] && fabs(a[1] - 1.5 * spacing) > spacing);
+        const double length = across ? sqrt(2.0) * spacing : spacing, expected = across ? r * k : (rim ? 0.5 * k : k);
+        assert_close(lattice.rest_length[s], length, 1e-13 * length);
+        assert_close(lattice.stiffness[s], expected * length, 1e-12 * k * length);
+        n_sides += !across, n_diagonals += across;
+    }
+    assert_int_equal(n_sides, 4 * 4 + 5 * 3);
+    assert_int_equal(n_diagonals, 2 * 12);
+    assert_close(lattice.mass[0], 0.25 * cell, 1e-15 * cell);
+    assert_close(lattice.mass[1], 0.5 * cell, 1e-15 * cell);
+    assert_close(lattice.mass[6], cell, 1e-15 * cell);
+    assert_close(lattice.mass[7], cell, 1e-15 * cell);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) assert_close(lattice.guard[t], 0.02 * 1e7 * 0.5, 1e-9);
+    dem_lattice_free(&lattice);
+}
+
+/* C11 = E/(1 - nu^2), C12 = nu C11, C66 = r E/(1 + nu) of plane stress: per area
+ * 1/2 (C11 (xx^2 + yy^2) + 2 C12 xx yy + 4 C66 xy^2). Fourth order as above. */
+static void a_uniformly_strained_block_of_squares_is_cubic(void **state)
+{
+    (void)state;
+    static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0.3, -0.7, 0.5}};
+    static const double solids[][2] = {{-0.3, 0.2},      {0.0, 0.2},  {0.0, 0.45},
+                                       {1.0 / 3.0, 0.5}, {0.45, 0.5}, {0.45, 1.3}};
+    const double s = 1e-4;
+    for (size_t n = 0; n < sizeof solids / sizeof *solids; n++) {
+        const double nu = solids[n][0], r = solids[n][1], C11 = 5e6 / (1.0 - nu * nu), C66 = r * 5e6 / (1.0 + nu);
+        dem_material solid = rubber;
+        solid.poissons_ratio = nu;
+        dem_lattice lattice = make_squares(0.03, 0.05);
+        assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, r), DEM_OK);
+        const double area = 0.5 * (double)lattice.n_triangles * spacing * spacing;
+        for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
+            const double *e = strains[k], squares = e[0] * e[0] + e[1] * e[1];
+            const double expected =
+                s * s * area * (0.5 * C11 * (squares + 2.0 * nu * e[0] * e[1]) + 2.0 * C66 * e[2] * e[2]);
+            const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
+            assert_close(mean / expected, 1.0, 1e-7);
+        }
+        dem_lattice_free(&lattice);
+    }
+}
+
+/* nu = r/(1 + r), up to rounding; at r = 1/2, nu = 1/3 exactly. */
+static void squares_need_no_area_term_at_the_ratio_of_their_diagonals(void **state)
+{
+    (void)state;
+    dem_material solid = rubber;
+    dem_lattice lattice = make_squares(0.03, 0.03);
+    assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, 0.5), DEM_OK);
+    assert_null(lattice.area_stiffness);
+    dem_lattice_free(&lattice);
+    lattice = make_squares(0.03, 0.03);
+    solid.poissons_ratio = 0.3 / 1.3;
+    assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, 0.3), DEM_OK);
+    for (dem_index t = 0; lattice.area_stiffness != NULL && t < lattice.n_triangles; t++)
+        assert_close(lattice.area_stiffness[t], 0.0, 1e-15 * 1e7);
+    dem_lattice_free(&lattice);
+}
+
+/* A rhombus and a trapezium: all mass and no more, springs along all six lines. */
+static void cells_may_be_any_convex_quadrilaterals(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_squares(2.0 * spacing, spacing);
+    lattice.x[2 * 1] += 0.3 * spacing;
+    lattice.x[2 * 4 + 1] -= 0.2 * spacing;
+    double area = 0.0, mass = 0.0;
+    for (dem_index t = 0; t < lattice.n_triangles; t++) area += area_of(&lattice, t);
+    assert_int_equal(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_OK);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) mass += lattice.mass[i];
+    assert_close(mass, 1050.0 * 0.5 * area, 1e-14 * mass);
+    assert_int_equal(lattice.n_springs, 11);
+    dem_lattice_free(&lattice);
+}
+
+static void squares_refuse_what_is_no_cell(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_squares(2.0 * spacing, 2.0 * spacing);
+    assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.0), DEM_ERROR_ARGUMENT,
+                   "the stiffness of a diagonal over a side's must be > 0: 0");
+    assert_refused(
+        dem_lattice_assemble_squares(&lattice, &rubber, 1.5), DEM_ERROR_ARGUMENT,
+        "the stiffness of a diagonal over a side's must be less than 1, or cells warp, at Poisson's ratio 0.333333 in "
+        "plane stress: 1.5");
+    lattice.n_triangles = 7;
+    assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
+                   "7 triangles do not pair up to cells");
+    lattice.n_triangles = 8;
+    for (int c = 0; c < 3; c++) {
+        const dem_index other = lattice.triangles[3 + c];
+        lattice.triangles[3 + c] = lattice.triangles[21 + c];
+        lattice.triangles[21 + c] = other;
+    }
+    assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
+                   "triangles 0 and 1, which are to be a cell, share no edge");
+    dem_lattice_free(&lattice);
+    lattice = make_squares(spacing, spacing);
+    lattice.x[0] += 0.6 * spacing; /* the lower left corner beyond the diagonal of its neighbours */
+    lattice.x[1] += 0.6 * spacing;
+    assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
+                   "the cell of nodes 1, 3, 2 and 0 is not convex");
+    assert_null(lattice.mass);
+    dem_lattice_free(&lattice);
+}
+
+/* ---- refusals ---- */
+
+/* ---- several materials ---- */
+
+static const dem_material steel = {.youngs_modulus = 2e8,
+                                   .poissons_ratio = 0.2,
+                                   .plane = DEM_PLANE_STRAIN,
+                                   .density = 7800.0,
+                                   .thickness = 0.25,
+                                   .guard = 0.03,
+                                   .damping_time = 2e-6};
+
+static bool is_right(const dem_lattice *l, dem_index t)
+{
+    const dem_index *c = l->triangles + 3 * t;
+    return l->x[2 * c[0]] + l->x[2 * c[1]] + l->x[2 * c[2]] > 0.0;
+}
+
+/* Halves of an assembled lattice and what two materials make of it: each half as it is alone, the nodes and springs of
+ * the seam x = 0 the mean. */
+static void expect_mean_on_the_seam(const dem_lattice *mixed, const dem_lattice *left, const dem_lattice *right)
+{
+    dem_index n_seam = 0;
+    for (dem_index k = 0; k < mixed->n_springs; k++) {
+        const dem_index i = mixed->ends[2 * k], j = mixed->ends[2 * k + 1];
+        const double x = mixed->x[2 * i] + mixed->x[2 * j], low = left->stiffness[k], high = right->stiffness[k];
+        const double expected = fabs(x) < 1e-9 ? 0.5 * (low + high) : (x < 0.0 ? low : high);
+        assert_close(mixed->stiffness[k], expected, 1e-12 * expected);
+        const double damped = fabs(x) < 1e-9 ? 0.5 * 2e-6 * high : (x < 0.0 ? 0.0 : 2e-6 * high);
+        assert_close(mixed->viscosity[k], damped, 1e-12 * high);
+        n_seam += fabs(x) < 1e-9 && fabs(mixed->x[2 * i]) < 1e-9;
+    }
+    assert_int_equal(n_seam, 4);
+    for (dem_index i = 0; i < mixed->n_nodes; i++) {
+        const double x = mixed->x[2 * i], low = left->mass[i], high = right->mass[i];
+        assert_close(mixed->mass[i], fabs(x) < 1e-9 ? 0.5 * (low + high) : (x < 0.0 ? low : high), 1e-15);
+    }
+    for (dem_index t = 0; t < mixed->n_triangles; t++) {
+        const dem_lattice *own = is_right(mixed, t) ? right : left;
+        assert_close(mixed->guard[t], own->guard[t], 0.0);
+        assert_close(mixed->thickness[t], own->thickness[t], 0.0);
+        assert_close(mixed->modulus[t], own->modulus[t], 0.0);
+        assert_close(mixed->area_stiffness[t], own->area_stiffness == NULL ? 0.0 : own->area_stiffness[t], 0.0);
+    }
+}
+
+static void a_spring_between_two_materials_is_half_of_each(void **state)
+{
+    (void)state;
+    const dem_material both[2] = {rubber, steel};
+    dem_lattice mixed = make_squares(6.0 * spacing, 4.0 * spacing), left = make_squares(6.0 * spacing, 4.0 * spacing),
+                right = make_squares(6.0 * spacing, 4.0 * spacing);
+    dem_index of[48];
+    assert_int_equal(mixed.n_triangles, 48);
+    for (dem_index t = 0; t < 48; t++) of[t] = is_right(&mixed, t);
+    assert_int_equal(dem_lattice_assemble_mixed(&mixed, both, 2, of, 0.4), DEM_OK);
+    assert_int_equal(dem_lattice_assemble_squares(&left, &rubber, 0.4), DEM_OK);
+    assert_int_equal(dem_lattice_assemble_squares(&right, &steel, 0.4), DEM_OK);
+    expect_mean_on_the_seam(&mixed, &left, &right);
+    dem_lattice_free(&mixed);
+    dem_lattice_free(&left);
+    dem_lattice_free(&right);
+}
+
+static void a_mixture_refuses_what_cannot_be_mixed(void **state)
+{
+    (void)state;
+    dem_material both[2] = {rubber, steel};
+    dem_lattice lattice = make_squares(spacing, spacing);
+    dem_index of[2] = {0, 1};
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.4), DEM_ERROR_MODEL,
+                   "triangles 0 and 1, of a cell, have two materials");
+    of[1] = 2;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "triangle 1 has material 2, but there are 2");
+    of[1] = -1;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "triangle 1 has material -1, but there are 2");
+    of[1] = 1, both[1].youngs_modulus = 0.0, both[1].bond_stiffness = 7.0;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "a bond stiffness, 7 N, is for bodies of one material");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 0, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "the number of materials must be > 0: 0");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, NULL, 2, of, 0.0), DEM_ERROR_ARGUMENT, "material is NULL");
+    both[1] = steel, both[1].density = 0.0;
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
+                   "density must be > 0: 0 kg/m^3");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, -1.0), DEM_ERROR_ARGUMENT,
+                   "the stiffness of a diagonal over a side's must be > 0: -1");
+    assert_null(lattice.mass);
+    dem_lattice_free(&lattice);
+}
+
+/* ---- faults ---- */
+
+static void assembling_refuses_what_is_not_a_triangulation(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    const dem_index corner = lattice.triangles[0];
+    lattice.triangles[0] = lattice.triangles[1];
+    lattice.triangles[1] = corner;
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
+                   "triangle 0 (nodes 1, 0, 2) has the area -0.433013 m^2; it must be > 0");
+    lattice.triangles[0] = 9;
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
+                   "triangle 0 has node 9, but there are 5 nodes");
+    lattice.triangles[0] = 0, lattice.triangles[1] = 1;
+    lattice.n_triangles = 1;
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "node 3 belongs to no triangle");
+    lattice.n_triangles = 0;
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
+                   "a lattice without triangles cannot be assembled");
+    assert_null(lattice.mass);
+    lattice.n_triangles = 2;
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "the lattice already has 6 springs");
+    dem_lattice_free(&lattice);
+}
+
+static void assembling_refuses_impossible_materials(void **state)
+{
+    (void)state;
+    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    dem_material m = rubber;
+    m.youngs_modulus = 0.0;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: 0 Pa");
+    m = rubber, m.bond_stiffness = 3.0;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "a material has Young's modulus, 1e+07 Pa, or a bond stiffness, 3 N, not both");
+    m.youngs_modulus = 0.0, m.bond_stiffness = -3.0;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "the bond stiffness must be > 0: -3 N");
+    m = rubber, m.poissons_ratio = 1.0;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "Poisson's ratio must be in (-1, 1) in plane stress: 1");
+    m.poissons_ratio = 0.5, m.plane = DEM_PLANE_STRAIN;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "Poisson's ratio must be in (-1, 0.5) in plane strain: 0.5");
+    m.plane = (dem_plane)2;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
+                   "plane is 2, which is neither stress nor strain");
+    m = rubber, m.density = -1.0;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "density must be > 0: -1 kg/m^3");
+    m = rubber, m.thickness = (double)INFINITY;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "thickness must be > 0: inf m");
+    m = rubber, m.guard = -0.1;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "guard must be >= 0: -0.1");
+    m = rubber, m.damping_time = -1e-6;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: -1e-06 s");
+    m.damping_time = (double)INFINITY;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: inf s");
+    assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
+    assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
+    dem_lattice_free(&lattice);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(springs_come_by_lower_then_upper_node_without_duplicates),
+        cmocka_unit_test(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary),
+        cmocka_unit_test(masses_guard_thickness_and_modulus_are_those_of_the_triangles),
+        cmocka_unit_test(a_material_without_guard_leaves_guard_NULL),
+        cmocka_unit_test(viscosity_is_damping_time_times_stiffness),
+        cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_its_solid),
+        cmocka_unit_test(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it),
+        cmocka_unit_test(every_spring_may_have_the_same_stiffness),
+        cmocka_unit_test(squares_have_sides_and_both_diagonals),
+        cmocka_unit_test(a_uniformly_strained_block_of_squares_is_cubic),
+        cmocka_unit_test(squares_need_no_area_term_at_the_ratio_of_their_diagonals),
+        cmocka_unit_test(cells_may_be_any_convex_quadrilaterals),
+        cmocka_unit_test(squares_refuse_what_is_no_cell),
+        cmocka_unit_test(a_spring_between_two_materials_is_half_of_each),
+        cmocka_unit_test(a_mixture_refuses_what_cannot_be_mixed),
+        cmocka_unit_test(assembling_refuses_what_is_not_a_triangulation),
+        cmocka_unit_test(assembling_refuses_impossible_materials),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

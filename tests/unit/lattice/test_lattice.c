@@ -1,0 +1,374 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* lattice.c: parts and pieces, selecting, trimming, moving, joining. */
+#include "unit/solids.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define assert_refused(call, status, message)                                                                          \
+    do {                                                                                                               \
+        assert_int_equal(call, status);                                                                                \
+        assert_string_equal(dem_status_message(), message);                                                            \
+    } while (0)
+
+/* 0.5, 1.5, ... N s */
+static void give_viscosity(dem_lattice *lattice)
+{
+    lattice->viscosity = calloc((size_t)lattice->n_springs, sizeof *lattice->viscosity);
+    assert_non_null(lattice->viscosity);
+    for (dem_index k = 0; k < lattice->n_springs; k++) lattice->viscosity[k] = 0.5 + (double)k;
+}
+
+/* 0, -1, -2, ... N/m */
+static void give_area_stiffness(dem_lattice *lattice)
+{
+    lattice->area_stiffness = calloc((size_t)lattice->n_triangles, sizeof *lattice->area_stiffness);
+    assert_non_null(lattice->area_stiffness);
+    for (dem_index t = 0; t < lattice->n_triangles; t++) lattice->area_stiffness[t] = -(double)t;
+}
+
+/* ---- parts, select ---- */
+
+static void parts_are_numbered_by_their_lowest_nodes(void **state)
+{
+    (void)state;
+    const dem_index expected[7] = {0, 1, 0, 2, 1, 1, 3};
+    double x[14] = {0}, ones[3] = {1, 1, 1};
+    dem_index ends[6] = {2, 0, 5, 4, 4, 1}, part[7], n_parts;
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 7, lattice.n_springs = 3;
+    lattice.x = x, lattice.ends = ends, lattice.rest_length = ones, lattice.stiffness = ones;
+    assert_int_equal(dem_lattice_parts(&lattice, &n_parts, part), DEM_OK);
+    assert_int_equal(n_parts, 4);
+    assert_memory_equal(part, expected, sizeof part);
+    assert_int_equal(dem_lattice_parts(&lattice, &n_parts, NULL), DEM_OK);
+    assert_refused(dem_lattice_parts(&lattice, NULL, part), DEM_ERROR_ARGUMENT, "n_parts is NULL");
+    ends[3] = 7;
+    assert_refused(dem_lattice_parts(&lattice, &n_parts, part), DEM_ERROR_MODEL,
+                   "spring 1 has node 7, but there are 7 nodes");
+}
+
+static void select_keeps_every_array_in_step(void **state)
+{
+    (void)state;
+    const double v[2] = {3.0, -2.0}, offset[2] = {0.0, 0.0};
+    dem_lattice lattice = make_solid(1.0, 1.6, 1.0);
+    const double top_mass = lattice.mass[4], stiffness = lattice.stiffness[5];
+    unsigned char keep[5] = {0, 0, 1, 1, 1};
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    lattice.velocity[8] = 7.0;
+    lattice.guard[1] = 5.0;
+    give_area_stiffness(&lattice);
+    lattice.thickness[1] = 6.0;
+    lattice.modulus[1] = 7.0;
+    give_viscosity(&lattice);
+    lattice.body = calloc(5, sizeof *lattice.body);
+    lattice.flags = calloc(5, sizeof *lattice.flags);
+    lattice.position = calloc(10, sizeof *lattice.position);
+    assert_true(lattice.body != NULL && lattice.flags != NULL && lattice.position != NULL);
+    lattice.body[4] = 6, lattice.flags[4] = DEM_NODE_FIXED, lattice.position[9] = 8.0;
+    assert_int_equal(dem_lattice_select(&lattice, keep), DEM_OK);
+    assert_int_equal(lattice.n_nodes, 3);
+    assert_int_equal(lattice.n_springs, 3);
+    assert_int_equal(lattice.n_triangles, 1);
+    assert_int_equal(lattice.ends[4], 1);
+    assert_int_equal(lattice.ends[5], 2);
+    assert_close(lattice.stiffness[2], stiffness, 0.0);
+    assert_close(lattice.viscosity[2], 5.5, 0.0);
+    assert_close(lattice.mass[2], top_mass, 0.0);
+    assert_close(lattice.velocity[4], 7.0, 0.0);
+    assert_close(lattice.position[5], 8.0, 0.0);
+    assert_close(lattice.guard[0], 5.0, 0.0);
+    assert_close(lattice.area_stiffness[0], -1.0, 0.0);
+    assert_close(lattice.thickness[0], 6.0, 0.0);
+    assert_close(lattice.modulus[0], 7.0, 0.0);
+    assert_int_equal(lattice.body[2], 6);
+    assert_int_equal(lattice.flags[2], DEM_NODE_FIXED);
+    dem_lattice_move(&lattice, 0.0, offset);
+    assert_close(area_of(&lattice, 0), sqrt(3.0) / 4.0, 1e-15);
+    memset(keep, 0, sizeof keep);
+    assert_refused(dem_lattice_select(&lattice, keep), DEM_ERROR_MODEL, "none of 3 nodes is left");
+    assert_refused(dem_lattice_select(&lattice, NULL), DEM_ERROR_ARGUMENT, "keep is NULL");
+    assert_int_equal(lattice.n_nodes, 3);
+    dem_lattice_free(&lattice);
+}
+
+/* Two columns and two strips of spacing 1: two triangles that meet in node 2 alone, an hourglass. */
+static void pieces_share_edges_and_a_hinge_has_more_than_two_rims(void **state)
+{
+    (void)state;
+    const dem_index expected[2] = {0, 1}, rims[5] = {2, 2, 4, 2, 2};
+    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    dem_index n, piece[2], n_edges[5];
+    assert_int_equal(dem_lattice_pieces(&lattice, &n, piece), DEM_OK);
+    assert_int_equal(n, 2);
+    assert_memory_equal(piece, expected, sizeof piece);
+    assert_int_equal(dem_lattice_rims(&lattice, n_edges), DEM_OK);
+    assert_memory_equal(n_edges, rims, sizeof rims);
+    assert_refused(dem_lattice_pieces(&lattice, NULL, piece), DEM_ERROR_ARGUMENT, "n_pieces is NULL");
+    assert_refused(dem_lattice_rims(&lattice, NULL), DEM_ERROR_ARGUMENT, "n_edges is NULL");
+    lattice.triangles[0] = 5;
+    assert_refused(dem_lattice_pieces(&lattice, &n, NULL), DEM_ERROR_MODEL,
+                   "triangle 0 has node 5, but there are 5 nodes");
+    dem_lattice_free(&lattice);
+}
+
+static void a_hexagon_is_one_piece_without_a_rim_at_its_centre(void **state)
+{
+    (void)state;
+    dem_lattice lattice;
+    dem_index n, n_edges[7];
+    assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_pieces(&lattice, &n, NULL), DEM_OK);
+    assert_int_equal(n, 1);
+    assert_int_equal(dem_lattice_rims(&lattice, n_edges), DEM_OK);
+    for (dem_index i = 0; i < 7; i++)
+        assert_int_equal(n_edges[i], hypot(lattice.x[2 * i], lattice.x[2 * i + 1]) < 0.5 ? 0 : 2);
+    dem_lattice_free(&lattice);
+}
+
+static void trimming_keeps_triangles_with_their_nodes(void **state)
+{
+    (void)state;
+    const unsigned char upper[2] = {0, 3}, none[2] = {0, 0};
+    const dem_index expected[3] = {0, 2, 1};
+    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    lattice.guard = calloc(2, sizeof *lattice.guard);
+    assert_non_null(lattice.guard);
+    lattice.guard[1] = 5.0;
+    const double corner = lattice.x[8];
+    assert_refused(dem_lattice_trim(&lattice, NULL), DEM_ERROR_ARGUMENT, "keep is NULL");
+    assert_refused(dem_lattice_trim(&lattice, none), DEM_ERROR_MODEL, "none of 5 nodes is left");
+    assert_int_equal(lattice.n_triangles, 2);
+    assert_int_equal(dem_lattice_trim(&lattice, upper), DEM_OK);
+    assert_int_equal(lattice.n_nodes, 3);
+    assert_int_equal(lattice.n_triangles, 1);
+    assert_memory_equal(lattice.triangles, expected, sizeof expected);
+    assert_close(lattice.x[4], corner, 0.0);
+    assert_close(lattice.guard[0], 5.0, 0.0);
+    assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
+    assert_refused(dem_lattice_trim(&lattice, upper), DEM_ERROR_MODEL,
+                   "a lattice that has springs cannot be trimmed: 3 springs");
+    dem_lattice_free(&lattice);
+}
+
+/* Nodes can lose triangles and all stay: here two of six, opposite to each other. */
+static void a_node_stays_with_what_is_left_of_its_triangles(void **state)
+{
+    (void)state;
+    const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
+    dem_lattice lattice;
+    assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_trim(&lattice, keep), DEM_OK);
+    assert_int_equal(lattice.n_triangles, 4);
+    assert_int_equal(lattice.n_nodes, 7);
+    for (dem_index t = 0; t < 4; t++) assert_close(area_of(&lattice, t), sqrt(3.0) / 4.0, 1e-15);
+    dem_lattice_free(&lattice);
+}
+
+/* ---- move, launch, append ---- */
+
+/* Masses 1 and 3 kg at 0 and 4 m turn about 3 m: at 2 rad/s the first goes down with 6 m/s, the second up with 2. */
+static void spin_turns_about_the_centre_of_mass(void **state)
+{
+    (void)state;
+    double x[4] = {7.0, 0.0, 7.0, 0.0}, position[4] = {0.0, 5.0, 4.0, 5.0}, mass[2] = {1.0, 3.0};
+    const double v[2] = {0.5, 0.25};
+    dem_lattice lattice;
+    dem_lattice_init(&lattice);
+    lattice.n_nodes = 2, lattice.x = x, lattice.position = position;
+    assert_refused(dem_lattice_spin(&lattice, 2.0), DEM_ERROR_MODEL,
+                   "a lattice without masses has no centre of mass to turn about");
+    lattice.mass = mass;
+    assert_refused(dem_lattice_spin(&lattice, (double)INFINITY), DEM_ERROR_ARGUMENT,
+                   "the angular velocity inf rad/s is not finite");
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    assert_int_equal(dem_lattice_spin(&lattice, 2.0), DEM_OK);
+    assert_close(lattice.velocity[0], 0.5, 1e-15);
+    assert_close(lattice.velocity[1], 0.25 - 6.0, 1e-15);
+    assert_close(lattice.velocity[2], 0.5, 1e-15);
+    assert_close(lattice.velocity[3], 0.25 + 2.0, 1e-15);
+    free(lattice.velocity);
+}
+
+static void move_turns_about_the_origin_then_shifts(void **state)
+{
+    (void)state;
+    const double quarter = 1.5707963267948966, offset[2] = {10.0, 20.0}, v[2] = {1.0, 2.0};
+    dem_lattice lattice = make_rectangle(2.0, 2.0, 1.0);
+    const double x0 = lattice.x[0], y0 = lattice.x[1];
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
+    lattice.position = calloc((size_t)lattice.n_nodes, 2 * sizeof(double));
+    assert_non_null(lattice.position);
+    lattice.position[0] = 5.0;
+    dem_lattice_move(&lattice, quarter, offset);
+    assert_close(lattice.x[0], 10.0 - y0, 1e-15);
+    assert_close(lattice.x[1], 20.0 + x0, 1e-14);
+    assert_close(lattice.position[0], 10.0, 1e-14);
+    assert_close(lattice.position[1], 25.0, 1e-14);
+    assert_close(lattice.velocity[0], -4.0, 1e-15);
+    assert_close(lattice.velocity[1], 2.0, 1e-15);
+    dem_lattice_free(&lattice);
+}
+
+static void launch_refuses_what_is_no_velocity(void **state)
+{
+    (void)state;
+    const double bad[2] = {0.0, (double)NAN};
+    dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
+    assert_refused(dem_lattice_launch(&lattice, bad), DEM_ERROR_ARGUMENT, "the velocity must be two finite numbers");
+    assert_refused(dem_lattice_launch(&lattice, NULL), DEM_ERROR_ARGUMENT, "the velocity must be two finite numbers");
+    assert_null(lattice.velocity);
+    dem_lattice_free(&lattice);
+}
+
+static void append_numbers_nodes_and_bodies_behind_the_others(void **state)
+{
+    (void)state;
+    const double v[2] = {0.0, -1.0};
+    dem_lattice all, part = make_solid(1.0, 1.6, 1.0);
+    dem_lattice_init(&all);
+    assert_int_equal(dem_lattice_append(&all, &part), DEM_OK);
+    assert_null(all.body);
+    assert_null(all.flags);
+    assert_int_equal(dem_lattice_launch(&part, v), DEM_OK);
+    free(part.guard);
+    part.guard = NULL;
+    give_area_stiffness(&part);
+    assert_int_equal(dem_lattice_append(&all, &part), DEM_OK);
+    assert_int_equal(dem_lattice_append(&all, &all), DEM_OK);
+    assert_int_equal(all.n_nodes, 20);
+    assert_int_equal(all.n_springs, 24);
+    assert_int_equal(all.n_triangles, 8);
+    for (dem_index i = 0; i < 20; i++) {
+        assert_int_equal(all.body[i], i / 5);
+        assert_close(all.x[2 * i], part.x[2 * (i % 5)], 0.0);
+        assert_close(all.mass[i], part.mass[i % 5], 0.0);
+        assert_close(all.velocity[2 * i + 1], i / 5 % 2 == 0 ? 0.0 : -1.0, 0.0);
+    }
+    for (dem_index k = 0; k < 48; k++) assert_int_equal(all.ends[k], part.ends[k % 12] + k / 12 * 5);
+    for (dem_index k = 0; k < 24; k++) assert_int_equal(all.triangles[k], part.triangles[k % 6] + k / 6 * 5);
+    for (dem_index t = 0; t < 8; t++) assert_close(all.guard[t], t / 2 % 2 == 0 ? 1e5 : 0.0, 1e-9);
+    for (dem_index t = 0; t < 8; t++) assert_close(all.area_stiffness[t], t % 4 == 3 ? -1.0 : 0.0, 0.0);
+    assert_null(all.position);
+    assert_null(all.flags);
+    dem_lattice_free(&all);
+    dem_lattice_free(&part);
+}
+
+static void append_keeps_who_may_touch_and_where_the_motion_starts(void **state)
+{
+    (void)state;
+    const double offset[2] = {4.0, 0.0};
+    dem_lattice block = make_solid(2.0, 2.0, 1.0), point;
+    dem_lattice_init(&point);
+    point.n_nodes = 1;
+    point.x = calloc(2, sizeof(double));
+    point.position = calloc(2, sizeof(double));
+    point.mass = calloc(1, sizeof(double));
+    assert_true(point.x != NULL && point.position != NULL && point.mass != NULL);
+    dem_lattice_move(&point, 0.0, offset);
+    assert_int_equal(block.n_nodes, 8); /* rows of 3, 2, 3; every node on the boundary */
+    assert_int_equal(dem_lattice_append(&block, &point), DEM_OK);
+    assert_int_equal(block.flags[8], DEM_NODE_CONTACT);
+    assert_int_equal(block.flags[0], DEM_NODE_CONTACT);
+    assert_close(block.position[0], block.x[0], 0.0);
+    assert_close(block.position[16], 4.0, 0.0);
+    dem_lattice_free(&block);
+
+    block = make_solid(3.0, 3.0, 1.0);
+    assert_int_equal(block.n_nodes, 14); /* rows of 4, 3, 4, 3 */
+    assert_int_equal(dem_lattice_append(&block, &point), DEM_OK);
+    int n_contact = 0;
+    for (dem_index i = 0; i < block.n_nodes; i++) n_contact += block.flags[i] == DEM_NODE_CONTACT;
+    assert_int_equal(n_contact, 15 - 3); /* inside: one node of row 1, two of row 2 */
+    dem_lattice_free(&block);
+    dem_lattice_free(&point);
+}
+
+static void append_gives_undamped_springs_no_viscosity_beside_damped_ones(void **state)
+{
+    (void)state;
+    dem_lattice all, damped = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.0, 1.0);
+    dem_lattice_init(&all);
+    give_viscosity(&damped);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_null(all.viscosity);
+    assert_int_equal(dem_lattice_append(&all, &damped), DEM_OK);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_int_equal(plain.n_springs, 3);
+    assert_int_equal(all.n_springs, 3 + 6 + 3);
+    for (dem_index k = 0; k < 12; k++) assert_close(all.viscosity[k], k >= 3 && k < 9 ? (double)k - 2.5 : 0.0, 0.0);
+    dem_lattice_free(&all);
+    assert_null(all.viscosity);
+    dem_lattice_free(&damped);
+    dem_lattice_free(&plain);
+}
+
+static void append_gives_thickness_and_modulus_1_beside_given_ones(void **state)
+{
+    (void)state;
+    dem_lattice all, given = make_solid(1.0, 1.6, 1.0), plain = make_rectangle(1.0, 1.0, 1.0);
+    dem_lattice_init(&all);
+    plain.mass = calloc(3, sizeof *plain.mass);
+    assert_non_null(plain.mass);
+    given.modulus[1] = 3.0;
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_null(all.thickness);
+    assert_null(all.modulus);
+    assert_int_equal(dem_lattice_append(&all, &given), DEM_OK);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_int_equal(all.n_triangles, 1 + 2 + 1);
+    for (dem_index t = 0; t < 4; t++) assert_close(all.thickness[t], t == 0 || t == 3 ? 1.0 : rubber.thickness, 0.0);
+    const double modulus[4] = {1.0, rubber.youngs_modulus, 3.0, 1.0};
+    assert_memory_equal(all.modulus, modulus, sizeof modulus);
+    dem_lattice_free(&all);
+    assert_null(all.thickness);
+    assert_null(all.modulus);
+    dem_lattice_free(&given);
+    dem_lattice_free(&plain);
+}
+
+static void append_refuses_mixed_and_broken_lattices(void **state)
+{
+    (void)state;
+    dem_lattice solid = make_solid(1.0, 1.0, 1.0), bare = make_rectangle(1.0, 1.0, 1.0), broken;
+    assert_refused(dem_lattice_append(&solid, &bare), DEM_ERROR_MODEL, "one lattice has masses, the other has none");
+    assert_refused(dem_lattice_append(NULL, &bare), DEM_ERROR_ARGUMENT, "lattice is NULL");
+    dem_lattice_init(&broken);
+    broken.n_nodes = 3;
+    assert_refused(dem_lattice_append(&solid, &broken), DEM_ERROR_ARGUMENT, "3 nodes, but x is NULL");
+    broken.n_nodes = -1;
+    assert_refused(dem_lattice_append(&solid, &broken), DEM_ERROR_ARGUMENT, "the number of nodes is negative: -1");
+    broken.n_nodes = 0, broken.n_springs = 2;
+    assert_refused(dem_lattice_append(&solid, &broken), DEM_ERROR_ARGUMENT, "2 springs, but their nodes are NULL");
+    broken.n_springs = -2;
+    assert_refused(dem_lattice_append(&solid, &broken), DEM_ERROR_ARGUMENT, "the number of springs is negative: -2");
+    assert_int_equal(solid.n_nodes, 3);
+    dem_lattice_free(&solid);
+    dem_lattice_free(&bare);
+    dem_lattice_free(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_are_numbered_by_their_lowest_nodes),
+        cmocka_unit_test(select_keeps_every_array_in_step),
+        cmocka_unit_test(pieces_share_edges_and_a_hinge_has_more_than_two_rims),
+        cmocka_unit_test(a_hexagon_is_one_piece_without_a_rim_at_its_centre),
+        cmocka_unit_test(trimming_keeps_triangles_with_their_nodes),
+        cmocka_unit_test(a_node_stays_with_what_is_left_of_its_triangles),
+        cmocka_unit_test(spin_turns_about_the_centre_of_mass),
+        cmocka_unit_test(move_turns_about_the_origin_then_shifts),
+        cmocka_unit_test(launch_refuses_what_is_no_velocity),
+        cmocka_unit_test(append_numbers_nodes_and_bodies_behind_the_others),
+        cmocka_unit_test(append_keeps_who_may_touch_and_where_the_motion_starts),
+        cmocka_unit_test(append_gives_undamped_springs_no_viscosity_beside_damped_ones),
+        cmocka_unit_test(append_gives_thickness_and_modulus_1_beside_given_ones),
+        cmocka_unit_test(append_refuses_mixed_and_broken_lattices),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

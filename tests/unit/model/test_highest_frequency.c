@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* highest_frequency.c: the highest frequency, against closed forms and GSL. */
+#include "verification/dense.h"
+
+#include <string.h>
+
+/* sqrt(E/d0 (1/m1 + 1/m2)); one fixed: sqrt(E/d0/m2). */
+static void a_pair_has_the_frequency_of_its_reduced_mass(void **state)
+{
+    const double x[4] = {0.0, 0.0, 1.2, 1.6}, mass[2] = {1.0, 3.0};
+    const dem_index ends[2] = {0, 1};
+    const unsigned char fixed[2] = {1, 0};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        dem_lattice lattice;
+        dem_model *model;
+        double omega;
+        support_lattice(&lattice, 2, x, mass, 1, ends, 2.0, 100.0, k == 0 ? NULL : fixed);
+        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        assert_ok(dem_model_omega(model, &omega));
+        assert_close(omega, sqrt(50.0 * (k == 0 ? 1.0 + 1.0 / 3.0 : 1.0 / 3.0)), 1e-12);
+        dem_lattice_free(&lattice);
+        dem_model_destroy(model);
+    }
+}
+
+enum { n_chain = 400 };
+
+/* 2 sqrt(k/m) sin(pi j/(2 (N + 1))) of a chain between fixed ends: the highest of 400 are 1e-5 apart, which is what the
+ * residual allows; the error is of second order in it where it can tell them apart. */
+static void a_chain_has_the_frequency_of_its_highest_mode(void **state)
+{
+    static double x[2 * (n_chain + 2)], mass[n_chain + 2];
+    static dem_index ends[2 * (n_chain + 1)];
+    static unsigned char fixed[n_chain + 2];
+    dem_lattice lattice;
+    dem_model *model;
+    double omega, again;
+    (void)state;
+    for (int i = 0; i < n_chain + 2; i++) {
+        x[2 * i] = i;
+        mass[i] = 2.0;
+        fixed[i] = i == 0 || i == n_chain + 1;
+        if (i <= n_chain) ends[2 * i] = i, ends[2 * i + 1] = i + 1;
+    }
+    support_lattice(&lattice, n_chain + 2, x, mass, n_chain + 1, ends, 1.0, 8.0, fixed);
+    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    assert_ok(dem_model_omega(model, &omega));
+    assert_ok(dem_model_omega(model, &again));
+    assert_close(omega / (2.0 * 2.0 * sin(0.5 * M_PI * n_chain / (n_chain + 1.0))), 1.0, 1e-6);
+    assert_memory_equal(&omega, &again, sizeof omega);
+    dem_lattice_free(&lattice);
+    dem_model_destroy(model);
+}
+
+/* From below, to the 1e-6 of the residual; K by differences is good to 1e-8. */
+static void solids_have_the_highest_frequency_that_gsl_finds(void **state)
+{
+    static const double ratios[3] = {0.0, 1.0 / 3.0, 0.45};
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const dem_material solid = {
+            .youngs_modulus = 1e7, .poissons_ratio = ratios[k / 2], .density = 1050.0, .thickness = 1.0};
+        dem_lattice lattice;
+        dem_model *model;
+        double omega;
+        assert_ok(k % 2 == 0 ? dem_lattice_rectangle(&lattice, 0.05, 0.04, 5e-3)
+                             : dem_lattice_disc(&lattice, 0.02, 5e-3));
+        assert_ok(dem_lattice_assemble(&lattice, &solid));
+        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        assert_ok(dem_model_omega(model, &omega));
+        gsl_vector *squared = dense_frequencies(model, dense_stiffness(model, lattice.x, 5e-7));
+        assert_close(omega / sqrt(gsl_vector_get(squared, squared->size - 1)), 1.0, 1e-6);
+        assert_true(omega < dem_model_omega_max(model));
+        gsl_vector_free(squared);
+        dem_lattice_free(&lattice);
+        dem_model_destroy(model);
+    }
+}
+
+static void without_springs_or_with_all_nodes_fixed_it_is_zero(void **state)
+{
+    const double x[4] = {0.0, 0.0, 1.0, 0.0}, mass[2] = {1.0, 1.0};
+    const dem_index ends[2] = {0, 1};
+    const unsigned char fixed[2] = {1, 1};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        dem_lattice lattice;
+        dem_model *model;
+        double omega = 1.0;
+        support_lattice(&lattice, 1 + k, x, mass, k, ends, 1.0, 100.0, fixed);
+        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        assert_ok(dem_model_omega(model, &omega));
+        assert_close(omega, 0.0, 0.0);
+        assert_int_equal(dem_model_omega(model, NULL), DEM_ERROR_ARGUMENT);
+        assert_int_equal(dem_model_omega(NULL, &omega), DEM_ERROR_ARGUMENT);
+        dem_lattice_free(&lattice);
+        dem_model_destroy(model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pair_has_the_frequency_of_its_reduced_mass),
+        cmocka_unit_test(a_chain_has_the_frequency_of_its_highest_mode),
+        cmocka_unit_test(solids_have_the_highest_frequency_that_gsl_finds),
+        cmocka_unit_test(without_springs_or_with_all_nodes_fixed_it_is_zero),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

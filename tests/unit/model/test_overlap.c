@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* overlap.c against every pair of boundary node and triangle. */
+#include <stdlib.h>
+
+#include <gsl/gsl_rng.h>
+
+#include "elastic/triangles.h"
+#include "model/overlap.h"
+#include "verification/support.h"
+
+/* Two discs of unit spacing, beside each other. */
+static void make_discs(dem_lattice *l)
+{
+    dem_lattice other;
+    assert_ok(dem_lattice_disc(l, 3.0, 1.0));
+    assert_ok(dem_lattice_disc(&other, 3.0, 1.0));
+    dem_lattice_move(&other, 0.0, (const double[2]){7.0, 0.0});
+    assert_ok(dem_lattice_append(l, &other));
+    dem_lattice_free(&other);
+}
+
+/* Brute force: strictly on the left of all three sides of a triangle that has any area. */
+static dem_index count_pairs(const dem_lattice *l, const unsigned char *flags, const double *x)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < l->n_triangles; k++)
+        for (dem_index i = 0; i < l->n_nodes; i++) {
+            const dem_index *c = &l->triangles[3 * k];
+            const vec2 p = vec2_at(x, i), a = vec2_at(x, c[0]), b = vec2_at(x, c[1]), d = vec2_at(x, c[2]);
+            if (!(flags[i] & DEM_NODE_CONTACT) || i == c[0] || i == c[1] || i == c[2]) continue;
+            n += vec2_cross(vec2_sub(b, a), vec2_sub(p, a)) > 1e-8 &&
+                 vec2_cross(vec2_sub(d, b), vec2_sub(p, b)) > 1e-8 && vec2_cross(vec2_sub(a, d), vec2_sub(p, d)) > 1e-8;
+        }
+    return n;
+}
+
+static void every_pair_is_counted(void **unused)
+{
+    dem_lattice l;
+    overlap o;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    (void)unused;
+    make_discs(&l);
+    assert_non_null(rng);
+    assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
+    assert_ok(overlap_create(&o, &l));
+    double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
+    assert_non_null(x);
+    dem_index most = 0;
+    for (int k = 0; k < 40; k++) {
+        const double shift[2] = {8.0 * gsl_rng_uniform(rng) - 4.0, 4.0 * gsl_rng_uniform(rng) - 2.0};
+        for (dem_index i = 0; i < l.n_nodes; i++)
+            for (int c = 0; c < 2; c++)
+                x[2 * i + c] = l.x[2 * i + c] + (i < l.n_nodes / 2 ? shift[c] : 0.0) + 0.4 * gsl_rng_uniform(rng);
+        const dem_index n = count_pairs(&l, l.flags, x);
+        overlap_look(&o, &l, (double)k, x);
+        assert_int_equal(o.found.now, n);
+        most = n > most ? n : most;
+        assert_int_equal(o.found.most, most);
+    }
+    assert_true(most > 10);
+    free(x);
+    gsl_rng_free(rng);
+    overlap_destroy(&o);
+    dem_lattice_free(&l);
+}
+
+static void the_first_is_kept(void **unused)
+{
+    dem_lattice l;
+    overlap o;
+    (void)unused;
+    make_discs(&l);
+    assert_ok(overlap_create(&o, &l));
+    overlap_look(&o, &l, 1.0, l.x);
+    assert_int_equal(o.found.now, 0);
+    assert_int_equal(o.found.node, -1);
+    for (dem_index i = 0; i < l.n_nodes / 2; i++) l.x[2 * i] += 1.7, l.x[2 * i + 1] += 0.1;
+    overlap_look(&o, &l, 2.0, l.x);
+    const dem_overlap first = o.found;
+    assert_true(first.now > 0);
+    assert_true(first.node >= 0);
+    assert_close(first.t, 2.0, 0.0);
+    assert_close(first.x[0], l.x[2 * first.node], 0.0);
+    for (dem_index i = 0; i < l.n_nodes / 2; i++) l.x[2 * i] -= 1.7;
+    overlap_look(&o, &l, 3.0, l.x);
+    assert_int_equal(o.found.now, 0);
+    assert_int_equal(o.found.most, first.most);
+    assert_int_equal(o.found.node, first.node);
+    assert_close(o.found.t, 2.0, 0.0);
+    overlap_destroy(&o);
+    dem_lattice_free(&l);
+}
+
+/* A body turned and moved as a whole does not overlap itself: touching is not inside. */
+static void a_whole_body_does_not_overlap_itself(void **unused)
+{
+    dem_lattice l;
+    overlap o;
+    (void)unused;
+    assert_ok(dem_lattice_rectangle(&l, 5.0, 5.0, 1.0));
+    assert_ok(overlap_create(&o, &l));
+    for (int k = 0; k < 10; k++) {
+        dem_lattice_move(&l, 0.3, (const double[2]){1e3, -7.0});
+        overlap_look(&o, &l, 0.0, l.x);
+        assert_int_equal(o.found.now, 0);
+    }
+    overlap_destroy(&o);
+    dem_lattice_free(&l);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pair_is_counted),
+        cmocka_unit_test(the_first_is_kept),
+        cmocka_unit_test(a_whole_body_does_not_overlap_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

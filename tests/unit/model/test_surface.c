@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* surface.c: boundary edges that may touch, which way they run, in which order, and where they are listed. */
+#include "verification/support.h"
+
+#include <string.h>
+
+#include "base/vec2.h"
+#include "lattice/mesh_edges.h"
+#include "model/surface.h"
+
+enum { MOST_NODES = 64 };
+
+/* A triangulation from literal arrays, every node of which may touch. */
+typedef struct body {
+    double x[2 * MOST_NODES];
+    dem_index triangles[3 * MOST_NODES];
+    unsigned char flags[MOST_NODES];
+    dem_lattice lattice;
+} body;
+
+static void body_open(body *b, dem_index n_nodes, const double *x, dem_index n_triangles, const dem_index *triangles)
+{
+    memcpy(b->x, x, 2 * (size_t)n_nodes * sizeof *x);
+    memcpy(b->triangles, triangles, 3 * (size_t)n_triangles * sizeof *triangles);
+    memset(b->flags, DEM_NODE_CONTACT, sizeof b->flags);
+    b->lattice = (dem_lattice){.struct_size = sizeof(dem_lattice),
+                               .dim = 2,
+                               .n_nodes = n_nodes,
+                               .n_triangles = n_triangles,
+                               .x = b->x,
+                               .triangles = b->triangles,
+                               .flags = b->flags};
+}
+
+/* The unit square 0 1 2 3, the second triangle numbered from another corner. */
+static void open_square(body *b)
+{
+    static const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0};
+    static const dem_index triangles[6] = {0, 1, 2, 3, 0, 2};
+    body_open(b, 4, x, 2, triangles);
+}
+
+static void check_ends(const surface *s, dem_index n, const dem_index *ends)
+{
+    assert_int_equal(s->n_edges, n);
+    for (dem_index k = 0; k < 2 * n; k++) assert_int_equal(s->ends[k], ends[k]);
+}
+
+/* Where an edge is listed: at both its nodes, nowhere else, ascending at each. */
+static void check_lists(const surface *s, dem_index n_nodes)
+{
+    int listed[4 * MOST_NODES] = {0};
+    assert_int_equal(s->row[0], 0);
+    assert_int_equal(s->row[n_nodes], 2 * s->n_edges);
+    for (dem_index i = 0; i < n_nodes; i++)
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+            const dem_index e = s->at[p];
+            assert_true(e >= 0 && e < s->n_edges);
+            assert_true(s->ends[2 * e] == i || s->ends[2 * e + 1] == i);
+            if (p > s->row[i]) assert_true(e > s->at[p - 1]);
+            listed[e]++;
+        }
+    for (dem_index e = 0; e < s->n_edges; e++) assert_int_equal(listed[e], 2);
+}
+
+/* Number of closed walks, each of edges one after another; none is left before it closes. */
+static int count_loops(const surface *s)
+{
+    int n = 0;
+    dem_index start = 0;
+    for (dem_index e = 0; e < s->n_edges; e++) {
+        const dem_index to = s->ends[2 * e + 1];
+        const bool goes_on = e + 1 < s->n_edges && s->ends[2 * e + 2] == to;
+        if (goes_on) continue;
+        assert_int_equal(to, s->ends[2 * start]);
+        start = e + 1;
+        n++;
+    }
+    return n;
+}
+
+/* Twice the area on the left of edges first .. last-1. */
+static double swept(const surface *s, const double *x, dem_index first, dem_index last)
+{
+    double sum = 0.0;
+    for (dem_index e = first; e < last; e++)
+        sum += vec2_cross(vec2_at(x, s->ends[2 * e]), vec2_at(x, s->ends[2 * e + 1]));
+    return sum;
+}
+
+static void a_square_has_its_four_sides_in_the_order_of_a_walk(void **state)
+{
+    static const dem_index ends[8] = {0, 1, 1, 2, 2, 3, 3, 0}, row[5] = {0, 2, 4, 6, 8};
+    static const dem_index at[8] = {0, 3, 0, 1, 1, 2, 2, 3};
+    body b;
+    surface s;
+    (void)state;
+    open_square(&b);
+    assert_ok(surface_compile(&s, &b.lattice));
+    check_ends(&s, 4, ends);
+    assert_memory_equal(s.row, row, sizeof row);
+    assert_memory_equal(s.at, at, sizeof at);
+    surface_free(&s);
+    assert_null(s.ends);
+    assert_null(s.row);
+    assert_null(s.at);
+    assert_int_equal(s.n_edges, 0);
+}
+
+/* Every numbering of the corners of one triangle that turns counter-clockwise gives edges that do. */
+static void an_edge_has_the_body_on_its_left(void **state)
+{
+    static const double at[6] = {0.0, 0.0, 2.0, 0.5, 0.5, 1.0};
+    static const dem_index names[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        double x[6];
+        body b;
+        surface s;
+        for (int q = 0; q < 3; q++) vec2_put(x, names[k][q], vec2_at(at, q));
+        body_open(&b, 3, x, 1, names[k]);
+        assert_ok(surface_compile(&s, &b.lattice));
+        assert_int_equal(s.n_edges, 3);
+        for (dem_index e = 0; e < 3; e++) {
+            const vec2 from = vec2_at(x, s.ends[2 * e]), to = vec2_at(x, s.ends[2 * e + 1]);
+            const vec2 apex = vec2_at(x, 3 - s.ends[2 * e] - s.ends[2 * e + 1]);
+            /* twice the area, 1.75: rounding of products of order 1 */
+            assert_close(vec2_cross(vec2_sub(to, from), vec2_sub(apex, from)), 1.75, 1e-15);
+        }
+        surface_free(&s);
+    }
+}
+
+/* A disc of 18 triangles with sides 1 round a hexagonal hole: the rim encloses 24 triangles, the hole 6 of them, run
+ * round the other way. */
+static int away_from_the_middle(void *context, const double x[2])
+{
+    (void)context;
+    return hypot(x[0], x[1]) > 0.5;
+}
+
+static void a_ring_has_two_boundaries_that_run_opposite_ways(void **state)
+{
+    const double hexagon = 1.5 * sqrt(3.0);
+    unsigned char flags[18];
+    dem_lattice ring;
+    surface s;
+    (void)state;
+    assert_ok(dem_lattice_disc(&ring, 2.0, 1.0));
+    assert_ok(dem_lattice_cut(&ring, away_from_the_middle, NULL));
+    assert_ok(sides_contact_flags(flags, &ring));
+    ring.flags = flags;
+    assert_ok(surface_compile(&s, &ring));
+    assert_int_equal(s.n_edges, 18);
+    assert_int_equal(count_loops(&s), 2);
+    check_lists(&s, 18);
+    dem_index rim = 1; /* edges of the first boundary */
+    while (s.ends[2 * rim - 1] != s.ends[0]) rim++;
+    assert_int_equal(rim == 12 ? 6 : 12, 18 - rim);
+    const dem_index first = rim == 12 ? 0 : rim, hole = rim == 12 ? rim : 0;
+    /* sums of 18 products of order 1 */
+    assert_close(swept(&s, ring.x, first, first + 12), 2.0 * 4.0 * hexagon, 1e-13);
+    assert_close(swept(&s, ring.x, hole, hole + 6), -2.0 * hexagon, 1e-13);
+    surface_free(&s);
+    ring.flags = NULL;
+    dem_lattice_free(&ring);
+}
+
+/* Two squares whose nodes are numbered in turns: the boundary of one comes wholly before that of the other. */
+static void the_boundaries_of_two_bodies_follow_one_another(void **state)
+{
+    static const double x[16] = {0, 0, 5, 0, 1, 0, 6, 0, 1, 1, 6, 1, 0, 1, 5, 1};
+    static const dem_index triangles[12] = {0, 2, 4, 1, 3, 5, 0, 4, 6, 1, 5, 7};
+    static const dem_index ends[16] = {0, 2, 2, 4, 4, 6, 6, 0, 1, 3, 3, 5, 5, 7, 7, 1};
+    body b;
+    surface s;
+    (void)state;
+    body_open(&b, 8, x, 4, triangles);
+    assert_ok(surface_compile(&s, &b.lattice));
+    check_ends(&s, 8, ends);
+    check_lists(&s, 8);
+    assert_int_equal(count_loops(&s), 2);
+    surface_free(&s);
+}
+
+/* Two triangles that share node 2 only: it has four edges, two that end there and two that start there, and the walks
+ * close whichever they take. */
+static void at_a_pinch_node_two_boundaries_meet(void **state)
+{
+    static const double x[10] = {-1, 1, -1, -1, 0, 0, 1, -1, 1, 1};
+    static const dem_index triangles[6] = {0, 1, 2, 3, 4, 2};
+    int starts = 0, stops = 0;
+    body b;
+    surface s;
+    (void)state;
+    body_open(&b, 5, x, 2, triangles);
+    assert_ok(surface_compile(&s, &b.lattice));
+    assert_int_equal(s.n_edges, 6);
+    check_lists(&s, 5);
+    assert_int_equal(s.row[3] - s.row[2], 4);
+    for (dem_index p = s.row[2]; p < s.row[3]; p++) {
+        starts += s.ends[2 * s.at[p]] == 2;
+        stops += s.ends[2 * s.at[p] + 1] == 2;
+    }
+    assert_int_equal(starts, 2);
+    assert_int_equal(stops, 2);
+    assert_true(count_loops(&s) >= 1);
+    assert_close(swept(&s, x, 0, 6), 4.0, 0.0); /* two triangles of area 1: small integers */
+    surface_free(&s);
+}
+
+static void an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not(void **state)
+{
+    static const dem_index base[6] = {1, 2, 2, 3, 3, 0};
+    body b;
+    surface s;
+    (void)state;
+    open_square(&b);
+    b.flags[1] |= DEM_NODE_FIXED;
+    assert_ok(surface_compile(&s, &b.lattice));
+    assert_int_equal(s.n_edges, 4);
+    surface_free(&s);
+    b.flags[0] |= DEM_NODE_FIXED;
+    assert_ok(surface_compile(&s, &b.lattice));
+    assert_int_equal(s.n_edges, 3);
+    for (dem_index e = 0; e < 3; e++) {
+        int found = 0;
+        for (dem_index k = 0; k < 3; k++) found += s.ends[2 * e] == base[2 * k] && s.ends[2 * e + 1] == base[2 * k + 1];
+        assert_int_equal(found, 1);
+    }
+    check_lists(&s, 4);
+    surface_free(&s);
+}
+
+static void an_edge_needs_two_nodes_that_may_touch(void **state)
+{
+    static const dem_index ends[4] = {0, 1, 1, 2};
+    body b;
+    surface s;
+    (void)state;
+    open_square(&b);
+    b.flags[3] = 0;
+    assert_ok(surface_compile(&s, &b.lattice));
+    check_ends(&s, 2, ends);
+    assert_int_equal(s.row[4] - s.row[3], 0);
+    check_lists(&s, 4);
+    surface_free(&s);
+    memset(b.flags, 0, 4);
+    assert_ok(surface_compile(&s, &b.lattice));
+    check_ends(&s, 0, ends);
+    for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
+    surface_free(&s);
+}
+
+static void nodes_without_triangles_have_no_edges(void **state)
+{
+    body b;
+    surface s;
+    (void)state;
+    open_square(&b);
+    b.lattice.n_triangles = 0;
+    assert_ok(surface_compile(&s, &b.lattice));
+    assert_int_equal(s.n_edges, 0);
+    for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
+    surface_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_square_has_its_four_sides_in_the_order_of_a_walk),
+        cmocka_unit_test(an_edge_has_the_body_on_its_left),
+        cmocka_unit_test(a_ring_has_two_boundaries_that_run_opposite_ways),
+        cmocka_unit_test(the_boundaries_of_two_bodies_follow_one_another),
+        cmocka_unit_test(at_a_pinch_node_two_boundaries_meet),
+        cmocka_unit_test(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not),
+        cmocka_unit_test(an_edge_needs_two_nodes_that_may_touch),
+        cmocka_unit_test(nodes_without_triangles_have_no_edges),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

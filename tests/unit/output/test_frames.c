@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* frames.c: which arrays are there and what the fields of stress hold; test_trajectory.c has the others. */
+#include "unit/stored.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "output/frames.h"
+#include "unit/solids.h"
+
+/* A block that flies and vibrates. */
+static void open_block(support_run *run)
+{
+    const dem_options options = dem_options_default();
+    dem_lattice lattice = make_solid(0.03, 0.04, 0.01);
+    const double velocity[2] = {1.0, 2.0};
+    assert_ok(dem_lattice_launch(&lattice, velocity));
+    for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.velocity[2 * i] += 300.0 * lattice.x[2 * i + 1];
+    support_open(run, &lattice, NULL, 0, &options);
+    dem_lattice_free(&lattice);
+}
+
+typedef struct film {
+    support_run run;
+    stored stored;
+    frames frames;
+} film;
+
+/* Two frames, at 0 and 1e-4 s. */
+static film *shoot(uint32_t fields, int is_double)
+{
+    film *f = calloc(1, sizeof *f);
+    assert_non_null(f);
+    dem_trajectory_options options = dem_trajectory_options_default();
+    options.fields = fields;
+    options.double_precision = is_double;
+    open_block(&f->run);
+    stored_open(&f->stored);
+    assert_ok(frames_init(&f->frames, f->run.model, &options));
+    assert_ok(frames_create(&f->frames, &f->stored.file, dem_model_lattice(f->run.model)));
+    for (f->frames.n = 0; f->frames.n < 2; f->frames.n++) {
+        (void)support_at(&f->run, 1e-4 * (double)f->frames.n);
+        assert_ok(frames_append(&f->frames, &f->stored.file, f->run.simulation));
+    }
+    assert_ok(frames_verify(&f->frames, &f->stored.file, 2));
+    return f;
+}
+
+static void put_away(film *f)
+{
+    frames_free(&f->frames);
+    stored_close(&f->stored);
+    support_close(&f->run);
+    free(f);
+}
+
+static const struct {
+    const char *name;
+    uint32_t field;
+} arrays[] = {{"PointData/displacement", DEM_FIELD_DISPLACEMENT},
+              {"PointData/velocity", DEM_FIELD_VELOCITY},
+              {"PointData/stress", DEM_FIELD_STRESS},
+              {"PointData/von_mises", DEM_FIELD_VON_MISES},
+              {"PointData/principal_stress", DEM_FIELD_PRINCIPAL},
+              {"CellData/strain", DEM_FIELD_STRAIN},
+              {"CellData/force", DEM_FIELD_FORCE},
+              {"Points", 0},
+              {"PointData/id", 0},
+              {"CellData/broken", 0}};
+enum { n_arrays = sizeof arrays / sizeof arrays[0] };
+
+static void a_file_has_the_arrays_that_are_wanted_and_their_offsets(void **state)
+{
+    static const uint32_t wishes[4] = {0, DEM_FIELD_PRINCIPAL | DEM_FIELD_STRAIN, DEM_FIELD_ALL, DEM_FIELD_STRESS};
+    (void)state;
+    for (int w = 0; w < 4; w++) {
+        film *f = shoot(wishes[w], 0);
+        for (int k = 0; k < n_arrays; k++) {
+            char name[64], offset[64];
+            const bool is_set = strchr(arrays[k].name, '/') != NULL;
+            const char *last = is_set ? strchr(arrays[k].name, '/') + 1 : "";
+            (void)snprintf(name, sizeof name, "/VTKHDF/%s", arrays[k].name);
+            (void)snprintf(offset, sizeof offset, "/VTKHDF/Steps/%.*s%s%s",
+                           is_set ? (int)(last - arrays[k].name) - 1 : 5, arrays[k].name,
+                           is_set ? "Offsets/" : "Offsets", last);
+            const int wanted = arrays[k].field == 0 || (wishes[w] & arrays[k].field) != 0;
+            assert_int_equal(stored_has(&f->stored, name), wanted);
+            assert_int_equal(stored_has(&f->stored, offset), wanted);
+        }
+        put_away(f);
+    }
+}
+
+/* The last frame is the simulation's state. */
+static void stresses_are_those_of_the_simulation(void **state)
+{
+    (void)state;
+    for (int is_double = 0; is_double < 2; is_double++) {
+        film *f = shoot(DEM_FIELD_ALL, is_double);
+        const hsize_t n = (hsize_t)f->frames.n_nodes;
+        const double accuracy = is_double ? 0.0 : 6e-8; /* half a unit of the last place */
+        double *stress = malloc(3 * n * sizeof *stress), largest = 0.0;
+        assert_non_null(stress);
+        dem_simulation_stress(f->run.simulation, stress);
+        const double *six =
+            stored_values(&f->stored, "/VTKHDF/PointData/stress", 2 * n, 6, is_double ? 8U : 4U) + 6 * n;
+        for (hsize_t i = 0; i < n; i++) {
+            const double expected[6] = {stress[3 * i], stress[3 * i + 1], 0.0, stress[3 * i + 2], 0.0, 0.0};
+            for (int c = 0; c < 6; c++)
+                assert_close(six[6 * i + (hsize_t)c], expected[c], accuracy * fabs(expected[c]));
+        }
+        const double *size = stored_values(&f->stored, "/VTKHDF/PointData/von_mises", 2 * n, 1, 0) + n;
+        for (hsize_t i = 0; i < n; i++) {
+            const double expected = dem_stress_von_mises(stress + 3 * i);
+            assert_close(size[i], expected, accuracy * expected);
+            largest = fmax(largest, expected);
+        }
+        assert_true(largest > 1e4);
+        const double *pair = stored_values(&f->stored, "/VTKHDF/PointData/principal_stress", 2 * n, 2, 0) + 2 * n;
+        for (hsize_t i = 0; i < n; i++) {
+            double value[2], direction[2];
+            dem_stress_principal(stress + 3 * i, value, direction);
+            for (int c = 0; c < 2; c++) assert_close(pair[2 * i + (hsize_t)c], value[c], accuracy * fabs(value[c]));
+        }
+        free(stress);
+        put_away(f);
+    }
+}
+
+static void forces_are_stiffness_times_strain(void **state)
+{
+    (void)state;
+    film *f = shoot(DEM_FIELD_ALL, 1);
+    const hsize_t m = (hsize_t)f->frames.n_springs;
+    double strain[STORED_VALUES];
+    memcpy(strain, stored_values(&f->stored, "/VTKHDF/CellData/strain", 2 * m, 1, 8), 2 * m * sizeof *strain);
+    const double *force = stored_values(&f->stored, "/VTKHDF/CellData/force", 2 * m, 1, 8);
+    for (hsize_t k = 0; k < 2 * m; k++)
+        assert_close(force[k], strain[k] * dem_model_lattice(f->run.model)->stiffness[k % m], 1e-15 * fabs(force[k]));
+    put_away(f);
+}
+
+static void a_constant_is_in_all_frames(void **state)
+{
+    const frames_constant constants[2] = {{"PointData", "peak", HDF5_F64, 2}, {"CellData", "time", HDF5_F32, 1}};
+    (void)state;
+    film *f = shoot(0, 0);
+    const hsize_t n = (hsize_t)f->frames.n_nodes, m = (hsize_t)f->frames.n_springs;
+    for (hsize_t k = 0; k < 2 * n || k < m; k++) f->frames.scratch[k] = (double)k;
+    for (int c = 0; c < 2; c++)
+        assert_ok(frames_write_constant(&f->frames, &f->stored.file, &constants[c], f->frames.scratch));
+    assert_close(stored_values(&f->stored, "/VTKHDF/PointData/peak", n, 2, 8)[2 * n - 1], (double)(2 * n - 1), 0.0);
+    assert_close(stored_values(&f->stored, "/VTKHDF/CellData/time", m, 1, 4)[m - 1], (double)(m - 1), 0.0);
+    const double *offset = stored_values(&f->stored, "/VTKHDF/Steps/PointDataOffsets/peak", 2, 1, 8);
+    assert_true(offset[0] == 0.0 && offset[1] == 0.0);
+    offset = stored_values(&f->stored, "/VTKHDF/Steps/CellDataOffsets/time", 2, 1, 8);
+    assert_true(offset[0] == 0.0 && offset[1] == 0.0);
+    put_away(f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_has_the_arrays_that_are_wanted_and_their_offsets),
+        cmocka_unit_test(stresses_are_those_of_the_simulation),
+        cmocka_unit_test(forces_are_stiffness_times_strain),
+        cmocka_unit_test(a_constant_is_in_all_frames),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

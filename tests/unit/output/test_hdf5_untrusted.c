@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* hdf5_untrusted.c: what is believed of a file and what is not. More of it in test_lattice_file.c and
+ * test_trajectory_reader.c. */
+#include "unit/stored.h"
+
+#include "output/hdf5_untrusted.h"
+
+#define REFUSED(call, reason)                                                                                          \
+    do {                                                                                                               \
+        assert_int_equal((call), DEM_ERROR_IO);                                                                        \
+        if (strstr(dem_status_message(), reason) == NULL) fail_msg("'%s', not '%s'", dem_status_message(), reason);    \
+    } while (0)
+
+static const double numbers[12] = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0};
+
+static int open_stored(void **state)
+{
+    stored *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    stored_open(s);
+    assert_ok(hdf5_write(&s->file, (hdf5_rows){"/a/b/of_three", HDF5_F32, 3, {3, 2}, 0, 1}, 2, numbers));
+    *state = s;
+    return 0;
+}
+
+static int close_stored(void **state)
+{
+    stored_close(*state);
+    free(*state);
+    return 0;
+}
+
+/* A dataset without numbers in it. */
+static void make(const stored *s, const char *name, hid_t type, hid_t space, hid_t layout)
+{
+    const hid_t dataset = H5Dcreate2(s->file.id, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    assert_true(dataset >= 0);
+    (void)H5Dclose(dataset);
+    (void)H5Sclose(space);
+}
+
+static void shape_and_numbers_are_found(void **state)
+{
+    const stored *s = *state;
+    foreign_shape shape;
+    double found[8] = {0.0};
+    bool present = false;
+    assert_ok(foreign_find(&s->file, "/a/b/of_three", &present));
+    assert_true(present);
+    assert_ok(foreign_measure(&s->file, "/a/b/of_three", HDF5_F64, &shape));
+    assert_int_equal(shape.stored, HDF5_F32);
+    assert_int_equal(shape.rank, 3);
+    assert_true(shape.extent[0] == 2 && shape.extent[1] == 3 && shape.extent[2] == 2);
+    assert_ok(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){1, 1, 0}, found));
+    assert_memory_equal(found, numbers + 6, 6 * sizeof *found);
+    assert_ok(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){1, 1, 2}, found));
+    assert_memory_equal(found, numbers + 6, 4 * sizeof *found);
+    assert_ok(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){7, 0, 0}, found));
+    REFUSED(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){2, 1, 0}, found), "cannot be read");
+}
+
+static void a_number_that_does_not_fit_is_refused(void **state)
+{
+    const stored *s = *state;
+    const int64_t wholes[2] = {255, 256};
+    unsigned char found[2] = {0};
+    assert_ok(hdf5_write(&s->file, (hdf5_rows){"/c", HDF5_I64, 1, {0}, 0, 0}, 2, wholes));
+    assert_ok(foreign_read(&s->file, "/c", HDF5_U8, (foreign_rows){0, 1, 0}, found));
+    assert_int_equal(found[0], 255);
+    REFUSED(foreign_read(&s->file, "/c", HDF5_U8, (foreign_rows){0, 2, 0}, found),
+            "/c: cannot be read (can't handle conversion exception)");
+}
+
+static void what_is_not_there_is_absent(void **state)
+{
+    const stored *s = *state;
+    static const char *const names[] = {"/b", "/a/c", "/a/c/d", "/a/b/of_three/d"};
+    foreign_shape shape;
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        bool present = true;
+        assert_ok(foreign_find(&s->file, names[k], &present));
+        assert_false(present);
+    }
+    REFUSED(foreign_measure(&s->file, "/a/c", HDF5_F64, &shape), "/a/c: is not a readable dataset");
+}
+
+static void links_on_the_way_are_refused(void **state)
+{
+    const stored *s = *state;
+    bool present;
+    assert_true(H5Lcreate_soft("/a", s->file.id, "/soft", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_external("other.h5", "/a", s->file.id, "/a/out", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    REFUSED(foreign_find(&s->file, "/soft/b", &present), "/soft: is a soft or external link");
+    REFUSED(foreign_find(&s->file, "/a/out", &present), "/a/out: is a soft or external link");
+}
+
+static void types_are_told_and_checked(void **state)
+{
+    const stored *s = *state;
+    const struct {
+        hid_t type;
+        hdf5_kind stored;
+        const char *not_whole;
+    } types[] = {{H5T_STD_U16BE, HDF5_I32, NULL},
+                 {H5T_STD_I8LE, HDF5_I8, NULL},
+                 {H5T_STD_U8LE, HDF5_U8, NULL},
+                 {H5T_STD_U64LE, HDF5_I64, NULL},
+                 {H5T_IEEE_F32BE, HDF5_F32, "is not integer"},
+                 {H5T_NATIVE_LDOUBLE, HDF5_F64, "is not integer"}};
+    for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
+        char name[8];
+        foreign_shape shape;
+        (void)snprintf(name, sizeof name, "/%zu", k);
+        make(s, name, types[k].type, H5Screate_simple(1, (hsize_t[]){0}, NULL), H5P_DEFAULT);
+        assert_ok(foreign_measure(&s->file, name, HDF5_F64, &shape));
+        assert_int_equal(shape.stored, types[k].stored);
+        if (types[k].not_whole != NULL)
+            REFUSED(foreign_measure(&s->file, name, HDF5_I64, &shape), types[k].not_whole);
+        else
+            assert_ok(foreign_measure(&s->file, name, HDF5_I64, &shape));
+    }
+}
+
+static void a_shape_of_another_kind_has_no_rank(void **state)
+{
+    const stored *s = *state;
+    const hid_t spaces[] = {H5Screate(H5S_SCALAR), H5Screate(H5S_NULL),
+                            H5Screate_simple(4, (hsize_t[]){1, 1, 1, 1}, NULL)};
+    for (size_t k = 0; k < sizeof spaces / sizeof spaces[0]; k++) {
+        char name[8];
+        foreign_shape shape;
+        (void)snprintf(name, sizeof name, "/%zu", k);
+        make(s, name, H5T_IEEE_F64LE, spaces[k], H5P_DEFAULT);
+        assert_ok(foreign_measure(&s->file, name, HDF5_F64, &shape));
+        assert_int_equal(shape.rank, 0);
+    }
+}
+
+static void sizes_are_borne_out_by_bytes(void **state)
+{
+    const stored *s = *state;
+    const hsize_t large[2] = {(hsize_t)1 << 41, 2}, wide[2] = {1, (hsize_t)1 << 45}, some[1] = {4},
+                  chunk[1] = {1 << 20};
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    foreign_shape shape;
+    make(s, "/large", H5T_IEEE_F64LE, H5Screate_simple(2, large, NULL), H5P_DEFAULT);
+    REFUSED(foreign_measure(&s->file, "/large", HDF5_F64, &shape), "/large: has more than 2^40 rows");
+    make(s, "/wide", H5T_IEEE_F64LE, H5Screate_simple(2, wide, NULL), H5P_DEFAULT);
+    REFUSED(foreign_measure(&s->file, "/wide", HDF5_F64, &shape), "/wide: has more than 2^44 numbers");
+    make(s, "/empty", H5T_IEEE_F64LE, H5Screate_simple(1, some, NULL), H5P_DEFAULT);
+    REFUSED(foreign_measure(&s->file, "/empty", HDF5_F64, &shape), "/empty: claims more data than the file holds");
+    (void)H5Pset_chunk(layout, 1, chunk);
+    (void)H5Pset_deflate(layout, 9);
+    make(s, "/chunk", H5T_IEEE_F64LE, H5Screate_simple(1, some, (hsize_t[]){H5S_UNLIMITED}), layout);
+    const hid_t dataset = H5Dopen2(s->file.id, "/chunk", H5P_DEFAULT); /* 8 MiB for four numbers, of 16 bytes */
+    const uint32_t no_filter = 0;
+    assert_true(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter, (hsize_t[]){0}, 16, numbers) >= 0);
+    (void)H5Dclose(dataset);
+    REFUSED(foreign_measure(&s->file, "/chunk", HDF5_F64, &shape), "/chunk: claims more data than the file holds");
+    (void)H5Pclose(layout);
+}
+
+static void attributes_are_single_and_of_their_kind(void **state)
+{
+    const stored *s = *state;
+    const double half = 0.5, pair[2] = {1.0, 2.0};
+    const int64_t seven = 7;
+    double real = 0.0;
+    int64_t whole = 0;
+    char text[8];
+    assert_ok(hdf5_write_attribute(&s->file, "/a", "half", HDF5_F64, 1, &half));
+    assert_ok(hdf5_write_attribute(&s->file, "/a", "pair", HDF5_F64, 2, pair));
+    assert_ok(hdf5_write_attribute(&s->file, "/a", "seven", HDF5_I64, 1, &seven));
+    assert_ok(hdf5_write_attribute_text(&s->file, "/a", "word", "coulomb"));
+    assert_ok(hdf5_write_attribute_text(&s->file, "/a", "words", "coulomb "));
+    assert_ok(foreign_read_attribute(&s->file, "/a", "half", HDF5_F64, &real));
+    assert_ok(foreign_read_attribute(&s->file, "/a", "seven", HDF5_I64, &whole));
+    assert_ok(foreign_read_attribute_text(&s->file, "/a", "word", text, sizeof text));
+    assert_close(real, 0.5, 0.0);
+    assert_int_equal(whole, 7);
+    assert_string_equal(text, "coulomb");
+    REFUSED(foreign_read_attribute(&s->file, "/a", "pair", HDF5_F64, &real),
+            "/a: has no attribute pair that is a number");
+    REFUSED(foreign_read_attribute(&s->file, "/a", "half", HDF5_I64, &whole), "half that is an integer");
+    REFUSED(foreign_read_attribute(&s->file, "/a", "word", HDF5_F64, &real), "word that is a number");
+    REFUSED(foreign_read_attribute(&s->file, "/b", "half", HDF5_F64, &real), "/b: has no attribute half");
+    REFUSED(foreign_read_attribute_text(&s->file, "/a", "half", text, sizeof text), "half that is a short string");
+    REFUSED(foreign_read_attribute_text(&s->file, "/a", "words", text, sizeof text), "words that is a short string");
+}
+
+static dem_status count_names(void *context, const char *name)
+{
+    int *left = context;
+    assert_true(strlen(name) == 1);
+    return --*left >= 0 ? DEM_OK : DEM_STOPPED;
+}
+
+static void names_are_listed_until_one_is_not_taken(void **state)
+{
+    const stored *s = *state;
+    int left = 2;
+    assert_ok(hdf5_write(&s->file, (hdf5_rows){"/b", HDF5_F64, 1, {0}, 0, 0}, 1, numbers));
+    assert_ok(foreign_list(&s->file, "/", count_names, &left));
+    assert_int_equal(left, 0);
+    assert_int_equal(foreign_list(&s->file, "/", count_names, &left), DEM_STOPPED);
+    REFUSED(foreign_list(&s->file, "/b", count_names, &left), "/b: is not a readable group");
+}
+
+static void names_are_printed_safely_and_in_part(void **state)
+{
+    (void)state;
+    char out[FOREIGN_PRINTABLE];
+    foreign_print(out, "a b\n\x1b[0m\xff");
+    assert_string_equal(out, "a?b??[0m?");
+    foreign_print(out, "0123456789012345678901234567890123456789012345");
+    assert_string_equal(out, "0123456789012345678901234567890123456789");
+}
+
+static void only_regular_files_are_opened(void **state)
+{
+    (void)state;
+    hdf5_file file;
+    REFUSED(foreign_open(&file, "."), ".: is not a regular file");
+    REFUSED(foreign_open(&file, "none.h5"), "none.h5: cannot be opened (No such file or directory)");
+}
+
+#define STORED(test) cmocka_unit_test_setup_teardown(test, open_stored, close_stored)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        STORED(shape_and_numbers_are_found),
+        STORED(a_number_that_does_not_fit_is_refused),
+        STORED(what_is_not_there_is_absent),
+        STORED(links_on_the_way_are_refused),
+        STORED(types_are_told_and_checked),
+        STORED(a_shape_of_another_kind_has_no_rank),
+        STORED(sizes_are_borne_out_by_bytes),
+        STORED(attributes_are_single_and_of_their_kind),
+        STORED(names_are_listed_until_one_is_not_taken),
+        cmocka_unit_test(names_are_printed_safely_and_in_part),
+        cmocka_unit_test(only_regular_files_are_opened),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,487 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* lattice_file.c: files that others wrote, and files that must be refused. */
+#include "unit/close.h"
+
+#include <dem/trajectory.h>
+
+#include "output/lattice_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char path[] = "test_lattice_file.h5";
+
+/* Two triangles that share the edge 0-2, as a square 0 1 2 3 with node 4 in the middle of nothing but a spring. */
+static const double x[10] = {0, 0, 1, 0, 1, 1, 0, 1, 0.5, 2};
+static const double ones[6] = {1, 1, 1, 1, 1, 1};
+static const int64_t ends[12] = {0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 3, 4};
+static const int64_t corners[6] = {0, 1, 2, 0, 2, 3};
+
+/* ---- writing such files ---- */
+
+static hid_t open_group(void)
+{
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(file >= 0);
+    const hid_t group = H5Gopen2(file, "lattice", H5P_DEFAULT);
+    assert_true(group >= 0);
+    (void)H5Fclose(file); /* the group keeps it open */
+    return group;
+}
+
+/* Replaces a dataset; width 0 makes it of rank 1. */
+static void put_as(const char *name, hid_t layout, hid_t stored, hid_t given, hsize_t n, hsize_t width,
+                   const void *data)
+{
+    const hid_t group = open_group(), space = H5Screate_simple(width > 0 ? 2 : 1, (hsize_t[2]){n, width}, NULL);
+    if (H5Lexists(group, name, H5P_DEFAULT) > 0) assert_true(H5Ldelete(group, name, H5P_DEFAULT) >= 0);
+    const hid_t dataset = H5Dcreate2(group, name, stored, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    assert_true(dataset >= 0);
+    if (data != NULL) assert_true(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
+    (void)H5Dclose(dataset);
+    (void)H5Sclose(space);
+    (void)H5Gclose(group);
+}
+
+static void put_real(const char *name, hsize_t n, hsize_t width, const double *data)
+{
+    put_as(name, H5P_DEFAULT, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, n, width, data);
+}
+
+static void put_whole(const char *name, hsize_t n, hsize_t width, const int64_t *data)
+{
+    put_as(name, H5P_DEFAULT, H5T_STD_I64LE, H5T_NATIVE_INT64, n, width, data);
+}
+
+/* Five flags, the second of them set, as h5py stores booleans if the names are FALSE and TRUE. */
+static void put_flags(const char *name, const char *no, const char *yes)
+{
+    const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);
+    assert_true(H5Tenum_insert(type, no, &(signed char){0}) >= 0);
+    assert_true(H5Tenum_insert(type, yes, &(signed char){1}) >= 0);
+    put_as(name, H5P_DEFAULT, type, type, 5, 0, (const signed char[5]){0, 1, 0, 0, 0});
+    (void)H5Tclose(type);
+}
+
+static void drop(const char *name)
+{
+    const hid_t group = open_group();
+    assert_true(H5Ldelete(group, name, H5P_DEFAULT) >= 0);
+    (void)H5Gclose(group);
+}
+
+/* The datasets that every lattice has. */
+static int write_lattice(void **state)
+{
+    (void)state;
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t group = H5Gcreate2(file, "lattice", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    (void)H5Gclose(group);
+    (void)H5Fclose(file);
+    put_real("x", 5, 2, x);
+    put_real("mass", 5, 0, ones);
+    put_whole("ends", 6, 2, ends);
+    put_real("rest_length", 6, 0, ones);
+    put_real("stiffness", 6, 0, ones);
+    return 0;
+}
+
+static int remove_lattice(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static dem_lattice read_lattice(void)
+{
+    dem_lattice lattice;
+    const dem_status status = dem_lattice_read(&lattice, path);
+    if (status != DEM_OK) fail_msg("%s", dem_status_message());
+    return lattice;
+}
+
+static void assert_refused(const char *file, dem_status status, const char *message)
+{
+    dem_lattice lattice = {.n_nodes = -7};
+    dem_index size[2] = {-7, -7};
+    const dem_status measured = dem_lattice_measure(file, &size[0], &size[1]);
+    if (status == DEM_ERROR_IO) assert_int_equal(measured, status);
+    if (measured != DEM_OK) assert_int_equal(size[0], -7);
+    assert_int_equal(dem_lattice_read(&lattice, file), status);
+    assert_string_equal(dem_status_message(), message);
+    assert_int_equal(lattice.n_nodes, -7);
+}
+
+#define REFUSED(reason)      assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: /lattice/" reason)
+#define INCONSISTENT(reason) assert_refused(path, DEM_ERROR_MODEL, "test_lattice_file.h5: /lattice" reason)
+
+/* ---- accepted ---- */
+
+static void what_is_not_there_is_null(void **state)
+{
+    (void)state;
+    dem_lattice lattice = read_lattice();
+    assert_int_equal(lattice.n_nodes, 5);
+    assert_int_equal(lattice.n_springs, 6);
+    assert_int_equal(lattice.n_triangles, 0);
+    assert_memory_equal(lattice.x, x, sizeof x);
+    assert_memory_equal(lattice.ends, ends, sizeof ends);
+    assert_null(lattice.viscosity);
+    assert_null(lattice.triangles);
+    assert_null(lattice.guard);
+    assert_null(lattice.area_stiffness);
+    assert_null(lattice.thickness);
+    assert_null(lattice.modulus);
+    assert_null(lattice.flags);
+    assert_null(lattice.body);
+    assert_null(lattice.position);
+    assert_null(lattice.velocity);
+    dem_lattice_free(&lattice);
+}
+
+static void any_width_of_number_is_read(void **state)
+{
+    (void)state;
+    const double body[5] = {0, 0, 0, 1, 1};
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){2, 1}) >= 0);
+    assert_true(H5Pset_shuffle(layout) >= 0 && H5Pset_deflate(layout, 6) >= 0 && H5Pset_fletcher32(layout) >= 0);
+    put_as("x", layout, H5T_IEEE_F32BE, H5T_NATIVE_DOUBLE, 5, 2, x);
+    put_as("ends", layout, H5T_STD_U16BE, H5T_NATIVE_INT64, 6, 2, ends);
+    put_as("body", H5P_DEFAULT, H5T_STD_U64LE, H5T_NATIVE_DOUBLE, 5, 0, body);
+    (void)H5Pclose(layout);
+    dem_lattice lattice = read_lattice();
+    assert_memory_equal(lattice.x, x, sizeof x);
+    assert_memory_equal(lattice.ends, ends, sizeof ends);
+    assert_int_equal(lattice.body[2], 0);
+    assert_int_equal(lattice.body[3], 1);
+    dem_lattice_free(&lattice);
+}
+
+static void integers_do_for_reals(void **state)
+{
+    (void)state;
+    put_whole("mass", 5, 0, (int64_t[5]){1, 2, 3, 4, 5});
+    put_as("velocity", H5P_DEFAULT, H5T_STD_I16BE, H5T_NATIVE_INT64, 5, 2, ends);
+    dem_lattice lattice = read_lattice();
+    for (int k = 0; k < 5; k++) assert_close(lattice.mass[k], k + 1.0, 0.0);
+    for (int k = 0; k < 10; k++) assert_close(lattice.velocity[k], (double)ends[k], 0.0);
+    dem_lattice_free(&lattice);
+}
+
+static void optional_numbers_are_read_and_come_back_as_they_were_written(void **state)
+{
+    (void)state;
+    const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0}, thickness[2] = {0.1, 3.0}, modulus[2] = {1e7, 2e9};
+    put_real("viscosity", 6, 0, viscosity);
+    put_whole("triangles", 2, 3, corners);
+    put_real("thickness", 2, 0, thickness);
+    put_real("modulus", 2, 0, modulus);
+    for (int deflate = 0; deflate < 2; deflate++) {
+        hdf5_file file;
+        dem_lattice lattice = read_lattice();
+        assert_memory_equal(lattice.viscosity, viscosity, sizeof viscosity);
+        assert_memory_equal(lattice.thickness, thickness, sizeof thickness);
+        assert_memory_equal(lattice.modulus, modulus, sizeof modulus);
+        assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
+        assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
+        dem_lattice_free(&lattice);
+    }
+    dem_lattice back = read_lattice();
+    assert_memory_equal(back.viscosity, viscosity, sizeof viscosity);
+    assert_memory_equal(back.thickness, thickness, sizeof thickness);
+    assert_memory_equal(back.modulus, modulus, sizeof modulus);
+    dem_lattice_free(&back);
+}
+
+static void assert_flags(const unsigned char expected[5])
+{
+    dem_lattice lattice = read_lattice();
+    assert_non_null(lattice.flags);
+    assert_memory_equal(lattice.flags, expected, 5);
+    dem_lattice_free(&lattice);
+}
+
+static void fixed_nodes_leave_the_rule_of_contact_as_it_is(void **state)
+{
+    (void)state;
+    enum { F = DEM_NODE_FIXED, C = DEM_NODE_CONTACT };
+    put_whole("fixed", 5, 0, (int64_t[5]){0, 2, 0, 0, 1});
+    assert_flags((unsigned char[5]){C, F | C, C, C, F | C});
+    put_whole("triangles", 2, 3, corners);
+    assert_flags((unsigned char[5]){C, F | C, C, C, F});
+    put_whole("contact_nodes", 2, 0, (int64_t[2]){1, 3});
+    assert_flags((unsigned char[5]){0, F | C, 0, C, F});
+    put_flags("fixed", "FALSE", "TRUE");
+    assert_flags((unsigned char[5]){0, F | C, 0, C, 0});
+    drop("fixed");
+    assert_flags((unsigned char[5]){0, C, 0, C, 0});
+    put_whole("contact_nodes", 0, 0, NULL);
+    assert_flags((unsigned char[5]){0});
+}
+
+static void a_body_of_one_node_needs_no_springs(void **state)
+{
+    (void)state;
+    put_real("x", 1, 2, x);
+    put_real("mass", 1, 0, ones);
+    put_whole("ends", 0, 2, NULL);
+    put_real("rest_length", 0, 0, NULL);
+    put_real("stiffness", 0, 0, NULL);
+    for (int k = 0; k < 2; k++) {
+        dem_lattice lattice = read_lattice();
+        assert_int_equal(lattice.n_nodes, 1);
+        assert_int_equal(lattice.n_springs, 0);
+        dem_lattice_free(&lattice);
+        if (k == 0) drop("ends"), drop("rest_length"), drop("stiffness");
+    }
+}
+
+/* ---- refused ---- */
+
+static void files_that_are_none_are_refused(void **state)
+{
+    (void)state;
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    (void)fputs("node,x,y\n0,0,0\n", file);
+    (void)fclose(file);
+    assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: cannot be opened (file signature not found)");
+    assert_refused("none.h5", DEM_ERROR_IO, "none.h5: cannot be opened (No such file or directory)");
+    assert_refused(".", DEM_ERROR_IO, ".: is not a regular file");
+    assert_refused(NULL, DEM_ERROR_ARGUMENT, "dem_lattice_read: an argument is NULL");
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: is not a regular file"); /* and nobody waits */
+}
+
+static void missing_datasets_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"x", "mass", "ends", "rest_length", "stiffness"};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        char message[80];
+        (void)snprintf(message, sizeof message, "%s: /lattice/%s: is missing", path, names[k]);
+        (void)write_lattice(NULL);
+        drop(names[k]);
+        assert_refused(path, DEM_ERROR_IO, message);
+    }
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    (void)H5Fclose(file);
+    assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: /lattice: is missing");
+}
+
+static void unknown_names_are_refused(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {
+        {"velocities", "velocities"}, {"Fixed", "Fixed"}, {"a\nb \xff", "a?b??"}, {"m", "m"}};
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        char message[256];
+        (void)snprintf(message, sizeof message,
+                       "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
+                       "viscosity, triangles, guard, area_stiffness, "
+                       "thickness, modulus, body, position, velocity, fixed, contact_nodes",
+                       path, names[k][1]);
+        put_real(names[k][0], 5, 2, x);
+        assert_refused(path, DEM_ERROR_IO, message);
+        drop(names[k][0]);
+    }
+}
+
+static void wrong_types_and_shapes_are_refused(void **state)
+{
+    (void)state;
+    put_real("ends", 6, 2, (double[12]){0});
+    REFUSED("ends: is not integer");
+    put_whole("ends", 6, 2, ends);
+    put_flags("mass", "FALSE", "TRUE");
+    REFUSED("mass: is neither floating-point nor integer");
+    put_real("mass", 5, 0, ones);
+    put_flags("fixed", "NO", "YES");
+    REFUSED("fixed: is neither integer nor boolean");
+    put_real("fixed", 5, 0, ones);
+    REFUSED("fixed: is neither integer nor boolean");
+    drop("fixed");
+    put_real("mass", 5, 1, ones);
+    REFUSED("mass: is not of shape [n]");
+    put_real("mass", 5, 0, ones);
+    put_real("x", 2, 3, x);
+    REFUSED("x: is not of shape [n][2]");
+    put_real("x", 5, 2, x);
+    put_whole("triangles", 3, 2, corners);
+    REFUSED("triangles: is not of shape [n][3]");
+    drop("triangles");
+    put_real("guard", 2, 0, ones);
+    REFUSED("guard: is there without triangles");
+    drop("guard");
+    put_real("area_stiffness", 2, 0, ones);
+    REFUSED("area_stiffness: is there without triangles");
+}
+
+static void a_number_that_does_not_fit_is_refused(void **state)
+{
+    (void)state;
+    dem_lattice lattice;
+    put_whole("body", 5, 0, (int64_t[5]){0, 0, 5000000000, 0, 0});
+    assert_int_equal(dem_lattice_read(&lattice, path), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/lattice/body: cannot be read"));
+    drop("body");
+    put_whole("fixed", 5, 0, (int64_t[5]){0, 0, -1, 0, 0});
+    assert_int_equal(dem_lattice_read(&lattice, path), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/lattice/fixed: cannot be read"));
+}
+
+static void inconsistent_extents_and_indices_are_refused(void **state)
+{
+    (void)state;
+    put_real("mass", 4, 0, ones);
+    INCONSISTENT("/mass: has 4 rows where the datasets before it have 5");
+    put_real("mass", 5, 0, ones);
+    put_real("stiffness", 5, 0, ones);
+    INCONSISTENT("/stiffness: has 5 rows where the datasets before it have 6");
+    put_real("stiffness", 6, 0, ones);
+    put_real("viscosity", 5, 0, ones);
+    INCONSISTENT("/viscosity: has 5 rows where the datasets before it have 6");
+    drop("viscosity");
+    put_whole("contact_nodes", 2, 0, (int64_t[2]){4, 5});
+    INCONSISTENT("/contact_nodes: entry 1 is 5, which is no node: there are 5");
+    drop("contact_nodes");
+    put_whole("ends", 6, 2, (int64_t[12]){0, 1, 1, 2, 2, 3, 3, 0, 0, 2, 3, -4});
+    INCONSISTENT(": spring 5 has node -4, but there are 5 nodes");
+    put_whole("ends", 6, 2, ends);
+    put_whole("triangles", 2, 3, (int64_t[6]){0, 1, 2, 0, 2, 5});
+    put_whole("fixed", 5, 0, (int64_t[5]){0});
+    INCONSISTENT(": triangle 1 has node 5, but there are 5 nodes");
+    put_real("x", 0, 2, NULL);
+    drop("triangles");
+    drop("fixed");
+    put_real("mass", 0, 0, NULL);
+    INCONSISTENT("/x: has no nodes");
+}
+
+static void links_are_refused(void **state)
+{
+    (void)state;
+    hid_t group = open_group();
+    assert_true(H5Lmove(group, "x", group, "/elsewhere", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_soft("/elsewhere", group, "x", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    (void)H5Gclose(group);
+    REFUSED("x: is a soft or external link");
+    group = open_group();
+    assert_true(H5Ldelete(group, "x", H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_external("/etc/passwd", "/x", group, "x", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    (void)H5Gclose(group);
+    REFUSED("x: is a soft or external link");
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Lmove(file, "lattice", file, "other", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    assert_true(H5Lcreate_soft("other", file, "lattice", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+    (void)H5Fclose(file);
+    assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: /lattice: is a soft or external link");
+}
+
+static void a_group_in_place_of_a_dataset_is_refused(void **state)
+{
+    (void)state;
+    dem_lattice lattice;
+    drop("x");
+    const hid_t group = open_group(), inner = H5Gcreate2(group, "x", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    (void)H5Gclose(inner);
+    (void)H5Gclose(group);
+    assert_int_equal(dem_lattice_read(&lattice, path), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/lattice/x: is not a readable dataset"));
+}
+
+static void storage_elsewhere_is_refused(void **state)
+{
+    (void)state;
+    hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Pset_external(layout, "test_lattice_file.raw", 0, 80) >= 0);
+    put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 5, 2, NULL);
+    (void)H5Pclose(layout);
+    REFUSED("x: keeps its data in an external file");
+    layout = H5Pcreate(H5P_DATASET_CREATE);
+    const hid_t space = H5Screate_simple(2, (hsize_t[2]){5, 2}, NULL);
+    assert_true(H5Pset_virtual(layout, space, "test_lattice_other.h5", "/x", space) >= 0);
+    put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 5, 2, NULL);
+    (void)H5Sclose(space);
+    (void)H5Pclose(layout);
+    REFUSED("x: has a virtual or unknown layout");
+}
+
+static void other_filters_are_refused(void **state)
+{
+    (void)state;
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){6, 2}) >= 0);
+    assert_true(H5Pset_scaleoffset(layout, H5Z_SO_INT, 0) >= 0);
+    put_as("ends", layout, H5T_STD_I64LE, H5T_NATIVE_INT64, 6, 2, ends);
+    (void)H5Pclose(layout);
+    REFUSED("ends: uses a filter other than deflate, shuffle and fletcher32");
+}
+
+static void sizes_without_data_behind_them_are_refused(void **state)
+{
+    (void)state;
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){64, 2}) >= 0);
+    put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, (hsize_t)1 << 39, 2, NULL);
+    REFUSED("x: claims more data than the file holds");
+    put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, ((hsize_t)1 << 40) + 1, 2, NULL);
+    REFUSED("x: has more than 2^40 rows");
+    (void)H5Pclose(layout);
+}
+
+static void a_lattice_is_measured_without_its_numbers(void **state)
+{
+    (void)state;
+    dem_index n_nodes, n_springs;
+    put_whole("ends", 6, 2, (int64_t[12]){99});
+    assert_int_equal(dem_lattice_measure(path, &n_nodes, &n_springs), DEM_OK);
+    assert_int_equal(n_nodes, 5);
+    assert_int_equal(n_springs, 6);
+    assert_int_equal(dem_lattice_measure(path, NULL, &n_springs), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_lattice_measure(path, &n_nodes, NULL), DEM_ERROR_ARGUMENT);
+}
+
+static void plugins_are_as_they_were(void **state)
+{
+    (void)state;
+    unsigned before = 0, after = 1;
+    assert_true(H5PLget_loading_state(&before) >= 0);
+    dem_lattice lattice = read_lattice();
+    assert_true(H5PLget_loading_state(&after) >= 0);
+    assert_int_equal(after, before);
+    dem_lattice_free(&lattice);
+}
+
+#define WITH_FILE(test) cmocka_unit_test_setup_teardown(test, write_lattice, remove_lattice)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_FILE(what_is_not_there_is_null),
+        WITH_FILE(any_width_of_number_is_read),
+        WITH_FILE(integers_do_for_reals),
+        WITH_FILE(optional_numbers_are_read_and_come_back_as_they_were_written),
+        WITH_FILE(fixed_nodes_leave_the_rule_of_contact_as_it_is),
+        WITH_FILE(a_body_of_one_node_needs_no_springs),
+        WITH_FILE(files_that_are_none_are_refused),
+        WITH_FILE(missing_datasets_are_refused),
+        WITH_FILE(unknown_names_are_refused),
+        WITH_FILE(wrong_types_and_shapes_are_refused),
+        WITH_FILE(a_number_that_does_not_fit_is_refused),
+        WITH_FILE(inconsistent_extents_and_indices_are_refused),
+        WITH_FILE(links_are_refused),
+        WITH_FILE(a_group_in_place_of_a_dataset_is_refused),
+        WITH_FILE(storage_elsewhere_is_refused),
+        WITH_FILE(other_filters_are_refused),
+        WITH_FILE(sizes_without_data_behind_them_are_refused),
+        WITH_FILE(a_lattice_is_measured_without_its_numbers),
+        WITH_FILE(plugins_are_as_they_were),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

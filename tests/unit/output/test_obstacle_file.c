@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* obstacle_file.c: two obstacles of different laws, looked at through HDF5 itself. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <unistd.h>
+
+#include "output/obstacle_file.h"
+#include "unit/found.h"
+
+static const double bent[6] = {-1.0, 0.0, 0.0, -0.5, 1.0, 0.0}, flat[4] = {3.0, -2.0, 4.0, -2.0};
+static char folder[] = "test_obstacle_file_XXXXXX", path[64], part[64];
+
+static int make_folder(void **state)
+{
+    (void)state;
+    if (mkdtemp(folder) == NULL) return 1;
+    (void)snprintf(path, sizeof path, "%s/a.h5", folder);
+    (void)snprintf(part, sizeof part, "%s/a.part.h5", folder);
+    return 0;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    (void)unlink(path);
+    return rmdir(folder); /* no part is left */
+}
+
+static dem_model *make_model(void)
+{
+    const double x[2] = {0.0, 1.0}, mass = 1.0;
+    const dem_obstacle obstacles[2] = {
+        {.n_points = 3, .points = bent, .restitution = 0.5, .friction = 0.3},
+        {.n_points = 2, .points = flat, .restitution = 0.25, .friction = 0.75, .friction_law = DEM_FRICTION_PAPER}};
+    dem_lattice lattice;
+    dem_model *model;
+    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    assert_ok(dem_model_create(&model, &lattice, obstacles, 2));
+    dem_lattice_free(&lattice);
+    return model;
+}
+
+static void expect_number(const hdf5_file *file, const char *group, const char *name, double expected)
+{
+    double value = NAN;
+    const hid_t id = H5Aopen_by_name(file->id, group, name, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(id >= 0 && H5Aread(id, H5T_NATIVE_DOUBLE, &value) >= 0);
+    (void)H5Aclose(id);
+    assert_close(value, expected, 0.0);
+}
+
+static void the_group_has_points_and_laws(void **state)
+{
+    (void)state;
+    dem_model *model = make_model();
+    hdf5_file file;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(obstacle_file_write(&file, model));
+    found_reals(&file, "/obstacles/0/points", bent, 6);
+    found_reals(&file, "/obstacles/1/points", flat, 4);
+    expect_number(&file, "/obstacles/0", "restitution", 0.5);
+    expect_number(&file, "/obstacles/1", "restitution", 0.25);
+    expect_number(&file, "/obstacles/0", "friction", 0.3);
+    expect_number(&file, "/obstacles/1", "friction", 0.75);
+    found_text(&file, "/obstacles/0", "friction_law", "coulomb");
+    found_text(&file, "/obstacles/1", "friction_law", "paper");
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
+static void they_are_read_back(void **state)
+{
+    (void)state;
+    dem_model *model = make_model();
+    hdf5_file file;
+    dem_obstacle *found = NULL;
+    dem_index n = 0, n_given = 0;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(obstacle_file_write(&file, model));
+    assert_ok(obstacle_file_read(&file, &found, &n));
+    const dem_obstacle *given = dem_model_obstacles(model, &n_given);
+    assert_int_equal(n, n_given);
+    for (dem_index o = 0; o < n; o++) {
+        assert_int_equal(found[o].n_points, given[o].n_points);
+        assert_memory_equal(found[o].points, given[o].points, 2 * (size_t)found[o].n_points * sizeof(double));
+        assert_close(found[o].restitution, given[o].restitution, 0.0);
+        assert_close(found[o].friction, given[o].friction, 0.0);
+        assert_int_equal(found[o].friction_law, given[o].friction_law);
+    }
+    obstacle_file_free(found, n);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
+static void what_is_no_obstacle_is_refused(void **state)
+{
+    (void)state;
+    dem_model *model = make_model();
+    hdf5_file file;
+    dem_obstacle *found = NULL;
+    dem_index n = 7;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(obstacle_file_write(&file, model));
+    assert_true(H5Adelete_by_name(file.id, "/obstacles/1", "friction_law", H5P_DEFAULT) >= 0);
+    assert_ok(hdf5_write_attribute_text(&file, "/obstacles/1", "friction_law", "dry"));
+    assert_int_equal(obstacle_file_read(&file, &found, &n), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/obstacles/1: friction_law is neither coulomb nor paper"));
+    assert_int_equal(n, 7);
+    assert_null(found);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
+static void the_file_has_them_as_lines(void **state)
+{
+    (void)state;
+    const double points[15] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0, 4.0, -2.0, 0.0};
+    dem_model *model = make_model();
+    hdf5_file file;
+    assert_ok(obstacle_file_publish(part, path, model, 1));
+    assert_int_not_equal(access(part, F_OK), 0);
+    assert_ok(hdf5_open_read(&file, path));
+    found_reals(&file, "/VTKHDF/Points", points, 15);
+    found_reals(&file, "/VTKHDF/Connectivity", (const double[]){0, 1, 1, 2, 3, 4}, 6);
+    found_reals(&file, "/VTKHDF/CellData/obstacle", (const double[]){0, 0, 1}, 3);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
+static void a_part_that_cannot_be_published_is_taken_away(void **state)
+{
+    (void)state;
+    dem_model *model = make_model();
+    assert_int_equal(obstacle_file_publish(part, "no/such/folder/a.h5", model, 1), DEM_ERROR_IO);
+    assert_int_not_equal(access(part, F_OK), 0);
+    dem_model_destroy(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_group_has_points_and_laws),
+        cmocka_unit_test(they_are_read_back),
+        cmocka_unit_test(what_is_no_obstacle_is_refused),
+        cmocka_unit_test(the_file_has_them_as_lines),
+        cmocka_unit_test(a_part_that_cannot_be_published_is_taken_away),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* vtk_grid.c: two lines over three points, looked at through HDF5 itself. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <unistd.h>
+
+#include "output/vtk_grid.h"
+#include "unit/found.h"
+
+static char path[] = "test_grid_XXXXXX";
+
+static int make_path(void **state)
+{
+    (void)state;
+    const int file = mkstemp(path);
+    return file < 0 || close(file) != 0;
+}
+
+static int remove_path(void **state)
+{
+    (void)state;
+    return unlink(path);
+}
+
+static hdf5_file write_one(const grid *g, int deflate)
+{
+    hdf5_file file;
+    assert_ok(hdf5_open_new(&file, path, 4096));
+    assert_ok(grid_write(&file, g, deflate));
+    return file;
+}
+
+static void cells_are_lines_between_points(void **state)
+{
+    (void)state;
+    const dem_index ends[4] = {0, 1, 2, 1};
+    const grid g = {3, 2, ends};
+    hdf5_file file = write_one(&g, 1);
+    found_reals(&file, GRID "NumberOfPoints", (const double[]){3}, 1);
+    found_reals(&file, GRID "NumberOfCells", (const double[]){2}, 1);
+    found_reals(&file, GRID "NumberOfConnectivityIds", (const double[]){4}, 1);
+    found_reals(&file, GRID "Connectivity", (const double[]){0, 1, 2, 1}, 4);
+    found_reals(&file, GRID "Offsets", (const double[]){0, 2, 4}, 3);
+    found_reals(&file, GRID "Types", (const double[]){3, 3}, 2); /* VTK's number of a line */
+    assert_ok(hdf5_close(&file, DEM_OK));
+}
+
+static void a_grid_may_have_no_cells(void **state)
+{
+    (void)state;
+    const grid g = {1, 0, NULL};
+    hdf5_file file = write_one(&g, 0);
+    found_reals(&file, GRID "Connectivity", NULL, 0);
+    found_reals(&file, GRID "Offsets", (const double[]){0}, 1);
+    found_reals(&file, GRID "Types", NULL, 0);
+    assert_ok(hdf5_close(&file, DEM_OK));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_are_lines_between_points),
+        cmocka_unit_test(a_grid_may_have_no_cells),
+    };
+    return cmocka_run_group_tests(tests, make_path, remove_path);
+}

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* checkpoint.c: what comes back is what was there, field by field; what cannot be is refused. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "simulation/checkpoint.h"
+#include "simulation/query.h"
+
+/* A rectangle that stands on two apexes and touches nothing else: edges may close. */
+typedef struct pair {
+    dem_model *model;
+    dem_simulation *from, *to;
+    dem_record *record;
+} pair;
+
+static void open_pair(pair *p)
+{
+    static const double points[] = {-0.1, -0.1, -0.01, -1e-5, 0.0, -0.02, 0.01, -1e-5, 0.1, -0.1};
+    const dem_obstacle ground = {.n_points = 5, .points = points, .restitution = 0.3, .friction = 0.8};
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-5};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    options.mass_damping = 500.0;
+    assert_ok(dem_lattice_rectangle(&lattice, 0.05, 0.03, 0.01));
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    assert_ok(dem_model_create(&p->model, &lattice, &ground, 1));
+    assert_ok(dem_simulation_create(&p->from, p->model, &options));
+    assert_ok(dem_simulation_create(&p->to, p->model, &options));
+    assert_ok(dem_record_create(&p->record));
+    dem_lattice_free(&lattice);
+}
+
+static void close_pair(pair *p)
+{
+    dem_record_destroy(p->record);
+    dem_simulation_destroy(p->from);
+    dem_simulation_destroy(p->to);
+    dem_model_destroy(p->model);
+}
+
+static void same_site(const contact_site *a, const contact_site *b)
+{
+    assert_int_equal(a->n_closed, b->n_closed);
+    assert_int_equal(a->storm, b->storm);
+    assert_close(a->storm_start, b->storm_start, 0.0);
+    for (int q = 0; q < 2; q++) assert_int_equal(a->behind[q], b->behind[q]);
+    for (int q = 0; q < a->n_closed; q++) {
+        assert_int_equal(a->closed[q].feature, b->closed[q].feature);
+        assert_int_equal(a->closed[q].sign, b->closed[q].sign);
+        assert_int_equal(a->closed[q].held, b->closed[q].held);
+        assert_close(a->closed[q].place, b->closed[q].place, 0.0);
+    }
+}
+
+static void same_memory(const dem_simulation *a, const dem_simulation *b)
+{
+    const contact_sites *c = &a->contact.sites, *d = &b->contact.sites;
+    const dem_counts n = dem_simulation_counts(a), m = dem_simulation_counts(b);
+    for (dem_index k = 0; k < c->n; k++) same_site(&c->list[k], &d->list[k]);
+    assert_close(a->t, b->t, 0.0);
+    assert_close(a->step, b->step, 0.0);
+    assert_close(engine_next_step(&a->engine), engine_next_step(&b->engine), 0.0);
+    assert_close(c->books.impact, d->books.impact, 0.0);
+    assert_close(c->books.projection, d->books.projection, 0.0);
+    assert_close(c->straightened, d->straightened, 0.0);
+    assert_int_equal(a->contact.idle, b->contact.idle);
+    assert_int_equal(a->events, b->events);
+    assert_int_equal(a->unlooked, b->unlooked);
+    assert_memory_equal(&n, &m, sizeof n);
+    assert_memory_equal(c->books.impulse, d->books.impulse, 4 * sizeof(double));
+    assert_memory_equal(&a->overlap.found, &b->overlap.found, sizeof a->overlap.found);
+    assert_memory_equal(a->y, b->y, 2 * (size_t)run_unknowns(a->model) * sizeof *a->y);
+}
+
+static void everything_comes_back(void **state)
+{
+    pair p;
+    dem_index n_stuck = 0;
+    (void)state;
+    open_pair(&p);
+    assert_ok(dem_simulation_advance(p.from, 0.05));
+    contact_sites *c = &p.from->contact.sites;
+    for (dem_index k = 0; k < c->n; k++)
+        n_stuck += site_is_edge(&c->list[k]) && c->list[k].n_closed > 0 && c->list[k].closed[0].sign == 0 &&
+                   c->list[k].closed[0].place > 0.0;
+    assert_true(n_stuck > 0);
+    p.from->in_hand = false; /* goes on from the start of the step in hand */
+    p.from->contact.idle = 3;
+    p.from->unlooked = 5;
+    p.from->overlap.found = (dem_overlap){1, 2, 0.25, 3, 4, {5.0, 6.0}};
+    c->list[0].storm = 7;
+    c->list[0].storm_start = 0.125;
+    assert_ok(engine_restart(&p.from->engine, p.from->t, p.from->y));
+    assert_ok(engine_bound(&p.from->engine, 1e-9));
+    p.from->y = engine_state(&p.from->engine);
+    assert_ok(recall_put(p.from, p.record));
+    assert_ok(recall_get(p.to, p.record));
+    assert_close(engine_next_step(&p.to->engine), 1e-9, 0.0);
+    same_memory(p.from, p.to);
+    close_pair(&p);
+}
+
+/* ---- what is refused ---- */
+
+static void refuse(pair *p, const char *name, void *entry, size_t size, const char *message)
+{
+    size_t n;
+    const void *was = dem_record_find(p->record, name, &n);
+    void *kept = malloc(n + 1);
+    assert_non_null(kept);
+    memcpy(kept, was, n);
+    assert_ok(dem_record_put(p->record, name, entry, size));
+    assert_int_equal(recall_get(p->to, p->record), DEM_ERROR_IO);
+    assert_string_equal(dem_status_message(), message);
+    assert_ok(dem_record_put(p->record, name, kept, n));
+    free(kept);
+}
+
+static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
+{
+    pair p;
+    size_t n;
+    const double before = -1.0;
+    dem_index sizes[8], numbers[9];
+    (void)state;
+    open_pair(&p);
+    assert_ok(recall_put(p.from, p.record));
+    assert_ok(dem_record_get(p.record, "sizes", sizes, sizeof sizes));
+    sizes[0]++;
+    char text[160];
+    (void)snprintf(text, sizeof text,
+                   "the record is of another model: %lld nodes, %lld springs, 4 segments, not %lld, %lld, 4",
+                   (long long)sizes[0], (long long)sizes[1], (long long)sizes[0] - 1, (long long)sizes[1]);
+    refuse(&p, "sizes", sizes, sizeof sizes, text);
+    refuse(&p, "sizes", sizes, 8, "the record has 8 bytes of sizes, 64 are expected");
+    assert_ok(dem_record_get(p.record, "numbers", numbers, sizeof numbers));
+    memcpy(numbers, &before, sizeof before);
+    (void)snprintf(text, sizeof text, "the record's time -1 s, step 0 s or next step %g s is impossible",
+                   engine_next_step(&p.from->engine));
+    refuse(&p, "numbers", numbers, sizeof numbers, text);
+    double *y = malloc(2 * (size_t)run_unknowns(p.model) * sizeof *y);
+    const void *stored = dem_record_find(p.record, "state", &n);
+    assert_non_null(y);
+    memcpy(y, stored, n);
+    y[3] = NAN;
+    refuse(&p, "state", y, n, "the state in the record is not finite");
+    free(y);
+    close_pair(&p);
+}
+
+typedef struct raw_site {
+    dem_index k, n_closed, behind[2], storm;
+    double storm_start;
+    struct {
+        dem_index feature, sign, held;
+        double place, force, friction;
+    } closed[2];
+} raw_site;
+
+static void refuse_site(pair *p, raw_site site)
+{
+    refuse(p, "contacts", &site, sizeof site, "entry 0 of the contacts in the record is impossible");
+}
+
+static void sites_that_cannot_be_are_refused(void **state)
+{
+    pair p;
+    const raw_site good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .sign = 1}}};
+    raw_site bad[2] = {good, good};
+    (void)state;
+    open_pair(&p);
+    assert_ok(recall_put(p.from, p.record));
+    assert_ok(dem_record_put(p.record, "contacts", &good, sizeof good));
+    assert_ok(recall_get(p.to, p.record));
+    assert_int_equal(p.to->contact.sites.list[0].n_closed, 1);
+#define REFUSE(field, value)                                                                                           \
+    do {                                                                                                               \
+        raw_site site = good;                                                                                          \
+        site.field = (value);                                                                                          \
+        refuse_site(&p, site);                                                                                         \
+    } while (0)
+    REFUSE(k, -1);
+    REFUSE(k, p.to->contact.sites.n);
+    REFUSE(n_closed, 3);
+    REFUSE(n_closed, -1);
+    REFUSE(behind[0], 1);
+    REFUSE(behind[1], -2);
+    REFUSE(storm, -1);
+    REFUSE(storm_start, INFINITY);
+    REFUSE(closed[0].feature, 4);
+    REFUSE(closed[0].feature, -1);
+    REFUSE(closed[0].sign, 2);
+    REFUSE(closed[0].held, 2);
+    REFUSE(closed[0].place, NAN);
+    REFUSE(closed[0].force, NAN);
+    REFUSE(closed[0].friction, NAN);
+#undef REFUSE
+    bad[0].n_closed = 2; /* twice on the same segment */
+    bad[0].closed[1] = bad[0].closed[0];
+    refuse_site(&p, bad[0]);
+    bad[0] = good;
+    refuse(&p, "contacts", bad, sizeof bad, "entry 1 of the contacts in the record is impossible"); /* twice the same */
+    refuse(&p, "contacts", bad, 17, "the record has no contacts");
+    close_pair(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(everything_comes_back),
+        cmocka_unit_test(sizes_numbers_and_states_that_cannot_be_are_refused),
+        cmocka_unit_test(sites_that_cannot_be_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* observers.c: who is told what, in which order, and whose frame comes next. */
+#include "verification/support.h"
+
+#include <string.h>
+
+#include "simulation/observers.h"
+
+/* What several observers were told: the context of each is its letter in one diary. */
+typedef struct voice {
+    char letter;
+    dem_status answer;
+} voice;
+
+static char diary[64];
+
+static dem_status note(void *context, char kind)
+{
+    const voice *v = context;
+    const size_t n = strlen(diary);
+    assert_true(n + 2 < sizeof diary);
+    diary[n] = kind;
+    diary[n + 1] = v->letter;
+    return v->answer;
+}
+
+static dem_status on_frame(void *context, const dem_simulation *simulation)
+{
+    assert_null(simulation);
+    return note(context, 'f');
+}
+
+static dem_status on_step(void *context, const dem_simulation *simulation)
+{
+    assert_null(simulation);
+    return note(context, 's');
+}
+
+static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    assert_null(simulation);
+    assert_close(event->t, 0.75, 0.0);
+    return note(context, 'e');
+}
+
+static void join(audience *a, voice *v, double interval)
+{
+    const dem_observer observer = {
+        .interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = v};
+    assert_ok(audience_add(a, &observer, -1.0));
+}
+
+static void expect(const char *text)
+{
+    assert_string_equal(diary, text);
+    memset(diary, 0, sizeof diary);
+}
+
+/* ---- joining ---- */
+
+static void at_most_eight_are_admitted(void **state)
+{
+    audience a = {0};
+    voice v = {'a', DEM_OK};
+    const dem_observer one_more = {.interval = 1.0};
+    (void)state;
+    for (int k = 0; k < AUDIENCE_MOST; k++) join(&a, &v, 1.0);
+    assert_int_equal(audience_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "at most 8 observers");
+    assert_int_equal(a.n, 8);
+}
+
+static void an_interval_is_finite(void **state)
+{
+    audience a = {0};
+    const dem_observer endless = {.interval = (double)INFINITY}, none = {.interval = fabs((double)NAN)};
+    (void)state;
+    assert_int_equal(audience_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "the interval between frames is inf s");
+    assert_int_equal(audience_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(a.n, 0);
+}
+
+/* The search for the first frame later than a time that a damaged record gave once went on without end. */
+static void frames_too_many_to_be_numbered_are_refused(void **state)
+{
+    audience a = {0};
+    const dem_observer dense = {.interval = 1e-3};
+    (void)state;
+    assert_int_equal(audience_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "frames 0.001 s apart cannot be numbered at 1e+300 s");
+    assert_int_equal(a.n, 0);
+    assert_ok(audience_add(&a, &dense, 4e12));
+    assert_int_equal(a.members[0].next_frame, 4000000000000001);
+}
+
+/* ---- telling ---- */
+
+static void all_are_told_in_the_order_in_which_they_came(void **state)
+{
+    audience a = {0};
+    voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
+    const dem_event event = {.t = 0.75};
+    (void)state;
+    assert_false(audience_hears_events(&a));
+    join(&a, &first, 0.0);
+    join(&a, &second, 0.0);
+    assert_true(audience_hears_events(&a));
+    assert_ok(audience_event(&a, NULL, &event));
+    assert_ok(audience_step(&a, NULL));
+    assert_ok(audience_frame(&a, 1, NULL));
+    expect("e1e2s1s2f2");
+}
+
+static void who_has_no_ears_is_left_out(void **state)
+{
+    audience a = {0};
+    voice v = {'v', DEM_OK};
+    const dem_observer deaf = {.interval = 1.0};
+    const dem_event event = {.t = 0.75};
+    double t = -1.0;
+    (void)state;
+    assert_ok(audience_add(&a, &deaf, -1.0));
+    assert_false(audience_hears_events(&a));
+    assert_ok(audience_event(&a, NULL, &event));
+    assert_ok(audience_step(&a, NULL));
+    assert_int_equal(audience_due(&a, 10.0, 10.0, &t), -1);
+    join(&a, &v, 0.0); /* interval 0: no frames either */
+    assert_int_equal(audience_due(&a, 10.0, 10.0, &t), -1);
+    assert_close(t, -1.0, 0.0);
+    assert_ok(audience_event(&a, NULL, &event));
+    expect("ev");
+}
+
+/* Who comes later is told all the same. */
+static void the_first_complaint_counts(void **state)
+{
+    audience a = {0};
+    voice content = {'1', DEM_OK}, stops = {'2', DEM_STOPPED}, fails = {'3', DEM_ERROR_MEMORY};
+    const dem_event event = {.t = 0.75};
+    (void)state;
+    join(&a, &content, 1.0);
+    join(&a, &stops, 1.0);
+    join(&a, &fails, 1.0);
+    assert_int_equal(audience_event(&a, NULL, &event), DEM_STOPPED);
+    assert_int_equal(audience_step(&a, NULL), DEM_STOPPED);
+    assert_int_equal(audience_frame(&a, 2, NULL), DEM_ERROR_MEMORY);
+    assert_ok(audience_frame(&a, 0, NULL));
+    expect("e1e2e3s1s2s3f3f1");
+}
+
+/* ---- frames ---- */
+
+/* Intervals 3 and 2, shown up to 6: at 0, 0, 2, 3, 4, 6, 6; of two at once the first to come. */
+static void frames_come_in_the_order_of_time(void **state)
+{
+    static const double times[7] = {0.0, 0.0, 2.0, 3.0, 4.0, 6.0, 6.0};
+    static const int whose[7] = {0, 1, 1, 0, 1, 0, 1};
+    audience a = {0};
+    voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
+    double t;
+    (void)state;
+    join(&a, &first, 3.0);
+    join(&a, &second, 2.0);
+    for (int k = 0; k < 7; k++) {
+        assert_int_equal(audience_due(&a, 7.0, 6.0, &t), whose[k]);
+        assert_close(t, times[k], 0.0);
+        assert_ok(audience_frame(&a, whose[k], NULL));
+    }
+    assert_int_equal(audience_due(&a, 7.0, 6.0, &t), -1);   /* beyond what is asked for */
+    assert_int_equal(audience_due(&a, 7.0, 100.0, &t), -1); /* beyond the step */
+    assert_int_equal(audience_due(&a, 8.0, 100.0, &t), 1);
+    expect("f1f2f2f1f2f1f2");
+}
+
+/* 3 * 0.1 is above 0.3 by rounding; the frame is shown where the step reaches as far. */
+static void a_frame_at_the_end_is_not_lost_to_rounding(void **state)
+{
+    audience a = {0};
+    voice v = {'v', DEM_OK};
+    double t;
+    (void)state;
+    join(&a, &v, 0.1);
+    a.members[0].next_frame = 3;
+    assert_true(3 * 0.1 > 0.3);
+    assert_int_equal(audience_due(&a, 0.4, 0.3, &t), 0);
+    assert_close(t, 3 * 0.1, 0.0);
+    assert_int_equal(audience_due(&a, 0.3, 0.3, &t), -1);
+    assert_int_equal(audience_due(&a, 0.4, 0.3 - 1e-9, &t), -1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(at_most_eight_are_admitted),
+        cmocka_unit_test(an_interval_is_finite),
+        cmocka_unit_test(all_are_told_in_the_order_in_which_they_came),
+        cmocka_unit_test(who_has_no_ears_is_left_out),
+        cmocka_unit_test(frames_too_many_to_be_numbered_are_refused),
+        cmocka_unit_test(the_first_complaint_counts),
+        cmocka_unit_test(frames_come_in_the_order_of_time),
+        cmocka_unit_test(a_frame_at_the_end_is_not_lost_to_rounding),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* options.c: what is refused, and what stands for a default. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "simulation/options.h"
+
+static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
+static const boundaries no_boundaries = {0};
+
+/* One node of 2 kg, 1 m above a floor. */
+static dem_model *make_point(const double v[2])
+{
+    const double x[2] = {0.0, 1.0}, mass = 2.0;
+    const dem_obstacle obstacle = {.n_points = 2, .points = floor_points};
+    dem_lattice lattice;
+    dem_model *model;
+    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    support_start(&lattice, NULL, v);
+    assert_ok(dem_model_create(&model, &lattice, &obstacle, 1));
+    dem_lattice_free(&lattice);
+    return model;
+}
+
+static dem_options point_options(void)
+{
+    dem_options options = dem_options_default();
+    options.spacing = 1.0;
+    options.max_step = 0.03;
+    return options;
+}
+
+/* A small rectangle of rubber in flight; `damping` s, `speed` m/s. */
+static dem_model *make_rectangle(double damping, double speed)
+{
+    const dem_material rubber = {.youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .damping_time = damping};
+    dem_lattice lattice;
+    dem_model *model;
+    assert_ok(dem_lattice_rectangle(&lattice, 0.03, 0.04, 0.01));
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    assert_ok(dem_lattice_launch(&lattice, (const double[2]){0.6 * speed, 0.8 * speed}));
+    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    dem_lattice_free(&lattice);
+    return model;
+}
+
+/* ---- validity ---- */
+
+static void refuse(const dem_options *options, const char *message)
+{
+    assert_int_equal(options_check(options), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), message);
+}
+
+static void lengths_times_and_speeds_are_finite_and_not_negative(void **state)
+{
+    static const char *const names[6] = {"spacing", "v_scale", "max_step", "fixed_step", "skin", "rest_speed"};
+    char message[128];
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        dem_options options = point_options();
+        double *const lengths[6] = {&options.spacing,    &options.v_scale, &options.max_step,
+                                    &options.fixed_step, &options.skin,    &options.rest_speed};
+        *lengths[k] = -1.0;
+        (void)snprintf(message, sizeof message, "%s must be >= 0, got -1", names[k]);
+        refuse(&options, message);
+        *lengths[k] = (double)INFINITY;
+        (void)snprintf(message, sizeof message, "%s must be >= 0, got inf", names[k]);
+        refuse(&options, message);
+        *lengths[k] = 0.25;
+        assert_ok(options_check(&options));
+    }
+}
+
+static void options_outside_their_ranges_are_named(void **state)
+{
+    char message[128];
+    (void)state;
+    dem_options options = point_options();
+    assert_ok(options_check(&options));
+    options.struct_size = 3;
+    (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, %zu expected", sizeof options);
+    refuse(&options, message);
+    options = point_options();
+    options.gravity[0] = fabs((double)NAN);
+    refuse(&options, "gravity (nan, -9.81) is not finite");
+    options = point_options();
+    options.rtol = 0.2;
+    refuse(&options, "rtol must be in [1e-13, 0.1], got 0.2");
+    options.rtol = 0.0;
+    refuse(&options, "rtol must be in [1e-13, 0.1], got 0");
+    options.rtol = fabs((double)NAN);
+    refuse(&options, "rtol must be in [1e-13, 0.1], got nan");
+    options = point_options();
+    options.mass_damping = -2.0;
+    refuse(&options, "mass_damping must be >= 0, got -2");
+    options = point_options();
+    options.window = (double)INFINITY;
+    refuse(&options, "window must be finite, got inf");
+    options = point_options();
+    options.max_impacts = 0;
+    refuse(&options, "max_impacts must be >= 1, got 0");
+    options = point_options();
+    options.contact = (dem_contact_method)7;
+    refuse(&options, "unknown contact method 7");
+    options = point_options();
+    options.threads = 0;
+    refuse(&options, "threads must be in [1, 1024], got 0");
+    options.threads = 1025;
+    refuse(&options, "threads must be in [1, 1024], got 1025");
+}
+
+static void refuse_filling(const dem_model *model, dem_options options, const char *message)
+{
+    assert_int_equal(options_fill(&options, model, &no_boundaries), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), message);
+}
+
+static void a_model_without_springs_needs_its_scales(void **state)
+{
+    (void)state;
+    dem_model *model = make_point(NULL);
+    dem_options options = point_options();
+    options.spacing = 0.0;
+    refuse_filling(model, options, "a model without springs needs the option spacing, in m");
+    options = point_options();
+    options.max_step = 0.0;
+    refuse_filling(model, options, "a model without springs needs the option max_step, in s");
+    options = point_options();
+    options.gravity[1] = 0.0;
+    refuse_filling(model, options, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
+    options = point_options();
+    options.method = (dem_method)99;
+    refuse_filling(model, options, "unknown method 99");
+    dem_model_destroy(model);
+}
+
+/* ---- defaults ---- */
+
+static void defaults_come_from_the_model(void **state)
+{
+    (void)state;
+    dem_model *model = make_rectangle(0.0, 4.0);
+    dem_options options = dem_options_default();
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_int_equal(options.struct_size, sizeof options);
+    assert_int_equal(options.method, DEM_METHOD_FEHLBERG45);
+    assert_int_equal(options.contact, DEM_CONTACT_LOCAL);
+    assert_close(options.gravity[0], 0.0, 0.0);
+    assert_close(options.gravity[1], -9.81, 0.0);
+    assert_close(options.rtol, 1e-6, 0.0);
+    assert_close(options.spacing, dem_model_spacing(model), 0.0);
+    assert_close(options.max_step, 0.5 / dem_model_omega_max(model), 0.0);
+    assert_close(options.fixed_step, 0.0, 0.0);
+    assert_close(options.skin, 1e-6 * dem_model_spacing(model), 0.0);
+    assert_close(options.v_scale, 4.0, 1e-14);
+    assert_int_equal(options.max_impacts, 10000);
+    dem_model_destroy(model);
+}
+
+static void what_is_given_counts(void **state)
+{
+    (void)state;
+    dem_model *model = make_rectangle(0.0, 4.0);
+    dem_options options = dem_options_default();
+    options.spacing = 0.125;
+    options.v_scale = 0.25;
+    options.max_step = 3e-5;
+    options.skin = 1e-3;
+    options.rest_speed = 0.1;
+    options.window = 2e-6;
+    const dem_options asked = options;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_memory_equal(&options, &asked, sizeof options);
+    options.fixed_step = 0.01;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.max_step, 0.01, 0.0);
+    dem_model_destroy(model);
+}
+
+/* An eighth of the stability bound where omega_max is known. */
+static void methods_without_error_estimate_take_steps_of_one_length(void **state)
+{
+    static const dem_method methods[3] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3, DEM_METHOD_VERLET};
+    (void)state;
+    dem_model *model = make_rectangle(0.0, 4.0);
+    for (int k = 0; k < 3; k++) {
+        dem_options options = dem_options_default();
+        dem_method_traits traits;
+        options.method = methods[k];
+        assert_ok(dem_method_describe(&traits, options.method));
+        assert_ok(options_fill(&options, model, &no_boundaries));
+        const double step = traits.stable / 8.0 / dem_model_omega_max(model);
+        assert_close(options.fixed_step, step, 1e-15 * step);
+        assert_close(options.max_step, step, 1e-15 * step);
+        options.max_step = 0.01;
+        assert_ok(options_fill(&options, model, &no_boundaries));
+        assert_close(options.fixed_step, step, 1e-15 * step);
+        options.max_step = 0.01;
+        options.fixed_step = 0.0;
+        assert_ok(options_fill(&options, model, &no_boundaries));
+        assert_close(options.fixed_step, 0.01, 0.0);
+    }
+    dem_model_destroy(model);
+}
+
+/* Where damping is faster than the springs it sets the longest step, 1/(2 (rate + mass damping)). */
+static void strong_damping_shortens_the_longest_step(void **state)
+{
+    (void)state;
+    dem_model *model = make_rectangle(1e-2, 4.0);
+    dem_options options = dem_options_default();
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    const double rate = 0.5 / options.max_step;
+    assert_true(rate > 2.0 * dem_model_omega_max(model));
+    options.max_step = 0.0;
+    options.mass_damping = rate;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.max_step, 0.25 / rate, 1e-14 / rate);
+    dem_model_destroy(model);
+}
+
+/* Contacts taken where they happen need no window; the whole body's stops are as long as a tenth of 1/omega_max, or of
+ * twice the longest step. */
+static void the_window_is_for_stops_of_the_whole_body(void **state)
+{
+    (void)state;
+    dem_model *model = make_rectangle(0.0, 4.0);
+    dem_options options = dem_options_default();
+    const double omega = dem_model_omega_max(model);
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.window, 0.0, 0.0);
+    options = dem_options_default();
+    options.contact = DEM_CONTACT_EXACT;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.window, 0.1 / omega, 1e-16 / omega);
+    options = dem_options_default();
+    options.contact = DEM_CONTACT_EXACT;
+    options.max_step = 0.125 / omega;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.window, 0.025 / omega, 1e-16 / omega);
+    dem_model_destroy(model);
+}
+
+/* Without an initial speed: the drop of 1 m to the floor; a body at rest without obstacles: a thousandth of
+ * omega_max a/2; what a boundary drives: its speed. */
+static void the_scale_of_speed_is_the_largest_at_hand(void **state)
+{
+    const double v[2] = {30.0, 40.0};
+    const dem_index first = 0;
+    const dem_boundary driven = {
+        .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &first, .value = {70.0}};
+    boundaries b;
+    (void)state;
+    dem_model *model = make_point(NULL);
+    dem_options options = point_options();
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.v_scale, sqrt(2.0 * 9.81 * 1.0), 1e-15);
+    dem_model_destroy(model);
+    model = make_point(v);
+    options = point_options();
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.v_scale, 50.0, 1e-14);
+    dem_model_destroy(model);
+    model = make_rectangle(0.0, 0.0);
+    options = dem_options_default();
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.v_scale, 1e-3 * 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), 1e-15);
+    options = dem_options_default();
+    assert_ok(boundaries_compile(&b, &driven, 1, dem_model_lattice(model), 0));
+    assert_ok(options_fill(&options, model, &b));
+    assert_close(options.v_scale, 70.0, 0.0);
+    boundaries_free(&b);
+    dem_model_destroy(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lengths_times_and_speeds_are_finite_and_not_negative),
+        cmocka_unit_test(options_outside_their_ranges_are_named),
+        cmocka_unit_test(a_model_without_springs_needs_its_scales),
+        cmocka_unit_test(defaults_come_from_the_model),
+        cmocka_unit_test(what_is_given_counts),
+        cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
+        cmocka_unit_test(strong_damping_shortens_the_longest_step),
+        cmocka_unit_test(the_window_is_for_stops_of_the_whole_body),
+        cmocka_unit_test(the_scale_of_speed_is_the_largest_at_hand),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,536 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* arkode_integrator.c: order of the methods, error control, located roots, restarts, failing derivatives. */
+#include "verification/support.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <gsl/gsl_sf_elljac.h>
+
+#include "base/status.h"
+#include "time/arkode_integrator.h"
+
+static const double g = 9.81;
+
+/* What the callbacks are told. */
+typedef struct world {
+    double fails_after; /* s: derivatives later than this fail ... */
+    int failures_left;  /* ... as often as this */
+    int calls;
+    double floor; /* m: guards are y - floor and floor + 1 - y */
+} world;
+
+static int fail_if_due(world *w, double t)
+{
+    w->calls++;
+    if (!(t > w->fails_after) || w->failures_left == 0) return 0;
+    w->failures_left--;
+    (void)status_fail(DEM_ERROR_INTEGRATOR, "the test's force fails");
+    return 1;
+}
+
+/* Two pendulums, x'' = -sin x in each component. */
+static int swing(double t, const double *y, double *u, double *a, void *context)
+{
+    for (int k = 0; k < 2; k++) {
+        u[k] = y[2 + k];
+        a[k] = -sin(y[k]);
+    }
+    return fail_if_due(context, t);
+}
+
+static int fall(double t, const double *y, double *u, double *a, void *context)
+{
+    u[0] = y[2];
+    u[1] = y[3];
+    a[0] = 0.0;
+    a[1] = -g;
+    return fail_if_due(context, t);
+}
+
+static int rattle(double t, const double *y, double *u, double *a, void *context)
+{
+    const world *w = context;
+    u[0] = y[2];
+    u[1] = y[3];
+    a[0] = a[1] = w->calls % 2 == 0 ? 1e6 : -1e6;
+    return fail_if_due(context, t);
+}
+
+static void heights(double t, const double *y, double *guards, void *context)
+{
+    (void)t;
+    const world *w = context;
+    guards[0] = y[1] - w->floor;
+    guards[1] = w->floor + 1.0 - y[1];
+}
+
+static void broken_heights(double t, const double *y, double *guards, void *context)
+{
+    (void)t;
+    (void)y;
+    (void)context;
+    guards[0] = guards[1] = (double)NAN;
+}
+
+static integrator *make(world *w, int (*derivative)(double, const double *, double *, double *, void *),
+                        dem_method method, double error, double fixed_step, const double *y)
+{
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .derivative = derivative,
+                            .context = w,
+                            .method = method,
+                            .position_error = error,
+                            .velocity_error = error,
+                            .max_step = fixed_step > 0.0 ? fixed_step : 0.1,
+                            .fixed_step = fixed_step};
+    integrator *i;
+    assert_ok(integrator_create(&i, &problem, 0.0, y));
+    return i;
+}
+
+static const double amplitude[2] = {1.0, 2.5};
+static const double at_rest[4] = {1.0, 2.5, 0.0, 0.0};
+
+/* sin(x/2) = k cd(t), k = sin(amplitude/2); x' from its derivative, cd' = -(1 - k^2) sn/dn^2. */
+static void exact_swing(double t, double y[4])
+{
+    for (int c = 0; c < 2; c++) {
+        double sn, cn, dn;
+        const double k = sin(0.5 * amplitude[c]);
+        assert_int_equal(gsl_sf_elljac_e(t, k * k, &sn, &cn, &dn), 0);
+        const double cd = cn / dn;
+        y[c] = 2.0 * asin(k * cd);
+        y[2 + c] = -2.0 * k * (1.0 - k * k) * sn / (dn * dn) / sqrt(1.0 - k * k * cd * cd);
+    }
+}
+
+static double error_against_exact(const double *y, double t)
+{
+    double exact[4], largest = 0.0;
+    exact_swing(t, exact);
+    for (int k = 0; k < 4; k++) largest = fmax(largest, fabs(y[k] - exact[k]));
+    return largest;
+}
+
+/* ---- order and accuracy ---- */
+
+static double error_of_fixed_steps(dem_method method, int n, int evaluations)
+{
+    world w = {.fails_after = 1e9};
+    path p = {0};
+    integrator *i = make(&w, swing, method, 1.0, 6.0 / n, at_rest);
+    for (int k = 0; k < n; k++) {
+        bool rooted;
+        assert_ok(integrator_step(i, &p, &rooted));
+        assert_false(rooted);
+        assert_close(p.t1, 6.0 * (k + 1) / n, 1e-12);
+    }
+    const double error = error_against_exact(p.y1, p.t1);
+    assert_int_equal(integrator_counts(i).steps, n);
+    assert_int_equal(integrator_counts(i).rejected, 0);
+    assert_int_equal(integrator_counts(i).evaluations, n * evaluations + 1);
+    integrator_destroy(i);
+    return error;
+}
+
+/* Slope of the error over a doubling of the steps, which are as many as keep it above rounding. A third lower would be
+ * another order; on this equation some are better than theirs. */
+static void each_method_has_its_order(void **state)
+{
+    static const int steps[10] = {0, 0, 400, 400, 480, 120, 60, 30, 20, 16};
+    (void)state;
+    for (int method = DEM_METHOD_FEHLBERG45; method < DEM_METHOD_VERLET; method++) {
+        dem_method_traits traits;
+        if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) {
+            assert_non_null(strstr(dem_status_message(), "needs SUNDIALS 6.7 or later"));
+            continue;
+        }
+        const int n = steps[traits.order];
+        const double coarse = error_of_fixed_steps((dem_method)method, n, traits.evaluations);
+        const double fine = error_of_fixed_steps((dem_method)method, 2 * n, traits.evaluations);
+        const double order = log2(coarse / fine);
+        if (!(order > traits.order - 0.35 && order < traits.order + 1.35))
+            fail_msg("%s has order %.2f, not %d", traits.name, order, traits.order);
+    }
+}
+
+/* Errors of 1e-10 per step over about 100 steps; none of them may be as coarse as the capped step alone would be. */
+static void adaptive_steps_keep_the_error_they_are_given(void **state)
+{
+    const double errors[2] = {1e-6, 1e-10};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        world w = {.fails_after = 1e9};
+        path p = {0};
+        integrator *i = make(&w, swing, DEM_METHOD_DOPRI45, errors[k], 0.0, at_rest);
+        while (p.t1 < 6.0) {
+            bool rooted;
+            assert_ok(integrator_step(i, &p, &rooted));
+            assert_true(p.t1 - p.t0 <= 0.1 * (1.0 + 1e-15));
+        }
+        assert_true(error_against_exact(p.y1, p.t1) < 200.0 * errors[k]);
+        integrator_destroy(i);
+    }
+}
+
+static int steps_with_errors(double position, double velocity)
+{
+    world w = {.fails_after = 1e9};
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .derivative = swing,
+                            .context = &w,
+                            .position_error = position,
+                            .velocity_error = velocity,
+                            .max_step = 0.1};
+    path p = {0};
+    integrator *i;
+    int n = 0;
+    assert_ok(integrator_create(&i, &problem, 0.0, at_rest));
+    for (; p.t1 < 6.0; n++) {
+        bool rooted;
+        assert_ok(integrator_step(i, &p, &rooted));
+    }
+    integrator_destroy(i);
+    return n;
+}
+
+/* 60 of the longest steps make up 6 s; the first is a tenth of it. */
+static void errors_of_positions_and_of_velocities_both_count(void **state)
+{
+    (void)state;
+    assert_true(steps_with_errors(1.0, 1.0) <= 62);
+    assert_true(steps_with_errors(1e-11, 1.0) > 100);
+    assert_true(steps_with_errors(1.0, 1e-11) > 100);
+}
+
+static void an_unknown_method_is_refused(void **state)
+{
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .derivative = fall,
+                            .method = (dem_method)77,
+                            .position_error = 1.0,
+                            .velocity_error = 1.0,
+                            .max_step = 1.0};
+    integrator *i = NULL;
+    (void)state;
+    assert_int_equal(integrator_create(&i, &problem, 0.0, at_rest), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "unknown method 77");
+    assert_null(i);
+    integrator_destroy(NULL);
+}
+
+/* ---- the path of a step ---- */
+
+/* ARKODE's interpolant gives the derivatives at its ends back to rounding. */
+static void a_path_starts_where_the_last_one_ended_and_holds_the_derivatives(void **state)
+{
+    world w = {.fails_after = 1e9};
+    path p;
+    double t = 0.0, y[4], f[4];
+    (void)state;
+    memcpy(y, at_rest, sizeof y);
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    for (int k = 0; k < 30; k++) {
+        bool rooted;
+        assert_ok(integrator_step(i, &p, &rooted));
+        assert_int_equal(p.n_nodes, 1);
+        assert_close(p.t0, t, 0.0);
+        assert_true(p.t1 > t && p.end == p.t1);
+        assert_memory_equal(p.y0, y, sizeof y);
+        (void)swing(p.t0, p.y0, f, f + 2, &w);
+        for (int q = 0; q < 4; q++) assert_close(p.f0[q], f[q], 1e-15);
+        (void)swing(p.t1, p.y1, f, f + 2, &w);
+        for (int q = 0; q < 4; q++) assert_close(p.f1[q], f[q], 1e-15);
+        t = p.t1;
+        memcpy(y, p.y1, sizeof y);
+    }
+    integrator_destroy(i);
+}
+
+static void after_a_restart_the_path_has_the_derivatives_of_the_new_state(void **state)
+{
+    const double elsewhere[4] = {0.3, -0.7, 1.5, 2.5};
+    world w = {.fails_after = 1e9};
+    path p;
+    double f[4];
+    bool rooted;
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    for (int k = 0; k < 3; k++) assert_ok(integrator_step(i, &p, &rooted));
+    assert_ok(integrator_restart(i, p.t1, elsewhere));
+    assert_ok(integrator_step(i, &p, &rooted));
+    (void)swing(p.t0, elsewhere, f, f + 2, &w);
+    assert_memory_equal(p.y0, elsewhere, sizeof elsewhere);
+    for (int q = 0; q < 4; q++) assert_close(p.f0[q], f[q], 1e-13);
+    integrator_destroy(i);
+}
+
+static void evaluations_are_counted(void **state)
+{
+    world w = {.fails_after = 1e9};
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    for (int k = 0; k < 10; k++) {
+        path p;
+        bool rooted;
+        assert_ok(integrator_step(i, &p, &rooted));
+    }
+    assert_true(w.calls >= 60); /* six stages */
+    assert_int_equal(integrator_counts(i).evaluations, w.calls);
+    assert_int_equal(integrator_counts(i).steps, 10);
+    assert_int_equal(integrator_counts(i).retries, 0);
+    integrator_destroy(i);
+}
+
+/* ---- roots ---- */
+
+static integrator *make_fall(world *w, const double *y)
+{
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .n_guards = 2,
+                            .derivative = fall,
+                            .guards = heights,
+                            .context = w,
+                            .method = DEM_METHOD_FEHLBERG45,
+                            .position_error = 1e-12,
+                            .velocity_error = 1e-12,
+                            .max_step = 0.1};
+    integrator *i;
+    assert_ok(integrator_create(&i, &problem, 0.0, y));
+    return i;
+}
+
+static void step_to_root(integrator *i, path *p)
+{
+    bool rooted = false;
+    for (int k = 0; k < 1000 && !rooted; k++) {
+        assert_ok(integrator_step(i, p, &rooted));
+        if (!rooted) assert_true(p->end == p->t1);
+    }
+    assert_true(rooted);
+    assert_true(p->t0 < p->end && p->end <= p->t1);
+}
+
+/* From 0.9 m to a floor at 0.2 m, with time and place to 1e-12: ARKODE's 100 units of rounding of the time, and
+ * rounding of the motion. */
+static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
+{
+    const double y[4] = {0.0, 0.9, 1.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
+    world w = {.fails_after = 1e9, .floor = 0.2};
+    path p;
+    (void)state;
+    integrator *i = make_fall(&w, y);
+    step_to_root(i, &p);
+    assert_close(p.end, t, 1e-12);
+    assert_close(path_position(&p, p.end, 0).y, 0.2, 1e-12);
+    assert_close(path_velocity(&p, p.end, 0).y, -g * t, 1e-12);
+    integrator_destroy(i);
+}
+
+/* Starts below the floor and rises through it, which is no root; then the ceiling is one, from below, where its
+ * guard falls. */
+static void a_guard_is_looked_for_only_as_it_falls(void **state)
+{
+    const double y[4] = {0.0, -0.5, 0.0, 10.0};
+    world w = {.fails_after = 1e9, .floor = 0.0};
+    path p;
+    (void)state;
+    integrator *i = make_fall(&w, y);
+    step_to_root(i, &p);
+    assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-12);
+    integrator_destroy(i);
+}
+
+/* Reflected at the floor it comes down again after 2 v/g; the skin of 1e-9 m below the restart makes the guard
+ * positive there. The first step after the restart is as long as before. */
+static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state)
+{
+    const double y[4] = {0.0, 0.5, 1.0, 0.0}, skin = 1e-9, u = sqrt(2.0 * g * 0.5);
+    world w = {.fails_after = 1e9, .floor = -skin};
+    double reflected[4];
+    path p;
+    bool rooted;
+    (void)state;
+    integrator *i = make_fall(&w, y);
+    step_to_root(i, &p);
+    const double first = p.end;
+    path_state(&p, p.end, reflected);
+    reflected[1] = 0.0;
+    reflected[3] = u;
+    assert_ok(integrator_restart(i, first, reflected));
+    assert_ok(integrator_step(i, &p, &rooted));
+    assert_close(p.t0, first, 0.0);
+    assert_memory_equal(p.y0, reflected, sizeof reflected);
+    assert_close(p.t1 - p.t0, 0.1, 1e-15);
+    step_to_root(i, &p);
+    assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * skin)) / g, 1e-12);
+    assert_close(path_position(&p, p.end, 0).x, p.end, 1e-12);
+    integrator_destroy(i);
+}
+
+/* A path that ended at a root is gone on from to its end where nobody restarts. */
+static void without_a_restart_it_goes_on_through_a_root(void **state)
+{
+    const double y[4] = {0.0, 0.5, 1.0, 0.0};
+    world w = {.fails_after = 1e9, .floor = 0.0};
+    path p;
+    bool rooted;
+    (void)state;
+    integrator *i = make_fall(&w, y);
+    step_to_root(i, &p);
+    const double t1 = p.t1;
+    assert_ok(integrator_step(i, &p, &rooted));
+    assert_close(p.t0, t1, 0.0);
+    assert_close(p.y1[1], 0.5 - 0.5 * g * p.t1 * p.t1, 1e-12);
+    integrator_destroy(i);
+}
+
+/* ---- failures ---- */
+
+static void a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state(void **state)
+{
+    world w = {.fails_after = 0.25, .failures_left = -1};
+    path p = {0};
+    bool rooted;
+    dem_status status = DEM_OK;
+    double last = 0.0;
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.0, at_rest);
+    for (int k = 0; k < 1000 && status == DEM_OK; k++) {
+        last = p.t1;
+        status = integrator_step(i, &p, &rooted);
+    }
+    assert_int_equal(status, DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "the test's force fails");
+    assert_true(last > 0.2499 && last <= 0.25); /* tenths of the step lead up to it */
+    assert_true(integrator_counts(i).retries >= 10);
+    w.failures_left = 0; /* the state is still in force */
+    assert_ok(integrator_step(i, &p, &rooted));
+    assert_close(p.t0, last, 0.0);
+    assert_true(error_against_exact(p.y1, p.t1) < 1e-5);
+    integrator_destroy(i);
+}
+
+static void a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps(void **state)
+{
+    world w = {.fails_after = 0.25, .failures_left = 3};
+    path p = {0};
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    while (p.t1 < 1.0) {
+        bool rooted;
+        assert_ok(integrator_step(i, &p, &rooted));
+    }
+    assert_int_equal(w.failures_left, 0);
+    assert_int_equal(integrator_counts(i).retries, 3);
+    assert_true(error_against_exact(p.y1, p.t1) < 1e-6);
+    integrator_destroy(i);
+}
+
+static void fixed_steps_are_not_tried_again(void **state)
+{
+    world w = {.fails_after = 0.25, .failures_left = 1};
+    path p = {0};
+    bool rooted;
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.1, at_rest);
+    assert_ok(integrator_step(i, &p, &rooted));
+    assert_ok(integrator_step(i, &p, &rooted));
+    assert_int_equal(integrator_step(i, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "the test's force fails");
+    assert_int_equal(integrator_counts(i).retries, 0);
+    integrator_destroy(i);
+}
+
+static void a_tolerance_out_of_reach_is_told(void **state)
+{
+    world w = {.fails_after = 1e9};
+    path p;
+    bool rooted;
+    (void)state;
+    integrator *i = make(&w, rattle, DEM_METHOD_FEHLBERG45, 1e-12, 0.0, at_rest);
+    assert_int_equal(integrator_step(i, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "the step from t = 0 s fails: no step is short enough for rtol");
+    assert_true(integrator_counts(i).rejected > 0);
+    integrator_destroy(i);
+}
+
+static void a_tolerance_below_rounding_is_told(void **state)
+{
+    world w = {.fails_after = 1e9};
+    path p;
+    bool rooted;
+    (void)state;
+    integrator *i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-17, 0.0, at_rest);
+    assert_int_equal(integrator_step(i, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "the step from t = 0 s fails: rounding alone is more than rtol allows");
+    integrator_destroy(i);
+}
+
+static void guards_that_are_no_numbers_are_an_error(void **state)
+{
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .n_guards = 2,
+                            .derivative = fall,
+                            .guards = broken_heights,
+                            .method = DEM_METHOD_FEHLBERG45,
+                            .position_error = 1e-12,
+                            .velocity_error = 1e-12,
+                            .max_step = 0.1};
+    world w = {.fails_after = 1e9};
+    motion with_world = problem;
+    path p;
+    bool rooted;
+    integrator *i;
+    (void)state;
+    with_world.context = &w;
+    assert_ok(integrator_create(&i, &with_world, 0.0, at_rest));
+    assert_int_equal(integrator_step(i, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "the step from t = 0 s fails: a guard is not finite");
+    integrator_destroy(i);
+}
+
+static void the_version_of_sundials_has_three_numbers(void **state)
+{
+    int number[3] = {-1, -1, -1}, length = 0;
+    (void)state;
+    assert_int_equal(sscanf(dem_version_sundials(), "%d.%d.%d%n", &number[0], &number[1], &number[2], &length), 3);
+    assert_true(number[0] >= 6 && number[1] >= 0 && number[2] >= 0 && length >= 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_method_has_its_order),
+        cmocka_unit_test(adaptive_steps_keep_the_error_they_are_given),
+        cmocka_unit_test(errors_of_positions_and_of_velocities_both_count),
+        cmocka_unit_test(an_unknown_method_is_refused),
+        cmocka_unit_test(a_path_starts_where_the_last_one_ended_and_holds_the_derivatives),
+        cmocka_unit_test(after_a_restart_the_path_has_the_derivatives_of_the_new_state),
+        cmocka_unit_test(evaluations_are_counted),
+        cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
+        cmocka_unit_test(a_guard_is_looked_for_only_as_it_falls),
+        cmocka_unit_test(a_restart_goes_on_from_the_new_state_with_the_step_kept),
+        cmocka_unit_test(without_a_restart_it_goes_on_through_a_root),
+        cmocka_unit_test(a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state),
+        cmocka_unit_test(a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps),
+        cmocka_unit_test(fixed_steps_are_not_tried_again),
+        cmocka_unit_test(a_tolerance_out_of_reach_is_told),
+        cmocka_unit_test(a_tolerance_below_rounding_is_told),
+        cmocka_unit_test(guards_that_are_no_numbers_are_an_error),
+        cmocka_unit_test(the_version_of_sundials_has_three_numbers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* butcher.c: names, tables that end with the solution, stability on the imaginary axis in closed form. */
+#include "verification/support.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "time/butcher.h"
+
+static void every_method_has_a_name_by_which_it_is_found(void **state)
+{
+    dem_method found;
+    (void)state;
+    for (int k = 0; k <= DEM_METHOD_VERLET; k++) {
+        dem_method_traits traits;
+        if (dem_method_describe(&traits, (dem_method)k) != DEM_OK) continue;
+        assert_ok(dem_method_find(&found, traits.name));
+        assert_int_equal(found, k);
+    }
+    assert_ok(dem_method_find(&found, "verner89"));
+    assert_int_equal(found, DEM_METHOD_VERNER89);
+    assert_int_equal(dem_method_find(&found, "euler"), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "no method is called 'euler'");
+}
+
+static void what_is_not_there_is_refused_with_the_reason(void **state)
+{
+    dem_method_traits traits;
+    method_table table;
+    int number[2] = {0, 0};
+    (void)state;
+    assert_int_equal(dem_method_describe(&traits, (dem_method)20), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "unknown method 20");
+    assert_int_equal(method_load(&table, (dem_method)-1), DEM_ERROR_ARGUMENT);
+    assert_int_equal(method_load(&table, DEM_METHOD_VERLET), DEM_ERROR_ARGUMENT);
+    assert_int_equal(sscanf(dem_version_sundials(), "%d.%d", &number[0], &number[1]), 2);
+    const bool old = 100 * number[0] + number[1] < 607;
+    for (int k = DEM_METHOD_VERNER67; k <= DEM_METHOD_VERNER89; k++) {
+        assert_int_equal(dem_method_describe(&traits, (dem_method)k), old ? DEM_ERROR_ARGUMENT : DEM_OK);
+        if (old) assert_non_null(strstr(dem_status_message(), "' needs SUNDIALS 6.7 or later, this is 6."));
+        assert_true(isnan(dem_method_growth((dem_method)k, 0.5)) == old);
+    }
+}
+
+/* A last stage at the end of the step is the solution; the stages before are consistent, c_i = sum of a_ij; the weights
+ * are those of a quadrature that is exact for a linear rate. */
+static void a_last_stage_at_the_end_of_the_step_is_the_solution(void **state)
+{
+    (void)state;
+    for (int k = 0; k < DEM_METHOD_VERLET; k++) {
+        method_table t;
+        double sum = 0.0, moment = 0.0;
+        if (method_load(&t, (dem_method)k) != DEM_OK) continue;
+        for (int i = 0; i < t.stages; i++) {
+            double row = 0.0;
+            for (int j = 0; j < t.stages; j++) row += t.a[i * t.stages + j];
+            assert_close(row, t.c[i], 1e-12);
+            sum += t.b[i];
+            moment += t.b[i] * t.c[i];
+        }
+        assert_close(sum, 1.0, 1e-12);
+        assert_close(moment, 0.5, 1e-12);
+        for (int j = 0; j < t.stages && t.c[t.stages - 1] == 1.0; j++)
+            assert_close(t.a[(t.stages - 1) * t.stages + j], t.b[j], 1e-14);
+    }
+}
+
+/* R(z) of s = p stages is the exponential series: |R|^2 = 1 - z^4/12 + z^6/36 for p = 3, 1 - z^6/72 + z^8/576 for 4. */
+static void growth_is_that_of_the_stability_polynomials(void **state)
+{
+    static const double z[] = {0.1, 0.5, 1.0, 2.0, 2.8, 3.0};
+    (void)state;
+    for (size_t k = 0; k < sizeof z / sizeof *z; k++) {
+        const double z2 = z[k] * z[k], z6 = z2 * z2 * z2;
+        assert_close(dem_method_growth(DEM_METHOD_BS23, z[k]), sqrt(1.0 - z2 * z2 / 12.0 + z6 / 36.0), 1e-13);
+        assert_close(dem_method_growth(DEM_METHOD_RK4, z[k]), sqrt(1.0 - z6 / 72.0 + z6 * z2 / 576.0), 1e-13);
+    }
+    assert_close(dem_method_growth(DEM_METHOD_VERLET, 2.0), 1.0, 0.0);
+    const double grown = dem_method_growth(DEM_METHOD_VERLET, 2.4); /* l + 1/l = z^2 - 2 */
+    assert_close(grown + 1.0 / grown, 2.4 * 2.4 - 2.0, 1e-13);
+}
+
+/* To the thousandth that is searched. Fehlberg's grows by 9.1e-4 z^6 from the start, Dormand and Prince's is damped up
+ * to 0.997. */
+static void the_stability_bounds_are_those_known(void **state)
+{
+    static const struct {
+        dem_method method;
+        double stable, usable;
+    } known[] = {{DEM_METHOD_FEHLBERG45, 0.0, 1.09}, {DEM_METHOD_DOPRI45, 0.997, 1.334},
+                 {DEM_METHOD_CASHKARP45, 0.0, 1.25}, {DEM_METHOD_ZONNEVELD34, 2.8284, 2.829},
+                 {DEM_METHOD_BS23, 1.7320, 1.734},   {DEM_METHOD_RK4, 2.8284, 2.829},
+                 {DEM_METHOD_VERLET, 2.0, 2.0}};
+    (void)state;
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        dem_method_traits traits;
+        assert_ok(dem_method_describe(&traits, known[k].method));
+        assert_close(traits.stable, known[k].stable, 1.1e-3);
+        assert_close(traits.usable, known[k].usable, 1.1e-3);
+    }
+    assert_close(dem_method_growth(DEM_METHOD_FEHLBERG45, 0.1) - 1.0, 9.1e-10, 0.1e-10);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_has_a_name_by_which_it_is_found),
+        cmocka_unit_test(what_is_not_there_is_refused_with_the_reason),
+        cmocka_unit_test(a_last_stage_at_the_end_of_the_step_is_the_solution),
+        cmocka_unit_test(growth_is_that_of_the_stability_polynomials),
+        cmocka_unit_test(the_stability_bounds_are_those_known),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* integrator.c: whichever method takes the steps, a ball bounces at the times of free fall, in which all are exact. */
+#include "verification/support.h"
+
+#include "time/integrator.h"
+
+static const double g = 9.81, skin = 1e-10;
+
+static int fall(double t, const double *y, double *u, double *a, void *context)
+{
+    int *calls = context;
+    (void)t;
+    (*calls)++;
+    for (int c = 0; c < 2 && u != NULL; c++) u[c] = y[2 + c];
+    a[0] = 0.0;
+    a[1] = -g;
+    return 0;
+}
+
+static void height(double t, const double *y, double *guard, void *context)
+{
+    (void)t;
+    (void)context;
+    guard[0] = y[1] + skin;
+}
+
+static void every_method_finds_the_bounces_of_a_ball(void **state)
+{
+    const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
+    (void)state;
+    for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
+        dem_method_traits traits;
+        if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
+        int calls = 0, bounces = 0;
+        const motion problem = {.n_nodes = 1,
+                                .bulk = &bulk_portable,
+                                .n_threads = 1,
+                                .n_guards = 1,
+                                .derivative = fall,
+                                .guards = height,
+                                .context = &calls,
+                                .method = (dem_method)method,
+                                .position_error = 1.0,
+                                .velocity_error = 1.0,
+                                .max_step = 0.05,
+                                .fixed_step = traits.adaptive ? 0.0 : 0.05};
+        engine e;
+        path p = {0};
+        assert_ok(engine_create(&e, &problem, 0.0, y0));
+        for (; bounces < 4;) {
+            bool rooted;
+            double y[4];
+            assert_ok(engine_step(&e, &p, &rooted));
+            if (!rooted) continue;
+            assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9); /* what the skin delays */
+            path_state(&p, p.end, y);
+            assert_close(y[0], p.end, 1e-12);
+            y[1] = 0.0;
+            y[3] = -y[3];
+            assert_ok(engine_restart(&e, p.end, y));
+        }
+        const dem_counts counts = engine_counts(&e);
+        assert_int_equal(counts.evaluations, calls);
+        assert_true(counts.steps >= (dem_index)(p.end / 0.05));
+        engine_destroy(&e);
+    }
+}
+
+/* Settled after each step and reflected where the state is; after a root nobody has to change anything. */
+static void steps_are_settled_and_states_changed_where_they_are(void **state)
+{
+    const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
+    const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
+    (void)state;
+    for (int m = 0; m < 2; m++) {
+        int calls = 0, bounces = 0;
+        const motion problem = {.n_nodes = 1,
+                                .bulk = &bulk_portable,
+                                .n_threads = 1,
+                                .n_guards = 1,
+                                .derivative = fall,
+                                .guards = height,
+                                .context = &calls,
+                                .method = methods[m],
+                                .position_error = 1.0,
+                                .velocity_error = 1.0,
+                                .max_step = 0.05,
+                                .fixed_step = m == 0 ? 0.0 : 0.05};
+        engine e;
+        path p = {0};
+        double end[4];
+        assert_ok(engine_create(&e, &problem, 0.0, y0));
+        assert_memory_equal(engine_state(&e), y0, sizeof y0);
+        while (bounces < 4) {
+            bool rooted;
+            assert_ok(engine_step(&e, &p, &rooted));
+            if (bounces > 0 || rooted) assert_true(p.t0 < p.t1);
+            path_state(&p, p.end, end);
+            engine_settle(&e, &p);
+            double *y = engine_state(&e);
+            assert_memory_equal(y, end, sizeof end);
+            if (!rooted) continue;
+            assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9);
+            y[1] = 0.0;
+            y[3] = -y[3];
+            assert_ok(engine_restart(&e, p.end, y));
+            assert_memory_equal(engine_state(&e), ((double[4]){end[0], 0.0, end[2], -end[3]}), sizeof end);
+        }
+        assert_ok(engine_restart(&e, p.end, y0));
+        assert_memory_equal(engine_state(&e), y0, sizeof y0);
+        bool rooted = false;
+        while (!rooted) {
+            assert_ok(engine_step(&e, &p, &rooted));
+            engine_settle(&e, &p);
+        }
+        const double root = p.end;
+        assert_ok(engine_step(&e, &p, &rooted)); /* goes on below the floor, from the root */
+        assert_false(rooted);
+        assert_close(p.t0, root, 0.0);
+        assert_true(p.y0[1] <= 0.0 && p.y1[1] < p.y0[1]);
+        engine_destroy(&e);
+    }
+}
+
+static void what_cannot_be_made_is_told(void **state)
+{
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .derivative = fall,
+                            .max_step = 1.0,
+                            .method = (dem_method)99};
+    const double y0[4] = {0.0};
+    engine e;
+    (void)state;
+    assert_int_equal(engine_create(&e, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
+    engine_destroy(&e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_finds_the_bounces_of_a_ball),
+        cmocka_unit_test(steps_are_settled_and_states_changed_where_they_are),
+        cmocka_unit_test(what_cannot_be_made_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

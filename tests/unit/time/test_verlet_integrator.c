@@ -1,0 +1,462 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* verlet_integrator.c: order, reversibility, stability with and without damping, roots on its own path, prescribed
+ * velocities. */
+#include "verification/support.h"
+
+#include <string.h>
+
+#include "base/status.h"
+#include "time/verlet_integrator.h"
+
+static const double g = 9.81;
+
+/* x'' = -omega^2 sin x - gamma v in the first component; y falls freely. The same answer for any number of calls. */
+typedef struct world {
+    double omega, gamma;
+    double floor;         /* m: guards are y - floor, and floor + 1 - y */
+    double fails_after;   /* s */
+    double pulled;        /* m/s: velocity of x as prescribed, or NAN */
+    double stiff_below;   /* m: the stiffening is 3 where x is below */
+    int calls, n_guarded; /* of derivative and of guards */
+} world;
+
+static const world plain = {.omega = 1.0, .fails_after = 1e9, .pulled = (double)NAN, .stiff_below = -1e9};
+
+static int move(double t, const double *y, double *u, double *a, void *context)
+{
+    world *w = context;
+    w->calls++;
+    assert_true(isnan(w->pulled) == (u == NULL)); /* wanted only if something is prescribed */
+    if (u != NULL) {
+        u[0] = w->pulled;
+        u[1] = y[3];
+    }
+    a[0] = isnan(w->pulled) ? -w->omega * w->omega * sin(y[0]) - w->gamma * y[2] : 0.0;
+    a[1] = -g;
+    if (!(t > w->fails_after)) return 0;
+    (void)status_fail(DEM_ERROR_INTEGRATOR, "the test's force fails");
+    return 1;
+}
+
+static void heights(double t, const double *y, double *guards, void *context)
+{
+    world *w = context;
+    (void)t;
+    w->n_guarded++;
+    guards[0] = y[1] - w->floor;
+    guards[1] = w->floor + 1.0 - y[1];
+}
+
+static double stiffening(const double *y, void *context)
+{
+    const world *w = context;
+    return y[0] < w->stiff_below ? 3.0 : 1.0;
+}
+
+static verlet *make(world *w, double h, dem_index n_guards, const double *y)
+{
+    const motion problem = {.n_nodes = 1,
+                            .bulk = &bulk_portable,
+                            .n_threads = 1,
+                            .n_guards = n_guards,
+                            .prescribes = !isnan(w->pulled),
+                            .derivative = move,
+                            .guards = heights,
+                            .stiffening = stiffening,
+                            .context = w,
+                            .method = DEM_METHOD_VERLET,
+                            .max_step = h,
+                            .fixed_step = h};
+    verlet *V;
+    assert_ok(verlet_create(&V, &problem, 0.0, y));
+    return V;
+}
+
+static path take(verlet *V, int n)
+{
+    path p = {0};
+    for (int k = 0; k < n; k++) {
+        bool rooted;
+        assert_ok(verlet_step(V, &p, &rooted));
+        assert_false(rooted);
+    }
+    return p;
+}
+
+/* State after n steps of h. */
+static void run(world w, double h, int n, const double *y0, double *y)
+{
+    verlet *V = make(&w, h, 0, y0);
+    const path p = take(V, n);
+    memcpy(y, p.y1, 4 * sizeof *y);
+    assert_int_equal(w.calls, n + 1);
+    assert_int_equal(w.n_guarded, 0);
+    assert_int_equal(verlet_counts(V).evaluations, n + 1);
+    assert_int_equal(verlet_counts(V).steps, n);
+    verlet_destroy(V);
+}
+
+/* ---- the step ---- */
+
+/* x1 = x0 + h v0 + h^2/2 a0, v1 = v0 + h (a0 + a1)/2. */
+static void a_step_is_a_kick_a_drift_and_a_kick(void **state)
+{
+    const double y0[4] = {0.4, 1.0, -0.3, 2.0}, h = 0.2, a0 = -sin(0.4);
+    double y[4];
+    (void)state;
+    run(plain, h, 1, y0, y);
+    assert_close(y[0], 0.4 - 0.3 * h + 0.5 * h * h * a0, 1e-16);
+    assert_close(y[2], -0.3 + 0.5 * h * (a0 - sin(y[0])), 1e-16);
+    assert_close(y[1], 1.0 + 2.0 * h - 0.5 * g * h * h, 1e-15);
+    assert_close(y[3], 2.0 - g * h, 1e-15);
+}
+
+/* ---- steps in one pass ---- */
+
+/* A book beside the node: its rate is the node's height. */
+static int move_with_book(double t, const double *y, double *u, double *a, void *context)
+{
+    const double node[4] = {y[0], y[1], y[4], y[5]};
+    a[2] = y[1];
+    a[3] = 1.0;
+    return move(t, node, u, a, context);
+}
+
+/* From every other state; `v1` and `f1` of the book are left to the engine and to the rates. */
+static int leap_from_above(const motion_leap *s, void *context)
+{
+    const double h = s->h;
+    double y1[4];
+    if (s->y0[1] < 0.0) return -1;
+    for (int c = 0; c < 2; c++) {
+        const double half = s->y0[4 + c] + 0.5 * h * s->f0[4 + c];
+        s->y1[c] = y1[c] = s->y0[c] + h * half;
+        y1[2 + c] = half + 0.5 * h * s->f0[4 + c];
+    }
+    const int flag = move(s->t1, y1, NULL, s->f1 + 4, context);
+    for (int c = 0; c < 2; c++) s->y1[4 + c] = y1[2 + c] + 0.5 * h * (s->f1[4 + c] - s->f0[4 + c]);
+    s->f1[6] = s->y1[1];
+    s->f1[7] = 1.0;
+    return flag;
+}
+
+static void a_step_in_one_pass_is_that_in_parts(void **state)
+{
+    const double start[8] = {0.4, 1.0, 7.0, -7.0, -0.3, 2.0, 3.0, 5.0}, h = 0.05;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        world worlds[2] = {plain, plain};
+        path p[2];
+        verlet *V[2];
+        if (k == 1) worlds[0].fails_after = worlds[1].fails_after = 7.5 * h;
+        for (int leaps = 0; leaps < 2; leaps++) {
+            const motion problem = {.n_nodes = 2,
+                                    .n_books = 1,
+                                    .bulk = &bulk_portable,
+                                    .n_threads = 1,
+                                    .derivative = move_with_book,
+                                    .leap = leaps ? leap_from_above : NULL,
+                                    .context = &worlds[leaps],
+                                    .fixed_step = h};
+            assert_ok(verlet_create(&V[leaps], &problem, 0.0, start));
+            bool rooted;
+            for (int step = 0; step < (k == 0 ? 40 : 7); step++) assert_ok(verlet_step(V[leaps], &p[leaps], &rooted));
+            if (k == 1) assert_int_equal(verlet_step(V[leaps], &p[leaps], &rooted), DEM_ERROR_INTEGRATOR);
+        }
+        if (k == 0) assert_memory_equal(p[0].y1, p[1].y1, sizeof start);
+        if (k == 0) assert_true(p[0].y1[1] < 0.0); /* both ways have been gone */
+        assert_int_equal(worlds[0].calls, worlds[1].calls);
+        const dem_counts a = verlet_counts(V[0]), b = verlet_counts(V[1]);
+        assert_memory_equal(&a, &b, sizeof a);
+        verlet_destroy(V[0]);
+        verlet_destroy(V[1]);
+    }
+}
+
+/* ---- its laws ---- */
+
+/* With damping too, whose velocity is extrapolated: halving the step quarters the difference, to what the next order
+ * adds. */
+static void the_order_is_two_with_forces_of_any_kind(void **state)
+{
+    const double y0[4] = {1.0, 0.0, 0.5, 0.0};
+    (void)state;
+    for (int damped = 0; damped < 2; damped++) {
+        world w = plain;
+        double y[3][4];
+        w.gamma = 0.7 * damped;
+        for (int k = 0; k < 3; k++) run(w, 0.01 / (1 << k), 500 << k, y0, y[k]);
+        for (int c = 0; c < 3; c += 2) assert_close((y[0][c] - y[1][c]) / (y[1][c] - y[2][c]), 4.0, 0.15);
+    }
+}
+
+/* Back to the start, but for rounding, when the velocity is turned round: that is what keeps the energy. */
+static void it_runs_backwards(void **state)
+{
+    const double y0[4] = {1.0, 0.0, 0.5, 3.0};
+    double y[4], back[4];
+    (void)state;
+    run(plain, 0.3, 1000, y0, y);
+    const double turned[4] = {y[0], y[1], -y[2], -y[3]};
+    run(plain, 0.3, 1000, turned, back);
+    assert_close(back[0], y0[0], 1e-10);
+    assert_close(back[2], -y0[2], 1e-10);
+}
+
+static double amplitude(double omega, double gamma, double h)
+{
+    const double y0[4] = {1e-9, 0.0, 0.0, 0.0};
+    world w = plain;
+    double y[4];
+    w.omega = omega;
+    w.gamma = gamma;
+    run(w, h, 4000, y0, y);
+    return fmax(fabs(y[0]), fabs(y[2])) / 1e-9;
+}
+
+/* Stable up to (omega h)^2 = 4 (1 - gamma h). */
+static void the_stability_bound_is_that_of_the_characteristic_equation(void **state)
+{
+    static const double damping[4] = {0.0, 0.1, 0.5, 0.9};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const double bound = 2.0 * sqrt(1.0 - damping[k]);
+        assert_true(amplitude(0.99 * bound, damping[k], 1.0) < 100.0);
+        assert_true(amplitude(1.01 * bound, damping[k], 1.0) > 1e3);
+    }
+}
+
+/* The step is halved twice for a stiffening of 3, and is whole again after. */
+static void stiffening_halves_the_step(void **state)
+{
+    const double y0[4] = {0.9, 0.0, -1.0, 0.0};
+    world w = plain;
+    path p = {0};
+    (void)state;
+    w.stiff_below = 0.5;
+    w.omega = 3.0;
+    verlet *V = make(&w, 0.1, 0, y0);
+    int n_short = 0, n_long = 0;
+    for (int k = 0; k < 100; k++) {
+        bool rooted;
+        assert_ok(verlet_step(V, &p, &rooted));
+        assert_close(p.t1 - p.t0, p.y0[0] < 0.5 ? 0.025 : 0.1, 1e-14);
+        *(p.y0[0] < 0.5 ? &n_short : &n_long) += 1;
+    }
+    assert_true(n_short > 10 && n_long > 10);
+    verlet_destroy(V);
+}
+
+static double endless(const double *y, void *context)
+{
+    (void)y;
+    (void)context;
+    return (double)INFINITY;
+}
+
+static void no_stiffening_stops_the_time(void **state)
+{
+    const motion problem = {.fixed_step = 0.1, .stiffening = endless};
+    (void)state;
+    assert_true(motion_fixed_step(&problem, NULL) > 1e-12);
+}
+
+/* What the derivative gives in place of a velocity is taken over, at rest or not. */
+static void prescribed_velocities_are_taken_over(void **state)
+{
+    const double y0[4] = {0.0, 0.0, 0.25, 0.0};
+    double y[4];
+    world w = plain;
+    (void)state;
+    w.pulled = 0.5;
+    run(w, 0.1, 10, y0, y);
+    assert_close(y[2], 0.5, 0.0);
+    assert_close(y[0], 0.1 * 0.25 + 0.9 * 0.5, 1e-15); /* the first step starts from what the caller gave */
+}
+
+/* ---- its path ---- */
+
+/* Up to any time within a step it is where a step of that length would go; its velocity there differs in the third
+ * order. */
+static void the_path_of_a_step_is_that_of_shorter_steps(void **state)
+{
+    const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
+    world w = plain;
+    (void)state;
+    verlet *V = make(&w, h, 0, y0);
+    const path p = take(V, 1);
+    for (int k = 0; k <= 10; k++) {
+        double y[4], on_path[4];
+        run(plain, fmax(h * k / 10.0, 1e-300), 1, y0, y);
+        path_state(&p, h * k / 10.0, on_path);
+        for (int c = 0; c < 4; c++) assert_close(on_path[c], y[c], c == 2 ? 0.1 * h * h * h : 1e-15);
+    }
+    verlet_destroy(V);
+}
+
+static void a_path_starts_where_the_last_one_ended(void **state)
+{
+    const double y0[4] = {1.0, 2.0, 0.5, 3.0};
+    world w = plain;
+    double t = 0.0, y[4], a[2];
+    (void)state;
+    memcpy(y, y0, sizeof y);
+    verlet *V = make(&w, 0.1, 2, y0);
+    w.floor = -1e3;
+    for (int k = 0; k < 20; k++) {
+        path p;
+        bool rooted;
+        assert_ok(verlet_step(V, &p, &rooted));
+        assert_close(p.t0, t, 0.0);
+        assert_memory_equal(p.y0, y, sizeof y);
+        (void)move(p.t1, p.y1, NULL, a, &w);
+        for (int c = 0; c < 2; c++) assert_close(p.f1[2 + c], a[c], 1e-15);
+        t = p.t1;
+        memcpy(y, p.y1, sizeof y);
+    }
+    verlet_destroy(V);
+}
+
+/* ---- roots ---- */
+
+static void step_to_root(verlet *V, path *p)
+{
+    bool rooted = false;
+    for (int k = 0; k < 1000 && !rooted; k++) {
+        assert_ok(verlet_step(V, p, &rooted));
+        if (!rooted) assert_true(p->end == p->t1);
+    }
+    assert_true(rooted);
+    assert_true(p->t0 < p->end && p->end <= p->t1);
+}
+
+/* Free fall is a parabola, so that time and place are exact to the 100 units of rounding to which roots are found. */
+static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
+{
+    const double y0[4] = {0.0, 0.9, 0.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
+    world w = plain;
+    path p;
+    (void)state;
+    w.floor = 0.2;
+    verlet *V = make(&w, 0.1, 2, y0);
+    step_to_root(V, &p);
+    assert_close(p.end, t, 1e-13);
+    assert_close(path_position(&p, p.end, 0).y, 0.2, 1e-12);
+    assert_close(path_velocity(&p, p.end, 0).y, -g * t, 1e-12);
+    assert_true(w.n_guarded < 30); /* 4 steps; secants do it in a few */
+    verlet_destroy(V);
+}
+
+/* From below through the floor is none, the ceiling above it is. */
+static void a_guard_is_looked_for_only_as_it_falls(void **state)
+{
+    const double y0[4] = {0.0, -0.5, 0.0, 10.0};
+    world w = plain;
+    path p;
+    (void)state;
+    verlet *V = make(&w, 0.04, 2, y0);
+    step_to_root(V, &p);
+    assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-13);
+    verlet_destroy(V);
+}
+
+/* Reflected a skin above the floor it comes back after the time of the throw. Without a restart it goes on through. */
+static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
+{
+    const double y0[4] = {0.0, 0.5, 0.0, 0.0}, skin = 1e-9, u = sqrt(2.0 * g * 0.5);
+    double reflected[4];
+    (void)state;
+    for (int restarted = 0; restarted < 2; restarted++) {
+        world w = plain;
+        path p;
+        bool rooted;
+        w.floor = -skin;
+        verlet *V = make(&w, 0.07, 2, y0);
+        step_to_root(V, &p);
+        const double first = p.end, t1 = p.t1;
+        path_state(&p, p.end, reflected);
+        reflected[1] = 0.0;
+        reflected[3] = u;
+        if (restarted) {
+            verlet_restart(V, first, reflected);
+            step_to_root(V, &p);
+            assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * skin)) / g, 1e-12);
+        } else {
+            assert_ok(verlet_step(V, &p, &rooted));
+            assert_false(rooted);
+            assert_close(p.t0, t1, 0.0);
+            assert_close(p.y1[1], 0.5 - 0.5 * g * p.t1 * p.t1, 1e-13);
+        }
+        verlet_destroy(V);
+    }
+}
+
+/* ---- failures ---- */
+
+static void a_derivative_that_fails_leaves_the_last_state(void **state)
+{
+    const double y0[4] = {1.0, 2.0, 0.5, 3.0};
+    world w = plain;
+    path p = {0};
+    bool rooted;
+    double y[4];
+    (void)state;
+    w.fails_after = 0.55;
+    verlet *V = make(&w, 0.1, 0, y0);
+    p = take(V, 5);
+    memcpy(y, p.y1, sizeof y);
+    assert_int_equal(verlet_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "the test's force fails");
+    w.fails_after = 1e9;
+    assert_ok(verlet_step(V, &p, &rooted));
+    assert_memory_equal(p.y0, y, sizeof y);
+    verlet_destroy(V);
+    verlet_destroy(NULL);
+}
+
+static void guards_that_are_no_numbers_are_an_error(void **state)
+{
+    const double y0[4] = {1.0, 2.0, 0.5, 3.0};
+    world w = plain;
+    path p;
+    bool rooted;
+    (void)state;
+    w.floor = (double)NAN;
+    verlet *V = make(&w, 0.1, 2, y0);
+    assert_int_equal(verlet_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "guard 0 is not finite at t = 0 s");
+    verlet_destroy(V);
+}
+
+static void without_a_fixed_step_it_is_refused(void **state)
+{
+    const motion problem = {.n_nodes = 1, .bulk = &bulk_portable, .n_threads = 1, .derivative = move, .max_step = 1.0};
+    const double y0[4] = {0.0};
+    verlet *V = NULL;
+    (void)state;
+    assert_int_equal(verlet_create(&V, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
+    assert_null(V);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_step_is_a_kick_a_drift_and_a_kick),
+        cmocka_unit_test(a_step_in_one_pass_is_that_in_parts),
+        cmocka_unit_test(the_order_is_two_with_forces_of_any_kind),
+        cmocka_unit_test(it_runs_backwards),
+        cmocka_unit_test(the_stability_bound_is_that_of_the_characteristic_equation),
+        cmocka_unit_test(stiffening_halves_the_step),
+        cmocka_unit_test(no_stiffening_stops_the_time),
+        cmocka_unit_test(prescribed_velocities_are_taken_over),
+        cmocka_unit_test(the_path_of_a_step_is_that_of_shorter_steps),
+        cmocka_unit_test(a_path_starts_where_the_last_one_ended),
+        cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
+        cmocka_unit_test(a_guard_is_looked_for_only_as_it_falls),
+        cmocka_unit_test(it_goes_on_from_a_new_state_or_through_the_root),
+        cmocka_unit_test(a_derivative_that_fails_leaves_the_last_state),
+        cmocka_unit_test(guards_that_are_no_numbers_are_an_error),
+        cmocka_unit_test(without_a_fixed_step_it_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
