@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops for the compiler to make vector instructions of. BULK is the name of the table, one for each set of them. */
+/* Loops for the compiler to make vector instructions of. ARRAY_OPS is the name of the table, one for each set of them. */
 #include "base/array_ops.h"
 
 #include <math.h>
@@ -80,7 +80,7 @@ typedef int64_t eight_bits __attribute__((vector_size(64)));
 /* p = h + l + rest, h a multiple of 2^-20 and l of 2^-60, |rest| <= 2^-61: adding and taking away 1.5 2^(52 - 20)
  * rounds to the one, 1.5 2^(52 - 60) to the other. The sums of a piece are exact in any order: they have at most 53
  * bits. Behind the end stand zeros. */
-static void square_piece(bulk_sum *sum, const double *x, const double *w, double scale, dem_index size)
+static void square_piece(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size)
 {
     const double to_high = 0x1.8p32, to_low = 0x1.8p-8;
     eight highs = {0.0}, lows = {0.0}, most = {0.0};
@@ -105,15 +105,15 @@ static void square_piece(bulk_sum *sum, const double *x, const double *w, double
         low += lows[q];
         largest = most[q] > largest ? most[q] : largest;
     }
-    bulk_sum here = {.largest = isnan(high) ? high : largest}; /* a square that is none shows in the sum */
-    if (here.largest <= BULK_LARGEST) {
+    array_ops_sum here = {.largest = isnan(high) ? high : largest}; /* a square that is none shows in the sum */
+    if (here.largest <= ARRAY_OPS_LARGEST) {
         here.high = (int64_t)(high * 0x1p20);
         here.low = (int64_t)(low * 0x1p60);
     }
-    bulk_add(sum, &here);
+    array_ops_add(sum, &here);
 }
 
-static void square(bulk_sum *sum, const double *x, const double *w, double scale, dem_index size)
+static void square(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size)
 {
     for (dem_index k = 0; k < size; k += piece)
         square_piece(sum, x + k, w + k, scale, k + piece < size ? piece : size - k);
@@ -136,4 +136,4 @@ static void kick(double *restrict v1, const double *a0, const double *a1, double
     for (dem_index k = 0; k < size; k++) v1[k] += 0.5 * h * (a1[k] - a0[k]);
 }
 
-const bulk BULK = {combine, square, drift, kick};
+const array_ops ARRAY_OPS = {combine, square, drift, kick};

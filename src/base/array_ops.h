@@ -6,28 +6,28 @@
 #include <dem/dem.h>
 
 /** A sum of squares that does not depend on their order: each is rounded to 2^-60 and added as an integer. */
-typedef struct bulk_sum {
+typedef struct array_ops_sum {
     int64_t high, low; /* in units of 2^-20 and 2^-60, 0 <= low < 2^40 */
-    double largest;    /* of the squares, NAN if one is none; the sum holds where it is <= BULK_LARGEST */
-} bulk_sum;
+    double largest;    /* of the squares, NAN if one is none; the sum holds where it is <= ARRAY_OPS_LARGEST */
+} array_ops_sum;
 
-#define BULK_LARGEST 1024.0
+#define ARRAY_OPS_LARGEST 1024.0
 
-typedef struct bulk {
+typedef struct array_ops {
     /** out = sum of c_k in_k, from k = 0 on; out is none of them, n >= 1. */
     void (*combine)(double *out, int n, const double *c, const double *const *in, dem_index size);
     /** Adds (scale x w)^2 to the sum. */
-    void (*square)(bulk_sum *sum, const double *x, const double *w, double scale, dem_index size);
+    void (*square)(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size);
     /** A step h of Verlet from (x0, v0) with accelerations a0: x1, and v1 extrapolated. */
     void (*drift)(double *x1, double *v1, const double *const start[3], double h, dem_index size);
     /** v1 += h/2 (a1 - a0) */
     void (*kick)(double *v1, const double *a0, const double *a1, double h, dem_index size);
-} bulk;
+} array_ops;
 
-extern const bulk bulk_portable, bulk_avx2, bulk_avx512;
+extern const array_ops array_ops_portable, array_ops_avx2, array_ops_avx512;
 
 /** Adds one sum to another. */
-static inline void bulk_add(bulk_sum *sum, const bulk_sum *other)
+static inline void array_ops_add(array_ops_sum *sum, const array_ops_sum *other)
 {
     const int64_t low = sum->low + other->low, carry = (low - (low & 0xffffffffff)) / 0x10000000000;
     sum->high += other->high + carry;
@@ -35,7 +35,7 @@ static inline void bulk_add(bulk_sum *sum, const bulk_sum *other)
     if (!(other->largest <= sum->largest) && sum->largest == sum->largest) sum->largest = other->largest;
 }
 
-static inline double bulk_value(const bulk_sum *sum)
+static inline double array_ops_value(const array_ops_sum *sum)
 {
     return (double)sum->high * 0x1p-20 + (double)sum->low * 0x1p-60;
 }

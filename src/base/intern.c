@@ -21,15 +21,15 @@ static uint64_t hash_of(const void *items, size_t bytes)
     return hash;
 }
 
-static bool is_list(const pool *p, int32_t list, const void *items, dem_index n)
+static bool is_list(const intern *p, int32_t list, const void *items, dem_index n)
 {
-    const pool_span s = p->lists[list];
+    const intern_span s = p->lists[list];
     return s.end - s.first == n &&
            (n == 0 || memcmp((const char *)p->items + (size_t)s.first * p->unit, items, (size_t)n * p->unit) == 0);
 }
 
 /* That of the list, or a free one. */
-static int32_t *slot_of(const pool *p, const void *items, dem_index n)
+static int32_t *slot_of(const intern *p, const void *items, dem_index n)
 {
     const uint64_t last = (uint64_t)(p->n_slots - 1);
     uint64_t slot = hash_of(items, (size_t)n * p->unit) & last;
@@ -37,7 +37,7 @@ static int32_t *slot_of(const pool *p, const void *items, dem_index n)
     return &p->slots[slot];
 }
 
-static dem_status rehash(pool *p)
+static dem_status rehash(intern *p)
 {
     const dem_index n_slots = p->n_slots > 0 ? 2 * p->n_slots : 64;
     int32_t *slots = malloc((size_t)n_slots * sizeof *slots);
@@ -47,13 +47,13 @@ static dem_status rehash(pool *p)
     p->n_slots = n_slots;
     for (dem_index k = 0; k < n_slots; k++) slots[k] = -1;
     for (dem_index k = 0; k < p->n_lists; k++) {
-        const pool_span s = p->lists[k];
+        const intern_span s = p->lists[k];
         *slot_of(p, (const char *)p->items + (size_t)s.first * p->unit, s.end - s.first) = (int32_t)k;
     }
     return DEM_OK;
 }
 
-dem_status pool_find(pool *p, const void *items, dem_index n, pool_span *out)
+dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *out)
 {
     if (2 * p->n_lists >= p->n_slots) TRY(rehash(p));
     int32_t *slot = slot_of(p, items, n);
@@ -63,7 +63,7 @@ dem_status pool_find(pool *p, const void *items, dem_index n, pool_span *out)
         CHECK(grow_array((void **)&p->lists, &p->list_capacity, p->n_lists + 1, sizeof *p->lists), DEM_ERROR_MEMORY,
               "out of memory");
         if (n > 0) memcpy((char *)p->items + (size_t)p->n * p->unit, items, (size_t)n * p->unit);
-        p->lists[p->n_lists] = (pool_span){(int32_t)p->n, (int32_t)(p->n + n)};
+        p->lists[p->n_lists] = (intern_span){(int32_t)p->n, (int32_t)(p->n + n)};
         *slot = (int32_t)p->n_lists++;
         p->n += n;
     }
@@ -71,22 +71,22 @@ dem_status pool_find(pool *p, const void *items, dem_index n, pool_span *out)
     return DEM_OK;
 }
 
-dem_status pool_settle(pool *p)
+dem_status intern_settle(intern *p)
 {
     const size_t size = (size_t)p->n * p->unit;
     double *items = aligned_reals(size / sizeof *items);
     CHECK_MEMORY(items);
     if (size > 0) memcpy(items, p->items, size);
-    const pool settled = {.unit = p->unit, .items = items, .n = p->n, .capacity = p->n};
-    pool_free(p);
+    const intern settled = {.unit = p->unit, .items = items, .n = p->n, .capacity = p->n};
+    intern_free(p);
     *p = settled;
     return DEM_OK;
 }
 
-void pool_free(pool *p)
+void intern_free(intern *p)
 {
     free(p->items);
     free(p->lists);
     free(p->slots);
-    *p = (pool){0};
+    *p = (intern){0};
 }

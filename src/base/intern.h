@@ -8,27 +8,27 @@
 #include <dem/dem.h>
 
 /** A list: items first to end - 1. */
-typedef struct pool_span {
+typedef struct intern_span {
     int32_t first, end;
-} pool_span;
+} intern_span;
 
-typedef struct pool {
+typedef struct intern {
     size_t unit; /* bytes of an item, a multiple of 8 without padding */
     void *items; /* [n] */
     dem_index n, capacity;
-    pool_span *lists; /* [n_lists] those held */
+    intern_span *lists; /* [n_lists] those held */
     dem_index n_lists, list_capacity;
     int32_t *slots; /* [n_slots] hash table: numbers of lists, -1: none */
     dem_index n_slots;
-} pool;
+} intern;
 
 /** Where a list is that has these `n` items; it is added if there is none.
  *  \return DEM_ERROR_MEMORY, or DEM_ERROR_MODEL for more than 2^31 items */
-dem_status pool_find(pool *p, const void *items, dem_index n, pool_span *out);
+dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *out);
 
 /** Frees what is needed to find lists, and puts the items at the start of a cache line. */
-dem_status pool_settle(pool *p);
+dem_status intern_settle(intern *p);
 
-void pool_free(pool *p);
+void intern_free(intern *p);
 
 #endif

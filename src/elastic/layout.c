@@ -69,7 +69,7 @@ static dem_status close_block(builder *b, layout_part *part, dem_index block)
 {
     const dem_index n = b->n_entries;
     b->n_entries = 0;
-    return pool_find(&part->entries, b->entries, n, &part->span[block]);
+    return intern_find(&part->entries, b->entries, n, &part->span[block]);
 }
 
 static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
@@ -179,15 +179,15 @@ static uint8_t kind_of(const builder *b, bool gathered)
 }
 
 /* Where the coefficients of the group are; lanes that take no part have the leader's. */
-static dem_status set_of(builder *b, pool *sets, dem_index width, const item *leader, int32_t *place)
+static dem_status set_of(builder *b, intern *sets, dem_index width, const item *leader, int32_t *place)
 {
     double values[most_widths * LAYOUT_LANES];
-    pool_span span;
+    intern_span span;
     for (int q = 0; q < LAYOUT_LANES; q++) {
         const item *a = b->taken[q] ? taken_of(b, q) : leader;
         for (dem_index k = 0; k < width; k++) values[k * LAYOUT_LANES + layout_lane(q)] = a->set[k];
     }
-    TRY(pool_find(sets, values, width * LAYOUT_LANES, &span));
+    TRY(intern_find(sets, values, width * LAYOUT_LANES, &span));
     *place = span.first;
     return DEM_OK;
 }
@@ -382,8 +382,8 @@ static dem_status lay_blocks(builder *b)
         TRY(lay_corners(b, block));
     }
     l->ring_length = b->n_streams * (l->ring_rows + LAYOUT_LANES);
-    pool *const pools[] = {&l->springs.entries, &l->terms.entries, &l->corners.entries, &l->bonds, &l->areas};
-    for (size_t k = 0; k < sizeof pools / sizeof *pools; k++) TRY(pool_settle(pools[k]));
+    intern *const pools[] = {&l->springs.entries, &l->terms.entries, &l->corners.entries, &l->bonds, &l->areas};
+    for (size_t k = 0; k < sizeof pools / sizeof *pools; k++) TRY(intern_settle(pools[k]));
     return DEM_OK;
 }
 
@@ -391,13 +391,13 @@ static dem_status lay_blocks(builder *b)
 static dem_status choose_order(builder *b)
 {
     layout *l = b->l;
-    dem_index span = order_span(b->s, NULL);
+    dem_index span = renumber_span(b->s, NULL);
     if (span > usual_span) {
         l->order = malloc((size_t)l->n_nodes * sizeof *l->order);
         b->place = malloc((size_t)l->n_nodes * sizeof *b->place);
         CHECK(l->order && b->place, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)l->n_nodes);
-        order_by_distance(b->s, l->order, b->place);
-        const dem_index better = order_span(b->s, b->place);
+        renumber_by_distance(b->s, l->order, b->place);
+        const dem_index better = renumber_span(b->s, b->place);
         if (2 * better > span) {
             free(l->order);
             free(b->place);
@@ -423,9 +423,9 @@ static dem_status allocate(builder *b)
     }
     b->items = malloc(LAYOUT_LANES * ((size_t)b->most + 1) * sizeof *b->items);
     b->force = malloc(((size_t)b->s->n_springs + 1) * sizeof *b->force);
-    l->springs = (layout_part){calloc(n, sizeof(pool_span)), {.unit = sizeof(layout_entry)}};
-    l->terms = (layout_part){calloc(n, sizeof(pool_span)), {.unit = sizeof(layout_entry)}};
-    l->corners = (layout_part){calloc(n, sizeof(pool_span)), {.unit = sizeof(layout_entry)}};
+    l->springs = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
+    l->terms = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
+    l->corners = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
     CHECK(b->items && b->force && l->springs.span && l->terms.span && l->corners.span, DEM_ERROR_MEMORY,
           "out of memory for %lld springs", (long long)b->s->n_springs);
     return choose_order(b);
@@ -460,7 +460,7 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t)
 static void free_part(layout_part *part)
 {
     free(part->span);
-    pool_free(&part->entries);
+    intern_free(&part->entries);
 }
 
 void layout_free(layout *l)
@@ -468,8 +468,8 @@ void layout_free(layout *l)
     free_part(&l->springs);
     free_part(&l->terms);
     free_part(&l->corners);
-    pool_free(&l->bonds);
-    pool_free(&l->areas);
+    intern_free(&l->bonds);
+    intern_free(&l->areas);
     free(l->order);
     free(l->lists);
     *l = (layout){0};

@@ -40,8 +40,8 @@ typedef struct layout_entry {
 
 /** Entries by block. */
 typedef struct layout_part {
-    pool_span *span; /* [n_blocks] */
-    pool entries;
+    intern_span *span; /* [n_blocks] */
+    intern entries;
 } layout_part;
 
 typedef struct layout {
@@ -54,8 +54,8 @@ typedef struct layout {
     layout_part corners; /* its triangles */
     dem_index n_lists, list_capacity;
     int32_t *lists;        /* [n_lists][LAYOUT_LANES] operands */
-    pool bonds;            /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
-    pool areas;            /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
+    intern bonds;          /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
+    intern areas;          /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
     dem_index reach;       /* blocks: none collects from one that is further below */
     dem_index ahead;       /* blocks: none reads positions that are further away */
     dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */

@@ -2,7 +2,7 @@
 /* Breadth-first numbering from an end of each piece. */
 #include "elastic/renumber.h"
 
-dem_index order_span(const springs *s, const int32_t *place)
+dem_index renumber_span(const springs *s, const int32_t *place)
 {
     dem_index span = 0;
     for (dem_index i = 0; i < s->n_nodes; i++)
@@ -30,7 +30,7 @@ static dem_index spread(const springs *s, dem_index first, dem_index n, int32_t 
 }
 
 /* Begins again at the node found last, which is at an end of the piece. */
-void order_by_distance(const springs *s, int32_t *order, int32_t *place)
+void renumber_by_distance(const springs *s, int32_t *order, int32_t *place)
 {
     dem_index n = 0;
     for (dem_index i = 0; i < s->n_nodes; i++) place[i] = -1;

@@ -9,11 +9,11 @@
 
 /** How far apart the numbers of two neighbours are at most.
  *  \param place  [n_nodes] number of each node; NULL: its own */
-dem_index order_span(const springs *s, const int32_t *place);
+dem_index renumber_span(const springs *s, const int32_t *place);
 
 /** Numbers by distance from a node at the rim (Cuthill and McKee's), one piece after the other.
  *  \param[out] order  [n_nodes] the node at each place
  *  \param[out] place  [n_nodes] the place of each node */
-void order_by_distance(const springs *s, int32_t *order, int32_t *place);
+void renumber_by_distance(const springs *s, int32_t *order, int32_t *place);
 
 #endif

@@ -15,7 +15,7 @@ INLINE pairs fetch(const layout *l, const double *array, const double *here, int
 }
 
 /* The first eight places of a stream are repeated behind its end, so that any eight in a row can be read. */
-INLINE void repeat(const layout *l, pool_span span, double *ring)
+INLINE void repeat(const layout *l, intern_span span, double *ring)
 {
     const layout_entry *entries = l->springs.entries.items;
     for (int32_t p = span.first; p < span.end; p++) {
@@ -28,7 +28,7 @@ INLINE void repeat(const layout *l, pool_span span, double *ring)
 INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, double *ring)
 {
     const layout *l = s->layout;
-    const pool_span span = l->springs.span[block];
+    const intern_span span = l->springs.span[block];
     const layout_entry *entries = l->springs.entries.items;
     const double *sets = l->bonds.items;
     const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
@@ -55,7 +55,7 @@ INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, doubl
 /* Each node's sum over its row. */
 INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
 {
-    const pool_span span = l->terms.span[block];
+    const intern_span span = l->terms.span[block];
     const layout_entry *entries = l->terms.entries.items;
     const double *here = ring + 2 * (LAYOUT_LANES * block & (l->ring_rows - 1));
     pairs sum = pairs_both(0.0, 0.0);
@@ -84,7 +84,7 @@ INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
 INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
 {
     const layout *l = s->layout;
-    const pool_span span = l->corners.span[block];
+    const intern_span span = l->corners.span[block];
     const layout_entry *entries = l->corners.entries.items;
     const double *sets = l->areas.items, *here = s->x + 2 * LAYOUT_LANES * block;
     const pairs x = pairs_load(here), turn = pairs_both(-0.5, 0.5);

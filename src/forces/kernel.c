@@ -19,22 +19,22 @@
 #define sweep_avx512       sweep_portable
 #define sweep_guard_avx2   sweep_guard_portable
 #define sweep_guard_avx512 sweep_guard_portable
-#define bulk_avx2          bulk_portable
-#define bulk_avx512        bulk_portable
+#define array_ops_avx2     array_ops_portable
+#define array_ops_avx512   array_ops_portable
 #endif
 
 typedef struct kernel_row {
     const char *name;
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
-    const bulk *bulk;
+    const array_ops *ops;
 } kernel_row;
 
 static const kernel_row rows[] = {
     [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL},
-    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, &bulk_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, &bulk_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, &bulk_avx512},
+    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, &array_ops_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, &array_ops_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, &array_ops_avx512},
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
@@ -102,7 +102,7 @@ dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, i
                 .n_threads = n_threads,
                 .sweep = rows[kind].sweep,
                 .sweep_guard = rows[kind].sweep_guard,
-                .bulk = rows[kind].bulk};
+                .ops = rows[kind].ops};
     const dem_status status = allocate(&k);
     if (status == DEM_OK)
         *out = k;
@@ -173,7 +173,7 @@ static void drift(const kernel *k, const sweep_leap *p, dem_index first, dem_ind
 {
     const dem_index at = 2 * first;
     const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
-    k->bulk->drift(p->x1 + at, p->v1 + at, start, p->h, 2 * (last - first));
+    k->ops->drift(p->x1 + at, p->v1 + at, start, p->h, 2 * (last - first));
 }
 
 /* What others than its own thread read of a share of blocks, and nodes in no block. */
@@ -194,7 +194,7 @@ static double accelerate_row(const kernel *k, const forces *load, const kernel_s
     if (p != NULL) drift(k, p, i, i + 1);
     const vec2 a = forces_own_acceleration(k->model, load, i, y->x, y->v);
     vec2_put(y->a, i, a);
-    if (p != NULL) k->bulk->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
+    if (p != NULL) k->ops->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
     return a.x + a.y;
 }
 

@@ -14,7 +14,7 @@ typedef struct kernel {
     const dem_model *model;
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
-    const bulk *bulk;
+    const array_ops *ops;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     int n_threads;
     double *rings;    /* [n_threads][ring_size] */

@@ -273,8 +273,8 @@ dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed
     TRY(check_areas(lattice));
     unsigned char *rim = lattice_zeros(lattice->n_nodes, sizeof *rim);
     double *x = lattice_zeros(lattice->n_nodes, 2 * sizeof *x);
-    dem_status status =
-        rim != NULL && x != NULL ? sides_contact_flags(rim, lattice) : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    dem_status status = rim != NULL && x != NULL ? mesh_edges_contact_flags(rim, lattice)
+                                                 : status_fail(DEM_ERROR_MEMORY, "out of memory");
     for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) {
         const vec2 shift = random_shift(&seed, radius), none = {0.0, 0.0};
         vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), rim[i] != 0 ? none : shift));

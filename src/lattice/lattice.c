@@ -187,7 +187,7 @@ static dem_index count_bodies(const dem_lattice *lattice)
 
 static dem_status copy_flags(unsigned char *flags, const dem_lattice *lattice)
 {
-    if (lattice->flags == NULL) return sides_contact_flags(flags, lattice);
+    if (lattice->flags == NULL) return mesh_edges_contact_flags(flags, lattice);
     memcpy(flags, lattice->flags, (size_t)lattice->n_nodes);
     return DEM_OK;
 }
@@ -344,15 +344,15 @@ dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem
 
 dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, dem_index *piece)
 {
-    sides s;
+    mesh_edges s;
     TRY(lattice_check(lattice));
     CHECK(n_pieces != NULL, DEM_ERROR_ARGUMENT, "n_pieces is NULL");
-    TRY(sides_create(&s, lattice));
+    TRY(mesh_edges_create(&s, lattice));
     dem_index *parent = make_parents(lattice->n_triangles);
     for (dem_index i = 0; parent != NULL && i < lattice->n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
-            if (!sides_edge_begins(&s, i, p)) unite(parent, s.list[p - 1].triangle, s.list[p].triangle);
-    sides_free(&s);
+            if (!mesh_edges_is_first(&s, i, p)) unite(parent, s.list[p - 1].triangle, s.list[p].triangle);
+    mesh_edges_free(&s);
     CHECK_MEMORY(parent);
     *n_pieces = number_parts(piece, parent, lattice->n_triangles);
     free(parent);
@@ -361,18 +361,18 @@ dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, d
 
 dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges)
 {
-    sides s;
+    mesh_edges s;
     TRY(lattice_check(lattice));
     CHECK(n_edges != NULL, DEM_ERROR_ARGUMENT, "n_edges is NULL");
-    TRY(sides_create(&s, lattice));
+    TRY(mesh_edges_create(&s, lattice));
     for (dem_index i = 0; i < lattice->n_nodes; i++) n_edges[i] = 0;
     for (dem_index i = 0; i < lattice->n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
-            if (!sides_edge_is_boundary(&s, i, p)) continue;
+            if (!mesh_edges_is_boundary(&s, i, p)) continue;
             n_edges[i]++;
             n_edges[s.list[p].upper]++;
         }
-    sides_free(&s);
+    mesh_edges_free(&s);
     return DEM_OK;
 }
 
@@ -453,13 +453,13 @@ static dem_status check_list(const dem_lattice *lattice, const dem_index *nodes,
 }
 
 /* Half of every boundary edge between nodes that have a place in the list, to both, as thick as its triangle. */
-static void share_edges(const dem_lattice *l, const sides *s, const dem_index *place, const double *direction,
+static void share_edges(const dem_lattice *l, const mesh_edges *s, const dem_index *place, const double *direction,
                         double *area)
 {
     for (dem_index i = 0; i < l->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const dem_index j = s->list[p].upper;
-            if (!sides_edge_is_boundary(s, i, p) || place[i] < 0 || place[j] < 0) continue;
+            if (!mesh_edges_is_boundary(s, i, p) || place[i] < 0 || place[j] < 0) continue;
             const double way[2] = {l->x[2 * j] - l->x[2 * i], l->x[2 * j + 1] - l->x[2 * i + 1]};
             const double length =
                 direction == NULL ? hypot(way[0], way[1]) : fabs(way[0] * direction[0] + way[1] * direction[1]);
@@ -472,18 +472,18 @@ static void share_edges(const dem_lattice *l, const sides *s, const dem_index *p
 dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
                                    const double *direction, double *area)
 {
-    sides s;
+    mesh_edges s;
     TRY(check_list(lattice, nodes, n));
     CHECK(area != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_edge_shares: area is NULL");
     dem_index *place = malloc((size_t)lattice->n_nodes * sizeof *place);
     CHECK_MEMORY(place);
-    const dem_status status = sides_create(&s, lattice);
+    const dem_status status = mesh_edges_create(&s, lattice);
     if (status == DEM_OK) {
         for (dem_index i = 0; i < lattice->n_nodes; i++) place[i] = -1;
         for (dem_index k = 0; k < n; k++) place[nodes[k]] = k;
         for (dem_index k = 0; k < n; k++) area[k] = 0.0;
         share_edges(lattice, &s, place, direction, area);
-        sides_free(&s);
+        mesh_edges_free(&s);
     }
     free(place);
     return status;
@@ -495,7 +495,7 @@ dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem
     if (lattice->flags == NULL) {
         unsigned char *flags = lattice_zeros(lattice->n_nodes, sizeof *flags);
         CHECK_MEMORY(flags);
-        const dem_status status = sides_contact_flags(flags, lattice);
+        const dem_status status = mesh_edges_contact_flags(flags, lattice);
         if (status != DEM_OK) free(flags);
         TRY(status);
         lattice->flags = flags;

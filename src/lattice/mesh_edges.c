@@ -7,10 +7,10 @@
 
 #include "base/status.h"
 
-static void sort_by_upper(side *list, dem_index n)
+static void sort_by_upper(mesh_edge_slot *list, dem_index n)
 {
     for (dem_index p = 1; p < n; p++) {
-        const side current = list[p];
+        const mesh_edge_slot current = list[p];
         dem_index q = p;
         for (; q > 0 && list[q - 1].upper > current.upper; q--) list[q] = list[q - 1];
         list[q] = current;
@@ -23,7 +23,7 @@ static dem_index side_end(const dem_index *corner, dem_index k)
     return corner[k % 3 == 2 ? k - 2 : k + 1];
 }
 
-static void fill(sides *s, const dem_index *corner, dem_index n_nodes, dem_index n_sides)
+static void fill(mesh_edges *s, const dem_index *corner, dem_index n_nodes, dem_index n_sides)
 {
     for (dem_index k = 0; k < n_sides; k++) {
         const dem_index i = corner[k], j = side_end(corner, k);
@@ -32,16 +32,16 @@ static void fill(sides *s, const dem_index *corner, dem_index n_nodes, dem_index
     for (dem_index i = 0; i <= n_nodes; i++) s->row[i + 1] += s->row[i];
     for (dem_index k = 0; k < n_sides; k++) {
         const dem_index i = corner[k], j = side_end(corner, k), lower = i < j ? i : j;
-        s->list[s->row[lower + 1]++] = (side){.upper = i < j ? j : i, .triangle = k / 3};
+        s->list[s->row[lower + 1]++] = (mesh_edge_slot){.upper = i < j ? j : i, .triangle = k / 3};
     }
 }
 
-dem_status sides_create(sides *out, const dem_lattice *lattice)
+dem_status mesh_edges_create(mesh_edges *out, const dem_lattice *lattice)
 {
     const dem_index n = lattice->n_nodes, n_sides = 3 * lattice->n_triangles;
-    sides s = {.row = calloc((size_t)n + 2, sizeof *s.row), .list = calloc((size_t)n_sides + 1, sizeof *s.list)};
+    mesh_edges s = {.row = calloc((size_t)n + 2, sizeof *s.row), .list = calloc((size_t)n_sides + 1, sizeof *s.list)};
     if (s.row == NULL || s.list == NULL) {
-        sides_free(&s);
+        mesh_edges_free(&s);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for the sides of %lld triangles", (long long)n_sides / 3);
     }
     fill(&s, lattice->triangles, n, n_sides);
@@ -50,33 +50,33 @@ dem_status sides_create(sides *out, const dem_lattice *lattice)
     return DEM_OK;
 }
 
-void sides_free(sides *s)
+void mesh_edges_free(mesh_edges *s)
 {
     free(s->row);
     free(s->list);
-    *s = (sides){0};
+    *s = (mesh_edges){0};
 }
 
-bool sides_edge_begins(const sides *s, dem_index i, dem_index p)
+bool mesh_edges_is_first(const mesh_edges *s, dem_index i, dem_index p)
 {
     return p == s->row[i] || s->list[p].upper != s->list[p - 1].upper;
 }
 
-bool sides_edge_is_boundary(const sides *s, dem_index i, dem_index p)
+bool mesh_edges_is_boundary(const mesh_edges *s, dem_index i, dem_index p)
 {
-    return sides_edge_begins(s, i, p) && (p + 1 == s->row[i + 1] || sides_edge_begins(s, i, p + 1));
+    return mesh_edges_is_first(s, i, p) && (p + 1 == s->row[i + 1] || mesh_edges_is_first(s, i, p + 1));
 }
 
-dem_status sides_contact_flags(unsigned char *flags, const dem_lattice *lattice)
+dem_status mesh_edges_contact_flags(unsigned char *flags, const dem_lattice *lattice)
 {
     const dem_index n = lattice->n_nodes;
-    sides s;
+    mesh_edges s;
     memset(flags, lattice->n_triangles > 0 ? 0 : DEM_NODE_CONTACT, (size_t)n);
     if (lattice->n_triangles == 0) return DEM_OK;
-    TRY(sides_create(&s, lattice));
+    TRY(mesh_edges_create(&s, lattice));
     for (dem_index i = 0; i < n; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
-            if (sides_edge_is_boundary(&s, i, p)) flags[i] = flags[s.list[p].upper] = DEM_NODE_CONTACT;
-    sides_free(&s);
+            if (mesh_edges_is_boundary(&s, i, p)) flags[i] = flags[s.list[p].upper] = DEM_NODE_CONTACT;
+    mesh_edges_free(&s);
     return DEM_OK;
 }

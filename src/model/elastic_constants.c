@@ -34,17 +34,17 @@ static bool is_of_body(const loading *l, dem_index i)
 static dem_status find_inside(loading *l)
 {
     const dem_lattice *lattice = &l->model->lattice;
-    sides s;
+    mesh_edges s;
     for (dem_index i = 0; i < lattice->n_nodes; i++) l->held[i] = 1;
     for (dem_index k = 0; k < 3 * lattice->n_triangles; k++)
         if (is_of_body(l, lattice->triangles[k])) l->held[lattice->triangles[k]] = 0;
-    TRY(sides_create(&s, lattice));
+    TRY(mesh_edges_create(&s, lattice));
     for (dem_index i = 0; i < lattice->n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
-            const bool last = p + 1 == s.row[i + 1] || sides_edge_begins(&s, i, p + 1);
-            if (sides_edge_begins(&s, i, p) && last) l->held[i] = l->held[s.list[p].upper] = 1;
+            const bool last = p + 1 == s.row[i + 1] || mesh_edges_is_first(&s, i, p + 1);
+            if (mesh_edges_is_first(&s, i, p) && last) l->held[i] = l->held[s.list[p].upper] = 1;
         }
-    sides_free(&s);
+    mesh_edges_free(&s);
     return DEM_OK;
 }
 

@@ -116,7 +116,7 @@ static dem_status fill_defaults(dem_lattice *l)
     }
     if (l->flags == NULL) {
         CHECK_MEMORY(l->flags = lattice_zeros(n, sizeof *l->flags));
-        TRY(sides_contact_flags(l->flags, l));
+        TRY(mesh_edges_contact_flags(l->flags, l));
     }
     for (dem_index i = 0; i < n; i++)
         if (l->flags[i] & DEM_NODE_FIXED) vec2_put(l->velocity, i, (vec2){0.0, 0.0});

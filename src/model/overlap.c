@@ -22,7 +22,7 @@ dem_status overlap_create(overlap *out, const dem_lattice *lattice)
     o.n_cells = lattice->n_triangles;
     o.first = malloc((size_t)o.n_cells * sizeof *o.first);
     dem_status status = flags != NULL && o.nodes != NULL && o.first != NULL
-                            ? sides_contact_flags(flags, lattice)
+                            ? mesh_edges_contact_flags(flags, lattice)
                             : status_fail(DEM_ERROR_MEMORY, "out of memory");
     for (dem_index i = 0; i < lattice->n_nodes && status == DEM_OK; i++)
         if (flags[i] & DEM_NODE_CONTACT) o.nodes[o.n++] = i;

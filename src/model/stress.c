@@ -17,7 +17,7 @@
 typedef struct draft {
     const dem_lattice *lattice;
     const springs *springs;
-    sides sides;
+    mesh_edges sides;
     bool *placed;    /* [n_springs] in a triangle */
     dem_index *next; /* [n_nodes] slot to be written; while counting, number of slots */
     bool writes;
@@ -77,7 +77,7 @@ static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index en
  * between their outer corners. -1: there is none. */
 static dem_index spring_of(const draft *d, bool along, dem_index i, dem_index p, dem_index end)
 {
-    const side *list = d->sides.list;
+    const mesh_edge_slot *list = d->sides.list;
     const dem_index j = list[p].upper;
     if (along) return find_spring(d->springs, i, j);
     if (end - p != 2) return -1;
@@ -89,7 +89,7 @@ static void give_edges(draft *d, bool along)
 {
     for (dem_index i = 0; i < d->lattice->n_nodes; i++)
         for (dem_index p = d->sides.row[i], end; p < d->sides.row[i + 1]; p = end) {
-            for (end = p + 1; end < d->sides.row[i + 1] && !sides_edge_begins(&d->sides, i, end);) end++;
+            for (end = p + 1; end < d->sides.row[i + 1] && !mesh_edges_is_first(&d->sides, i, end);) end++;
             const dem_index spring = spring_of(d, along, i, p, end);
             if (spring >= 0 && !d->placed[spring]) give_triangles(d, spring, p, end);
         }
@@ -144,7 +144,7 @@ static dem_status compile(draft *d)
 {
     const dem_lattice *l = d->lattice;
     stress_map *map = d->map;
-    TRY(sides_create(&d->sides, l));
+    TRY(mesh_edges_create(&d->sides, l));
     d->placed = lattice_zeros(l->n_springs, sizeof *d->placed);
     d->next = lattice_zeros(l->n_nodes, sizeof *d->next);
     map->row = lattice_zeros(l->n_nodes + 1, sizeof *map->row);
@@ -168,7 +168,7 @@ dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const spr
     stress_map map = {0};
     draft d = {.lattice = lattice, .springs = s, .map = &map};
     const dem_status status = compile(&d);
-    sides_free(&d.sides);
+    mesh_edges_free(&d.sides);
     free(d.placed);
     free(d.next);
     if (status == DEM_OK)

@@ -22,13 +22,13 @@ static bool runs_from(const dem_index *corner, dem_index i, dem_index j)
 }
 
 /* Boundary edges from start to end, in the order of their lower nodes, into ends, or NULL; returns how many. */
-static dem_index find_edges(const dem_lattice *l, const sides *list, dem_index *ends)
+static dem_index find_edges(const dem_lattice *l, const mesh_edges *list, dem_index *ends)
 {
     dem_index n = 0;
     for (dem_index i = 0; i < l->n_nodes; i++)
         for (dem_index p = list->row[i]; p < list->row[i + 1]; p++) {
             const dem_index j = list->list[p].upper;
-            if (!sides_edge_is_boundary(list, i, p) || !may_touch(l, i, j)) continue;
+            if (!mesh_edges_is_boundary(list, i, p) || !may_touch(l, i, j)) continue;
             const bool forward = runs_from(&l->triangles[3 * list->list[p].triangle], i, j);
             if (ends != NULL) {
                 ends[2 * n] = forward ? i : j;
@@ -133,8 +133,8 @@ static dem_status allocate(surface *s, const dem_lattice *l)
 dem_status surface_compile(surface *out, const dem_lattice *lattice)
 {
     surface s = {0};
-    sides list = {0};
-    dem_status status = sides_create(&list, lattice);
+    mesh_edges list = {0};
+    dem_status status = mesh_edges_create(&list, lattice);
     if (status == DEM_OK) {
         s.n_edges = find_edges(lattice, &list, NULL);
         status = allocate(&s, lattice);
@@ -143,7 +143,7 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice)
         (void)find_edges(lattice, &list, s.ends);
         status = sort_edges(&s, lattice);
     }
-    sides_free(&list);
+    mesh_edges_free(&list);
     if (status == DEM_OK)
         *out = s;
     else

@@ -159,7 +159,7 @@ static dem_status read_arrays(reader *r)
 static dem_status mark_contacts(const reader *r, dem_lattice *lattice)
 {
     const dem_index *nodes = r->data[CONTACT_NODES];
-    if (nodes == NULL) return sides_contact_flags(lattice->flags, lattice);
+    if (nodes == NULL) return mesh_edges_contact_flags(lattice->flags, lattice);
     for (hsize_t k = 0; k < r->rows[ANY]; k++) {
         CHECK(nodes[k] >= 0 && nodes[k] < lattice->n_nodes, DEM_ERROR_MODEL,
               "%s: %s: entry %llu is %lld, which is no node: there are %lld", r->file.path,

@@ -405,7 +405,7 @@ static dem_status set_up(dem_simulation *s)
                             .velocity_error = o->rtol * o->v_scale,
                             .max_step = o->max_step,
                             .fixed_step = o->fixed_step,
-                            .bulk = s->kernel.bulk,
+                            .ops = s->kernel.ops,
                             .n_threads = s->kernel.n_threads};
     TRY(engine_create(&s->engine, &problem, 0.0, s->y));
     s->y = engine_state(&s->engine);

@@ -139,7 +139,7 @@ static dem_status allocate(integrator *I)
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
     I->inside = aligned_zeros((size_t)n);
-    I->space = vector_space_create(n, I->problem.bulk, I->problem.n_threads, most_vectors + I->table.stages);
+    I->space = vector_space_create(n, I->problem.ops, I->problem.n_threads, most_vectors + I->table.stages);
     bool complete = I->inside != NULL && I->space != NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
         *vectors[k] = vector_create(I->space, I->sundials);

@@ -25,10 +25,10 @@ typedef struct content {
 
 struct vector_space {
     dem_index length;
-    const bulk *bulk;
+    const array_ops *ops;
     int n_threads;
-    bulk_sum *sums;  /* [n_threads] */
-    buffer *buffers; /* the first free one */
+    array_ops_sum *sums; /* [n_threads] */
+    buffer *buffers;     /* the first free one */
     content *contents;
 };
 
@@ -137,7 +137,7 @@ static void combine_share(const vector_space *s, int t, double *out, int n, cons
     const dem_index first = threads_share(s->length, s->n_threads, t);
     const double *from[most_terms];
     for (int k = 0; k < n; k++) from[k] = in[k] + first;
-    s->bulk->combine(out + first, n, c, from, threads_share(s->length, s->n_threads, t + 1) - first);
+    s->ops->combine(out + first, n, c, from, threads_share(s->length, s->n_threads, t + 1) - first);
 }
 
 static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
@@ -187,15 +187,15 @@ static double scale_of(double size)
 static void square_share(const vector_space *s, int t, const double *x, const double *w, double scale)
 {
     const dem_index first = threads_share(s->length, s->n_threads, t);
-    s->sums[t] = (bulk_sum){0};
-    s->bulk->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
+    s->sums[t] = (array_ops_sum){0};
+    s->ops->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
 }
 
-static bulk_sum square(const vector_space *s, const double *x, const double *w, double scale)
+static array_ops_sum square(const vector_space *s, const double *x, const double *w, double scale)
 {
-    bulk_sum sum = {0};
+    array_ops_sum sum = {0};
     THREADS_RUN(s->n_threads, t, square_share(s, t, x, w, scale));
-    for (int t = 0; t < s->n_threads; t++) bulk_add(&sum, &s->sums[t]);
+    for (int t = 0; t < s->n_threads; t++) array_ops_add(&sum, &s->sums[t]);
     return sum;
 }
 
@@ -209,10 +209,10 @@ static sunrealtype norm(N_Vector x, N_Vector w)
         largest = fmax(largest, fabs(values[k] * weights[k]));
     for (;;) {
         scale = scale_of(largest);
-        const bulk_sum sum = square(s, values, weights, scale);
+        const array_ops_sum sum = square(s, values, weights, scale);
         if (!isfinite(sum.largest)) return INFINITY;
         largest = sqrt(sum.largest) / scale;
-        if (scale_of(largest) == scale) return sqrt(bulk_value(&sum) / (double)s->length) / scale;
+        if (scale_of(largest) == scale) return sqrt(array_ops_value(&sum) / (double)s->length) / scale;
     }
 }
 
@@ -307,11 +307,11 @@ N_Vector vector_create(vector_space *s, SUNContext context)
     return v;
 }
 
-vector_space *vector_space_create(dem_index length, const bulk *operations, int n_threads, int n_vectors)
+vector_space *vector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors)
 {
     vector_space *s = calloc(1, sizeof *s);
     if (s == NULL) return NULL;
-    *s = (vector_space){.length = length, .bulk = operations, .n_threads = n_threads};
+    *s = (vector_space){.length = length, .ops = operations, .n_threads = n_threads};
     s->sums = calloc((size_t)n_threads, sizeof *s->sums);
     bool complete = s->sums != NULL && add_buffer(s);
     for (int k = 0; k < n_vectors && complete; k++) complete = add_content(s);

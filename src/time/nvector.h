@@ -13,7 +13,7 @@ typedef struct vector_space vector_space;
 
 /** Borrows the operations. NULL without memory, else there is enough for n_vectors, clones too: N_VClone() of SUNDIALS
  *  6 crashes without. Free with vector_space_free(), after its vectors. */
-vector_space *vector_space_create(dem_index length, const bulk *operations, int n_threads, int n_vectors);
+vector_space *vector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors);
 void vector_space_free(vector_space *s);
 
 /** A vector of the space, of no certain numbers; NULL without memory. For N_VDestroy(). */

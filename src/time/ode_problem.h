@@ -34,7 +34,7 @@ typedef struct motion {
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
     double max_step;                       /* s */
     double fixed_step;                     /* s; > 0: steps of this length without error control */
-    const bulk *bulk;                      /* arithmetic on the states */
+    const array_ops *ops;                  /* arithmetic on the states */
     int n_threads;
 } motion;
 

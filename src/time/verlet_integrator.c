@@ -141,13 +141,13 @@ static void drift_stretch(verlet *V, double h, stretch s)
 {
     const dem_index n = 2 * V->problem.n_nodes;
     const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
-    V->problem.bulk->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
+    V->problem.ops->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
 }
 
 static void kick_stretch(verlet *V, double h, stretch s)
 {
     const dem_index at = 2 * V->problem.n_nodes + s.at;
-    V->problem.bulk->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
+    V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
 }
 
 /* A velocity that the derivative does not take over as it is, is prescribed. */

@@ -9,9 +9,9 @@
 
 enum { most = 10000, n_inputs = 20 };
 
-static const bulk *const tables[] = {&bulk_portable,
+static const array_ops *const tables[] = {&array_ops_portable,
 #ifdef DEM_X86_KERNELS
-                                     &bulk_avx2, &bulk_avx512
+                                          &array_ops_avx2, &array_ops_avx512
 #endif
 };
 static const dem_kernel kinds[] = {DEM_KERNEL_PORTABLE, DEM_KERNEL_AVX2, DEM_KERNEL_AVX512};
@@ -56,11 +56,11 @@ static void combinations_are_sums_from_the_first_term_on(void **state)
             }
 }
 
-static double value(const bulk *b, const double *x, const double *w, double scale, dem_index size)
+static double value(const array_ops *b, const double *x, const double *w, double scale, dem_index size)
 {
-    bulk_sum sum = {0};
+    array_ops_sum sum = {0};
     b->square(&sum, x, w, scale, size);
-    return bulk_value(&sum);
+    return array_ops_value(&sum);
 }
 
 /* Each square is off by 2^-61, and a sum in long double by less. */
@@ -88,14 +88,14 @@ static void the_order_of_squares_does_not_matter(void **state)
         other[k] = in[1][most - 1 - k];
     }
     for (int t = 0; t < n_tables; t++) {
-        bulk_sum parts[3] = {{0}}, sum = {0};
+        array_ops_sum parts[3] = {{0}}, sum = {0};
         const dem_index ends[] = {0, 1234, 5555, most};
         if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
         for (int p = 0; p < 3; p++)
             tables[t]->square(&parts[p], in[0] + ends[p], in[1] + ends[p], 1.0, ends[p + 1] - ends[p]);
-        for (int p = 2; p >= 0; p--) bulk_add(&sum, &parts[p]);
-        assert_close(bulk_value(&sum), value(&bulk_portable, in[0], in[1], 1.0, most), 0.0);
-        assert_close(bulk_value(&sum), value(tables[t], out, other, 1.0, most), 0.0);
+        for (int p = 2; p >= 0; p--) array_ops_add(&sum, &parts[p]);
+        assert_close(array_ops_value(&sum), value(&array_ops_portable, in[0], in[1], 1.0, most), 0.0);
+        assert_close(array_ops_value(&sum), value(tables[t], out, other, 1.0, most), 0.0);
     }
 }
 
@@ -120,20 +120,20 @@ static void the_largest_square_is_known_and_what_is_no_number_is_told(void **sta
     (void)state;
     for (int t = 0; t < n_tables; t++)
         for (dem_index at = 0; at < 5000; at += 501) {
-            bulk_sum sum = {0};
+            array_ops_sum sum = {0};
             if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
             const double kept = in[0][at];
             in[0][at] = -40.0;
             tables[t]->square(&sum, in[0], in[2], 1.0, most);
             assert_close(sum.largest, fmax(1600.0 * in[2][at] * in[2][at], sum.largest), 0.0);
             in[0][at] = (double)NAN;
-            sum = (bulk_sum){0};
+            sum = (array_ops_sum){0};
             tables[t]->square(&sum, in[0], in[2], 1.0, most);
             assert_true(isnan(sum.largest) != 0);
             in[0][at] = (double)INFINITY;
-            sum = (bulk_sum){0};
+            sum = (array_ops_sum){0};
             tables[t]->square(&sum, in[0], in[2], 1.0, most);
-            assert_false(sum.largest <= BULK_LARGEST);
+            assert_false(sum.largest <= ARRAY_OPS_LARGEST);
             in[0][at] = kept;
         }
 }

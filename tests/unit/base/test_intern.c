@@ -17,7 +17,7 @@ typedef struct pair {
 typedef struct kept {
     pair items[most];
     dem_index n;
-    pool_span span;
+    intern_span span;
 } kept;
 
 static kept lists[n_lists];
@@ -39,7 +39,7 @@ static const kept *search(const kept *list, int n)
     return NULL;
 }
 
-static void assert_holds(const pool *p, const kept *list)
+static void assert_holds(const intern *p, const kept *list)
 {
     const pair *items = p->items;
     assert_int_equal(list->span.end - list->span.first, list->n);
@@ -51,12 +51,12 @@ static void a_list_is_held_once(void **state)
 {
     (void)state;
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
-    pool p = {.unit = sizeof(pair)};
+    intern p = {.unit = sizeof(pair)};
     dem_index n_items = 0;
     for (int k = 0; k < n_lists; k++) {
         kept list = draw(r);
         const kept *known = search(&list, k);
-        assert_int_equal(pool_find(&p, list.items, list.n, &list.span), DEM_OK);
+        assert_int_equal(intern_find(&p, list.items, list.n, &list.span), DEM_OK);
         if (known == NULL)
             n_items += list.n;
         else
@@ -65,11 +65,11 @@ static void a_list_is_held_once(void **state)
         assert_int_equal(p.n, n_items);
     }
     for (int k = 0; k < n_lists; k++) assert_holds(&p, &lists[k]);
-    assert_int_equal(pool_settle(&p), DEM_OK);
+    assert_int_equal(intern_settle(&p), DEM_OK);
     assert_int_equal(p.n, n_items);
     assert_int_equal((uintptr_t)p.items % ALIGNED_TO, 0);
     for (int k = 0; k < n_lists; k++) assert_holds(&p, &lists[k]);
-    pool_free(&p);
+    intern_free(&p);
     assert_null(p.items);
     gsl_rng_free(r);
 }
@@ -79,23 +79,23 @@ static void lists_are_told_apart_by_their_bits(void **state)
 {
     (void)state;
     const double plus = 0.0, minus = -0.0;
-    pool p = {.unit = sizeof(double)};
-    pool_span a, b, none;
-    assert_int_equal(pool_find(&p, &plus, 1, &a), DEM_OK);
-    assert_int_equal(pool_find(&p, &minus, 1, &b), DEM_OK);
-    assert_int_equal(pool_find(&p, NULL, 0, &none), DEM_OK);
+    intern p = {.unit = sizeof(double)};
+    intern_span a, b, none;
+    assert_int_equal(intern_find(&p, &plus, 1, &a), DEM_OK);
+    assert_int_equal(intern_find(&p, &minus, 1, &b), DEM_OK);
+    assert_int_equal(intern_find(&p, NULL, 0, &none), DEM_OK);
     assert_int_not_equal(a.first, b.first);
     assert_int_equal(none.first, none.end);
-    pool_free(&p);
+    intern_free(&p);
 }
 
 static void an_empty_pool_settles(void **state)
 {
     (void)state;
-    pool p = {.unit = sizeof(double)};
-    assert_int_equal(pool_settle(&p), DEM_OK);
+    intern p = {.unit = sizeof(double)};
+    assert_int_equal(intern_settle(&p), DEM_OK);
     assert_int_equal(p.n, 0);
-    pool_free(&p);
+    intern_free(&p);
 }
 
 int main(void)

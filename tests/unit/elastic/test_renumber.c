@@ -56,9 +56,9 @@ static void shuffled_chains_are_numbered_along_themselves(void **state)
         chain c;
         shuffle(at, seed);
         make_chains(&c, at);
-        assert_true(order_span(&c.springs, NULL) > 10);
-        order_by_distance(&c.springs, c.order, c.place);
-        assert_int_equal(order_span(&c.springs, c.place), 1);
+        assert_true(renumber_span(&c.springs, NULL) > 10);
+        renumber_by_distance(&c.springs, c.order, c.place);
+        assert_int_equal(renumber_span(&c.springs, c.place), 1);
         for (dem_index q = 0; q < n; q++) assert_int_equal(c.place[c.order[q]], q);
         springs_free(&c.springs);
     }
@@ -74,8 +74,8 @@ static void nodes_without_springs_are_numbered_too(void **state)
     springs_free(&c.springs);
     c.lattice.n_springs = 0;
     assert_int_equal(springs_compile(&c.springs, &c.lattice), DEM_OK);
-    order_by_distance(&c.springs, c.order, c.place);
-    assert_int_equal(order_span(&c.springs, c.place), 0);
+    renumber_by_distance(&c.springs, c.order, c.place);
+    assert_int_equal(renumber_span(&c.springs, c.place), 0);
     for (dem_index q = 0; q < n; q++) assert_int_equal(c.place[c.order[q]], q);
     springs_free(&c.springs);
 }

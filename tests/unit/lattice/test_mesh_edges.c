@@ -24,15 +24,15 @@ static void sides_are_sorted_by_lower_node_then_upper_node_then_triangle(void **
 {
     static const dem_index row[5] = {0, 4, 5, 6, 6}, upper[6] = {1, 2, 2, 3, 2, 3}, triangle[6] = {0, 0, 1, 1, 0, 1};
     const dem_lattice lattice = square();
-    sides s;
+    mesh_edges s;
     (void)state;
-    assert_ok(sides_create(&s, &lattice));
+    assert_ok(mesh_edges_create(&s, &lattice));
     assert_memory_equal(s.row, row, sizeof row);
     for (int p = 0; p < 6; p++) {
         assert_int_equal(s.list[p].upper, upper[p]);
         assert_int_equal(s.list[p].triangle, triangle[p]);
     }
-    sides_free(&s);
+    mesh_edges_free(&s);
     assert_null(s.list);
 }
 
@@ -40,38 +40,38 @@ static void an_edge_between_two_triangles_begins_once(void **state)
 {
     static const int begins[4] = {1, 1, 0, 1};
     const dem_lattice lattice = square();
-    sides s;
+    mesh_edges s;
     (void)state;
-    assert_ok(sides_create(&s, &lattice));
-    for (int p = 0; p < 4; p++) assert_int_equal(sides_edge_begins(&s, 0, p), begins[p]);
-    assert_true(sides_edge_begins(&s, 1, 4)); /* also where the row before ends with the same upper node */
-    assert_true(sides_edge_begins(&s, 2, 5));
-    for (int p = 0; p < 4; p++) assert_int_equal(sides_edge_is_boundary(&s, 0, p), p == 0 || p == 3);
-    assert_true(sides_edge_is_boundary(&s, 1, 4) && sides_edge_is_boundary(&s, 2, 5));
-    sides_free(&s);
+    assert_ok(mesh_edges_create(&s, &lattice));
+    for (int p = 0; p < 4; p++) assert_int_equal(mesh_edges_is_first(&s, 0, p), begins[p]);
+    assert_true(mesh_edges_is_first(&s, 1, 4)); /* also where the row before ends with the same upper node */
+    assert_true(mesh_edges_is_first(&s, 2, 5));
+    for (int p = 0; p < 4; p++) assert_int_equal(mesh_edges_is_boundary(&s, 0, p), p == 0 || p == 3);
+    assert_true(mesh_edges_is_boundary(&s, 1, 4) && mesh_edges_is_boundary(&s, 2, 5));
+    mesh_edges_free(&s);
 }
 
 /* Slots counted as the documentation says: a hexagon of 6 triangles has 12 edges, 6 of them inside. */
 static void every_triangle_has_its_three_sides_in_the_list(void **state)
 {
     dem_lattice lattice;
-    sides s;
+    mesh_edges s;
     int slots = 0, edges = 0, of_triangle[6] = {0};
     (void)state;
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     assert_int_equal(lattice.n_triangles, 6);
-    assert_ok(sides_create(&s, &lattice));
+    assert_ok(mesh_edges_create(&s, &lattice));
     for (dem_index i = 0; i < lattice.n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
             slots++;
-            edges += sides_edge_begins(&s, i, p);
+            edges += mesh_edges_is_first(&s, i, p);
             of_triangle[s.list[p].triangle]++;
             assert_true(s.list[p].upper > i);
         }
     assert_int_equal(slots, 18);
     assert_int_equal(edges, 12);
     for (int k = 0; k < 6; k++) assert_int_equal(of_triangle[k], 3);
-    sides_free(&s);
+    mesh_edges_free(&s);
     dem_lattice_free(&lattice);
 }
 
@@ -82,7 +82,7 @@ static void the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not(void 
     (void)state;
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     memset(flags, 0xff, sizeof flags);
-    assert_ok(sides_contact_flags(flags, &lattice));
+    assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (dem_index i = 0; i < 7; i++) {
         const int inside = hypot(lattice.x[2 * i], lattice.x[2 * i + 1]) < 0.5;
         assert_int_equal(flags[i], inside ? 0 : DEM_NODE_CONTACT);
@@ -105,13 +105,13 @@ static void the_rim_of_a_hole_is_boundary_too(void **state)
     (void)state;
     assert_ok(dem_lattice_disc(&lattice, 2.0, 1.0));
     assert_int_equal(lattice.n_nodes, 19);
-    assert_ok(sides_contact_flags(flags, &lattice));
+    assert_ok(mesh_edges_contact_flags(flags, &lattice));
     int boundary = 0;
     for (int i = 0; i < 19; i++) boundary += flags[i];
     assert_int_equal(boundary, 12 * DEM_NODE_CONTACT);
     assert_ok(dem_lattice_cut(&lattice, away_from_the_middle, NULL));
     assert_int_equal(lattice.n_nodes, 18);
-    assert_ok(sides_contact_flags(flags, &lattice));
+    assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (int i = 0; i < 18; i++) assert_int_equal(flags[i], DEM_NODE_CONTACT);
     dem_lattice_free(&lattice);
 }
@@ -122,7 +122,7 @@ static void a_node_of_no_triangle_may_not_touch_where_others_have_some(void **st
     dem_lattice lattice = square();
     (void)state;
     lattice.n_triangles = 1;
-    assert_ok(sides_contact_flags(flags, &lattice));
+    assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (int i = 0; i < 4; i++) assert_int_equal(flags[i], i == 3 ? 0 : DEM_NODE_CONTACT);
 }
 
@@ -132,7 +132,7 @@ static void every_node_may_touch_where_there_are_no_triangles(void **state)
     dem_lattice lattice = square();
     (void)state;
     lattice.n_triangles = 0;
-    assert_ok(sides_contact_flags(flags, &lattice));
+    assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (int i = 0; i < 4; i++) assert_int_equal(flags[i], DEM_NODE_CONTACT);
 }
 

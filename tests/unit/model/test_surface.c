@@ -148,7 +148,7 @@ static void a_ring_has_two_boundaries_that_run_opposite_ways(void **state)
     (void)state;
     assert_ok(dem_lattice_disc(&ring, 2.0, 1.0));
     assert_ok(dem_lattice_cut(&ring, away_from_the_middle, NULL));
-    assert_ok(sides_contact_flags(flags, &ring));
+    assert_ok(mesh_edges_contact_flags(flags, &ring));
     ring.flags = flags;
     assert_ok(surface_compile(&s, &ring));
     assert_int_equal(s.n_edges, 18);

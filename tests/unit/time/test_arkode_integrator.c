@@ -78,7 +78,7 @@ static integrator *make(world *w, int (*derivative)(double, const double *, doub
                         dem_method method, double error, double fixed_step, const double *y)
 {
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .derivative = derivative,
                             .context = w,
@@ -181,7 +181,7 @@ static int steps_with_errors(double position, double velocity)
 {
     world w = {.fails_after = 1e9};
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .derivative = swing,
                             .context = &w,
@@ -212,7 +212,7 @@ static void errors_of_positions_and_of_velocities_both_count(void **state)
 static void an_unknown_method_is_refused(void **state)
 {
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .derivative = fall,
                             .method = (dem_method)77,
@@ -295,7 +295,7 @@ static void evaluations_are_counted(void **state)
 static integrator *make_fall(world *w, const double *y)
 {
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .n_guards = 2,
                             .derivative = fall,
@@ -480,7 +480,7 @@ static void a_tolerance_below_rounding_is_told(void **state)
 static void guards_that_are_no_numbers_are_an_error(void **state)
 {
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .n_guards = 2,
                             .derivative = fall,

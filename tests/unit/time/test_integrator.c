@@ -33,7 +33,7 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
         int calls = 0, bounces = 0;
         const motion problem = {.n_nodes = 1,
-                                .bulk = &bulk_portable,
+                                .ops = &array_ops_portable,
                                 .n_threads = 1,
                                 .n_guards = 1,
                                 .derivative = fall,
@@ -75,7 +75,7 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
     for (int m = 0; m < 2; m++) {
         int calls = 0, bounces = 0;
         const motion problem = {.n_nodes = 1,
-                                .bulk = &bulk_portable,
+                                .ops = &array_ops_portable,
                                 .n_threads = 1,
                                 .n_guards = 1,
                                 .derivative = fall,
@@ -125,7 +125,7 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
 static void what_cannot_be_made_is_told(void **state)
 {
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .derivative = fall,
                             .max_step = 1.0,

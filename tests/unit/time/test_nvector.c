@@ -28,7 +28,7 @@ static bench make_bench(int n_threads)
 #else
     assert_int_equal(SUNContext_Create(NULL, &b.sundials), 0);
 #endif
-    b.space = vector_space_create(n, &bulk_portable, n_threads, n_vectors - 1);
+    b.space = vector_space_create(n, &array_ops_portable, n_threads, n_vectors - 1);
     assert_non_null(b.space);
     for (int p = 0; p < n_vectors; p++) {
         b.v[p] = p == 0 ? vector_create(b.space, b.sundials) : N_VClone(b.v[0]);

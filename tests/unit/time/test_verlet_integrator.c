@@ -56,7 +56,7 @@ static double stiffening(const double *y, void *context)
 static verlet *make(world *w, double h, dem_index n_guards, const double *y)
 {
     const motion problem = {.n_nodes = 1,
-                            .bulk = &bulk_portable,
+                            .ops = &array_ops_portable,
                             .n_threads = 1,
                             .n_guards = n_guards,
                             .prescribes = !isnan(w->pulled),
@@ -152,7 +152,7 @@ static void a_step_in_one_pass_is_that_in_parts(void **state)
         for (int leaps = 0; leaps < 2; leaps++) {
             const motion problem = {.n_nodes = 2,
                                     .n_books = 1,
-                                    .bulk = &bulk_portable,
+                                    .ops = &array_ops_portable,
                                     .n_threads = 1,
                                     .derivative = move_with_book,
                                     .leap = leaps ? leap_from_above : NULL,
@@ -430,7 +430,8 @@ static void guards_that_are_no_numbers_are_an_error(void **state)
 
 static void without_a_fixed_step_it_is_refused(void **state)
 {
-    const motion problem = {.n_nodes = 1, .bulk = &bulk_portable, .n_threads = 1, .derivative = move, .max_step = 1.0};
+    const motion problem = {
+        .n_nodes = 1, .ops = &array_ops_portable, .n_threads = 1, .derivative = move, .max_step = 1.0};
     const double y0[4] = {0.0};
     verlet *V = NULL;
     (void)state;
