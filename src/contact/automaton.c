@@ -435,27 +435,27 @@ dem_status contact_renew(contact *c, const double *y)
 }
 
 /* No node that may touch goes further in the step, which begins where the last look was. */
-static double furthest(const contact *c, const path *p)
+static double furthest(const contact *c, const dense_output *p)
 {
     return 2.0 * (p->t1 - p->t0) * fmax(c->watch.speed, watch_speed(&c->sites, velocities(c, p->y1)));
 }
 
 /* The state at the end of a step, as far as the forces of a group depend on it. */
-static const double *end_of(contact *c, dem_index group, const path *p, double *state)
+static const double *end_of(contact *c, dem_index group, const dense_output *p, double *state)
 {
     if (p->end == p->t1) return p->y1;
     search_state(&c->sites.reactions, group, p, p->end, state);
     return state;
 }
 
-void contact_weigh(contact *c, const path *p, dem_index group, double *state)
+void contact_weigh(contact *c, const dense_output *p, dem_index group, double *state)
 {
     const double *y = end_of(c, group, p, state);
     reactions_solve(&c->sites.reactions, group, y, velocities(c, y));
 }
 
 /* First time at which closed contacts of a site have to change that have to at the end of the step. */
-static double next_due(contact *c, const path *p, dem_index k, double from, double *state)
+static double next_due(contact *c, const dense_output *p, dem_index k, double from, double *state)
 {
     reactions *r = &c->sites.reactions;
     const contact_site *site = &c->sites.list[k];
@@ -467,7 +467,7 @@ static double next_due(contact *c, const path *p, dem_index k, double from, doub
     return due;
 }
 
-void contact_expect(contact *c, const path *p, double *state)
+void contact_expect(contact *c, const dense_output *p, double *state)
 {
     const reactions *r = &c->sites.reactions;
     const bool whole = p->end == p->t1, solved = whole && c->solved == p->t1;
@@ -490,7 +490,7 @@ static bool come_round(contact_sites *c, dem_index k, const contact_spot *spot)
     return true;
 }
 
-double contact_crossing(contact *c, const path *p, dem_index k, double from)
+double contact_crossing(contact *c, const dense_output *p, dem_index k, double from)
 {
     contact_site *site = &c->sites.list[k];
     if (!watch_wakes(&c->watch, site, c->way)) return INFINITY;
@@ -498,7 +498,7 @@ double contact_crossing(contact *c, const path *p, dem_index k, double from)
     return site->n_closed < 2 ? search_crossing(&c->sites.scene, site, p, from) : INFINITY;
 }
 
-double contact_next(contact *c, const path *p, dem_index k, double from, double *state)
+double contact_next(contact *c, const dense_output *p, dem_index k, double from, double *state)
 {
     const contact_site *site = &c->sites.list[k];
     const double due = site->n_closed > 0 ? next_due(c, p, k, from, state) : INFINITY;
@@ -510,7 +510,7 @@ double contact_next(contact *c, const path *p, dem_index k, double from, double 
     return fmin(due, crossing);
 }
 
-bool contact_check(contact *c, path *p, bool rooted, double *state)
+bool contact_check(contact *c, dense_output *p, bool rooted, double *state)
 {
     contact_sites *s = &c->sites;
     const double last = rooted ? p->end - 4.0 * search_resolution(p) : INFINITY; /* later it is the root found */
@@ -552,7 +552,7 @@ bool contact_straighten(contact *c, double t, double *y)
     return any;
 }
 
-void contact_follow(contact *c, const path *p, const double *y)
+void contact_follow(contact *c, const dense_output *p, const double *y)
 {
     contact_sites *s = &c->sites;
     c->watch.travelled += c->way;

@@ -46,10 +46,10 @@ void contact_constrain(contact *c, const double *y, double *a);
 
 /** Looks how far sites go in an accepted step, and solves for the forces in closed contacts at its end.
  *  \param[out] state  [4 n] scratch */
-void contact_expect(contact *c, const path *p, double *state);
+void contact_expect(contact *c, const dense_output *p, double *state);
 
 /** Solves for the forces of one group there. */
-void contact_weigh(contact *c, const path *p, dem_index group, double *state);
+void contact_weigh(contact *c, const dense_output *p, dem_index group, double *state);
 
 /** Sites for which something can happen in the step: their number, and the a-th of them. */
 static inline dem_index contact_watched(const contact *c)
@@ -64,23 +64,23 @@ static inline dem_index contact_at_watch(const contact *c, dem_index a)
 
 /** When a site that has room for a contact touches, as it is known by now: changes nothing but the site, so that
  *  threads may ask for different ones at once. `from` for one that is inside already. */
-double contact_crossing(contact *c, const path *p, dem_index k, double from);
+double contact_crossing(contact *c, const dense_output *p, dem_index k, double from);
 
 /** First time after `from` in the step at which something happens at a site, after contact_expect(): it is inside an
  *  obstacle, if only between entry and exit, or a closed contact of it has to change that still has to at the end.
  *  Infinity if nothing happens.  \param[out] state  [4 n] scratch */
-double contact_next(contact *c, const path *p, dem_index k, double from, double *state);
+double contact_next(contact *c, const dense_output *p, dem_index k, double from, double *state);
 
 /** Looks in an accepted step for what the root finder has not seen. If there is something, cuts path->end short to the
  *  first and returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
-bool contact_check(contact *c, path *p, bool rooted, double *state);
+bool contact_check(contact *c, dense_output *p, bool rooted, double *state);
 
 /** Puts closed vertex contacts that the integrator's error has opened back on their surfaces, and takes the velocity
  *  that they have across.  \return whether any was */
 bool contact_straighten(contact *c, double t, double *y);
 
 /** Follows an accepted step that ends at y: refreshes the forces, and looks where the sites are. */
-void contact_follow(contact *c, const path *p, const double *y);
+void contact_follow(contact *c, const dense_output *p, const double *y);
 
 /** Adds to the rates [2 n_obstacles + 1][2], after contact_constrain() in the same state: the force of each obstacle's
  *  closed contacts, N; the part of it that is friction; and in the last place the power that friction takes, W. */

@@ -13,12 +13,12 @@ contact_spot site_spot(const contact_site *site, const double *x)
     return spot;
 }
 
-contact_spot site_spot_on(const contact_site *site, const path *p, double t)
+contact_spot site_spot_on(const contact_site *site, const dense_output *p, double t)
 {
-    contact_spot spot = {.a = path_position(p, t, site->node)};
-    spot.b = site_is_edge(site) ? path_position(p, t, site->other) : spot.a;
-    spot.previous = site->previous >= 0 ? path_position(p, t, site->previous) : spot.a;
-    spot.next = site->next >= 0 ? path_position(p, t, site->next) : spot.b;
+    contact_spot spot = {.a = dense_output_position(p, t, site->node)};
+    spot.b = site_is_edge(site) ? dense_output_position(p, t, site->other) : spot.a;
+    spot.previous = site->previous >= 0 ? dense_output_position(p, t, site->previous) : spot.a;
+    spot.next = site->next >= 0 ? dense_output_position(p, t, site->next) : spot.b;
     return spot;
 }
 

@@ -24,7 +24,7 @@ typedef struct contact_spot {
 } contact_spot;
 
 contact_spot site_spot(const contact_site *site, const double *x);
-contact_spot site_spot_on(const contact_site *site, const path *p, double t);
+contact_spot site_spot_on(const contact_site *site, const dense_output *p, double t);
 
 /** How far a site has moved since it was seen to be clear, m. */
 double site_moved(const contact_site *site, const contact_spot *spot);

@@ -43,16 +43,16 @@ typedef struct contact_site {
 } contact_site;
 
 typedef struct contact_rule {
-    double skin;           /* m, depth at which an impact is taken */
-    double position_error; /* m, tolerance of positions: hops below it are rest */
-    double rest_speed;     /* m/s, rebounds up to this are rest whatever else the rule says */
-    double window;         /* s, impacts nearer than this are taken together */
-    double max_step;       /* s, longest step: with t it sets how exactly an event is located */
-    double storm_time;     /* s */
-    dem_index max_impacts; /* within storm_time at one site */
-    bool vertices;         /* whether edges touch vertices */
-    dem_index n_books;     /* places behind the nodes in a state, for what is integrated along */
-    int n_threads;         /* that look at free sites at once; 0 counts as 1 */
+    double skin;             /* m, depth at which an impact is taken */
+    double position_error;   /* m, tolerance of positions: hops below it are rest */
+    double rest_speed;       /* m/s, rebounds up to this are rest whatever else the rule says */
+    double window;           /* s, impacts nearer than this are taken together */
+    double max_step;         /* s, longest step: with t it sets how exactly an event is located */
+    double storm_time;       /* s */
+    dem_index max_impacts;   /* within storm_time at one site */
+    bool vertices;           /* whether edges touch vertices */
+    dem_index n_quadratures; /* places behind the nodes in a state, for what is integrated along */
+    int n_threads;           /* that look at free sites at once; 0 counts as 1 */
     forces load;
 } contact_rule;
 
@@ -96,14 +96,14 @@ static inline bool site_is_edge(const contact_site *site)
 /** Where the velocities begin in a state y = (x, v). */
 static inline dem_index scene_velocities(const contact_scene *scene)
 {
-    return 2 * (scene->model->lattice.n_nodes + scene->rule.n_books);
+    return 2 * (scene->model->lattice.n_nodes + scene->rule.n_quadratures);
 }
 
 /** Where the books begin among the nodes of a state: pairs for the impulses of the obstacles, for those of their
  *  friction, then (energy that friction takes, that damping takes), (work from outside, time). */
 static inline dem_index scene_books(const contact_scene *scene)
 {
-    return scene->model->lattice.n_nodes + scene->rule.n_books - 2 * scene->model->obstacles.n - 2;
+    return scene->model->lattice.n_nodes + scene->rule.n_quadratures - 2 * scene->model->obstacles.n - 2;
 }
 
 /** The segment that a contact is on, or that ends in the vertex it is on. */

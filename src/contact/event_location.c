@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-double search_resolution(const path *p)
+double search_resolution(const dense_output *p)
 {
     return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
 }
@@ -47,17 +47,17 @@ typedef struct sample {
     double t, guard, slope;
 } sample;
 
-static sample sample_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+static sample sample_at(const contact_scene *scene, const contact_site *site, const dense_output *p, double t)
 {
     const contact_spot spot = site_spot_on(site, p, t);
     const contact_gap gap = site_gap(scene, site, &spot);
-    vec2 v = path_velocity(p, t, site->node);
+    vec2 v = dense_output_velocity(p, t, site->node);
     if (site_is_edge(site))
-        v = vec2_add(vec2_scale(1.0 - gap.place, v), vec2_scale(gap.place, path_velocity(p, t, site->other)));
+        v = vec2_add(vec2_scale(1.0 - gap.place, v), vec2_scale(gap.place, dense_output_velocity(p, t, site->other)));
     return (sample){t, fmin(gap.distance, 1.0) + scene->rule.skin, vec2_dot(gap.normal, v)};
 }
 
-static double guard_at(const contact_scene *scene, const contact_site *site, const path *p, double t)
+static double guard_at(const contact_scene *scene, const contact_site *site, const dense_output *p, double t)
 {
     const contact_spot spot = site_spot_on(site, p, t);
     return fmin(site_gap(scene, site, &spot).distance, 1.0) + scene->rule.skin;
@@ -71,7 +71,7 @@ static bool dips(const sample *s, const sample *next)
 
 /* A time between two samples at which the guard is as low as it gets, by golden section; the first found at or below 0
  * will do. Where nothing is near an edge its guard is level, and lower towards the lower sample. */
-static double lowest(const contact_scene *scene, const contact_site *site, const path *p, const sample *s,
+static double lowest(const contact_scene *scene, const contact_site *site, const dense_output *p, const sample *s,
                      const sample *next)
 {
     const double ratio = 0.6180339887498949;
@@ -96,7 +96,8 @@ static double lowest(const contact_scene *scene, const contact_site *site, const
 }
 
 /* The zero of the guard between a time when it is above and one when it is not. */
-static double crossing(const contact_scene *scene, const contact_site *site, const path *p, sample clear, sample deep)
+static double crossing(const contact_scene *scene, const contact_site *site, const dense_output *p, sample clear,
+                       sample deep)
 {
     const double width = search_resolution(p);
     bracket b = {clear.t, deep.t, clear.guard, deep.guard, 0, 0};
@@ -107,50 +108,50 @@ static double crossing(const contact_scene *scene, const contact_site *site, con
     return b.after;
 }
 
-static double fastest(const path *p, double t, const contact_site *site)
+static double fastest(const dense_output *p, double t, const contact_site *site)
 {
-    const double v = vec2_norm(path_velocity(p, t, site->node));
-    return site_is_edge(site) ? fmax(v, vec2_norm(path_velocity(p, t, site->other))) : v;
+    const double v = vec2_norm(dense_output_velocity(p, t, site->node));
+    return site_is_edge(site) ? fmax(v, vec2_norm(dense_output_velocity(p, t, site->other))) : v;
 }
 
 /* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
  * its nodes there, four times what a constant one does, and its turn. */
-static double bend(const contact_site *site, const path *p)
+static double bend(const contact_site *site, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
     const dem_index a0 = p->n_nodes + site->node, b0 = p->n_nodes + site->other;
     const double a = fmax(fmax(vec2_norm(vec2_at(p->f0, a0)), vec2_norm(vec2_at(p->f1, a0))),
                           fmax(vec2_norm(vec2_at(p->f0, b0)), vec2_norm(vec2_at(p->f1, b0))));
-    const vec2 va = path_velocity(p, p->end, site->node), vb = path_velocity(p, p->end, site->other);
-    const double length =
-        vec2_norm(vec2_sub(path_position(p, p->end, site->other), path_position(p, p->end, site->node)));
+    const vec2 va = dense_output_velocity(p, p->end, site->node), vb = dense_output_velocity(p, p->end, site->other);
+    const double length = vec2_norm(
+        vec2_sub(dense_output_position(p, p->end, site->other), dense_output_position(p, p->end, site->node)));
     const double turn = 2.0 * vec2_norm(vec2_sub(vb, va)) / length * fmax(vec2_norm(va), vec2_norm(vb));
     return 0.5 * h * h * (a + turn);
 }
 
 /* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the
  * nearest is further in front than the edge can have come from there. */
-static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const path *p, double from,
+static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const dense_output *p, double from,
                           double reach)
 {
     const contact_spot spot = site_spot_on(site, p, p->end);
     const contact_gap around = site_around(scene, site, &spot, reach + scene->rule.skin);
     if (around.feature < 0) return true;
-    const double va = vec2_dot(path_velocity(p, p->end, site->node), around.normal),
-                 vb = vec2_dot(path_velocity(p, p->end, site->other), around.normal);
+    const double va = vec2_dot(dense_output_velocity(p, p->end, site->node), around.normal),
+                 vb = vec2_dot(dense_output_velocity(p, p->end, site->other), around.normal);
     const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
     return around.distance + scene->rule.skin > way + bend(site, p);
 }
 
 /* Whether a site ends the step so near to where it was clear that it was so all the way. */
-static bool stays_clear(const contact_site *site, const path *p, double reach)
+static bool stays_clear(const contact_site *site, const dense_output *p, double reach)
 {
     const contact_spot spot = site_spot_on(site, p, p->end);
     return site_moved(site, &spot) + reach < site->clear;
 }
 
 /* The first crossing of a site whose gap is the true one. */
-static double crossing_within(const contact_scene *scene, const contact_site *site, const path *p, double from,
+static double crossing_within(const contact_scene *scene, const contact_site *site, const dense_output *p, double from,
                               double reach)
 {
     enum { n = 8 };
@@ -174,7 +175,7 @@ static double crossing_within(const contact_scene *scene, const contact_site *si
     return INFINITY;
 }
 
-double search_crossing(const contact_scene *scene, const contact_site *site, const path *p, double from)
+double search_crossing(const contact_scene *scene, const contact_site *site, const dense_output *p, double from)
 {
     const double h = p->end - from;
     const double reach = 2.0 * h * fmax(fastest(p, from, site), fastest(p, p->end, site)); /* no site goes further */
@@ -186,14 +187,14 @@ double search_crossing(const contact_scene *scene, const contact_site *site, con
 
 /* ---- closed contacts ---- */
 
-static void put_node(const path *p, double t, dem_index i, double *state)
+static void put_node(const dense_output *p, double t, dem_index i, double *state)
 {
-    vec2_put(state, i, path_position(p, t, i));
-    vec2_put(state, p->n_nodes + i, path_velocity(p, t, i));
+    vec2_put(state, i, dense_output_position(p, t, i));
+    vec2_put(state, p->n_nodes + i, dense_output_velocity(p, t, i));
 }
 
 /* A node and all whose positions its force depends on. */
-static void put_around(const dem_model *model, const path *p, double t, dem_index i, double *state)
+static void put_around(const dem_model *model, const dense_output *p, double t, dem_index i, double *state)
 {
     const springs *s = &model->springs;
     const triangles *tri = &model->triangles;
@@ -205,7 +206,7 @@ static void put_around(const dem_model *model, const path *p, double t, dem_inde
     }
 }
 
-void search_state(const reactions *r, dem_index group, const path *p, double t, double *state)
+void search_state(const reactions *r, dem_index group, const dense_output *p, double t, double *state)
 {
     for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
         const contact_site *site = &r->sites[r->members[m]];
@@ -228,7 +229,7 @@ static double lowest_guard(reactions *r, dem_index k, const double *state, const
     return low;
 }
 
-double search_due(reactions *r, const contact_site *site, const path *p, double from, double *state)
+double search_due(reactions *r, const contact_site *site, const dense_output *p, double from, double *state)
 {
     const dem_index k = site - r->sites, group = r->group[k];
     const double *v = state + scene_velocities(r->scene);

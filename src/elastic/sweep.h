@@ -7,11 +7,11 @@
 #include "elastic/layout.h"
 
 /** A step of Verlet from x0, v0 with accelerations a0, (5), [n_nodes][2]: where it leads. */
-typedef struct sweep_leap {
+typedef struct sweep_fused_step {
     double h; /* s */
     const double *x0, *v0, *a0;
     double *x1, *v1;
-} sweep_leap;
+} sweep_fused_step;
 
 /** What a sweep reads and writes; nodes in the order of the layout. */
 typedef struct sweep {
@@ -24,7 +24,8 @@ typedef struct sweep {
     double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
     uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
                                    acceleration is without triangles */
-    const sweep_leap *leap;     /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
+    const sweep_fused_step
+        *fused_step; /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
                                    layout->ahead blocks at both ends; and its v1, after the accelerations */
 } sweep;
 

@@ -126,7 +126,7 @@ INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const doub
 }
 
 /* x1 = x0 + h v',  v' = v0 + h/2 a0 */
-INLINE void drift(const sweep_leap *p, dem_index block)
+INLINE void drift(const sweep_fused_step *p, dem_index block)
 {
     const dem_index at = 2 * LAYOUT_LANES * block;
     const pairs h = pairs_both(p->h, p->h), half_h = pairs_both(0.5 * p->h, 0.5 * p->h);
@@ -135,7 +135,7 @@ INLINE void drift(const sweep_leap *p, dem_index block)
 }
 
 /* v1 = (v' + h/2 a0) + h/2 (a1 - a0): in two parts, as where a1 needs v1 extrapolated. */
-INLINE void kick(const sweep_leap *p, dem_index block, pairs a1)
+INLINE void kick(const sweep_fused_step *p, dem_index block, pairs a1)
 {
     const dem_index at = 2 * LAYOUT_LANES * block;
     const pairs half_h = pairs_both(0.5 * p->h, 0.5 * p->h), a0 = pairs_load(p->a0 + at), push = pairs_mul(half_h, a0);
@@ -144,19 +144,19 @@ INLINE void kick(const sweep_leap *p, dem_index block, pairs a1)
 }
 
 /* Blocks below the first are evaluated only. Nodes collect a block behind, when what was left has reached the cache. */
-INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, bool leaps, double *ring)
+INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, bool fused, double *ring)
 {
     const dem_index reach = s->layout->reach, ahead = s->layout->ahead;
     pairs sum = pairs_both(0.0, 0.0);
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
-        if (leaps && block >= first && block + ahead < last - ahead) drift(s->leap, block + ahead);
+        if (fused && block >= first && block + ahead < last - ahead) drift(s->fused_step, block + ahead);
         if (block < last) evaluate_springs(s, block, damped, ring);
         if (block <= first) continue;
         const dem_index at = 2 * LAYOUT_LANES * (block - 1);
         const pairs a = accelerate(s, block - 1, damped, ring);
         pairs_store(s->a + at, a);
         sum = pairs_add(sum, a);
-        if (leaps) kick(s->leap, block - 1, a);
+        if (fused) kick(s->fused_step, block - 1, a);
         if (s->u == NULL) continue;
         const pairs v = pairs_load(s->v + at);
         pairs_store(s->u + at, v);
@@ -176,7 +176,7 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 
 double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
 {
-    if (s->leap != NULL) return run(s, first, last, false, true, ring);
+    if (s->fused_step != NULL) return run(s, first, last, false, true, ring);
     return s->layout->damped ? run(s, first, last, true, false, ring) : run(s, first, last, false, false, ring);
 }
 

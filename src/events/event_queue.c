@@ -22,7 +22,7 @@ static dem_status allocate(queue *q, const dem_model *model)
     q->sites = malloc(n * sizeof *q->sites);
     CHECK(q->due && q->waiting && q->waits && q->kept && q->sites, DEM_ERROR_MEMORY,
           "out of memory for %lld contact sites", (long long)q->contact->sites.n);
-    TRY(trail_create(&q->trail, model->lattice.n_nodes + q->contact->sites.scene.rule.n_books));
+    TRY(changed_motion_create(&q->changed, model->lattice.n_nodes + q->contact->sites.scene.rule.n_quadratures));
     return books_create(&q->books, model->obstacles.n);
 }
 
@@ -41,7 +41,7 @@ dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool con
 void queue_destroy(queue *q)
 {
     patch_destroy(&q->patch);
-    trail_destroy(&q->trail);
+    changed_motion_destroy(&q->changed);
     books_destroy(&q->books);
     free(q->due);
     free(q->waiting);
@@ -98,7 +98,7 @@ static void look_at_free(queue *q, int n_shares, int share)
 static void look_ahead(queue *q)
 {
     contact *c = q->contact;
-    const path *step = q->step;
+    const dense_output *step = q->step;
     for (dem_index w = 0; w < q->n_waiting; w++) q->waits[q->waiting[w]] = false;
     q->n_waiting = 0;
     q->now = step->t0;
@@ -117,12 +117,12 @@ static void look_ahead(queue *q)
     }
 }
 
-void queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+void queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
     for (dem_index s = 0; s < q->n_sites; s++) q->kept[q->sites[s].k] = false;
     q->n_sites = q->n_events = q->n_stops = 0;
-    trail_start(&q->trail, step->t1, y1, f1);
-    step->trail = &q->trail;
+    changed_motion_start(&q->changed, step->t1, y1, f1);
+    step->changed = &q->changed;
     q->step = step;
     q->state = state;
     q->idle = q->contact->idle;
@@ -183,7 +183,7 @@ void queue_undo(queue *q)
     }
     copy_books(&q->books, &c->sites.books, c->sites.scene.model->obstacles.n);
     (void)sites_regroup(&c->sites); /* groups that there were have room */
-    trail_undo(&q->trail);
+    changed_motion_undo(&q->changed);
     c->idle = q->idle;
     c->solved = NAN;
     q->n_sites = q->n_events = q->n_stops = 0;
@@ -208,7 +208,7 @@ static void look_again(queue *q, dem_index k)
 /* How far sites may go: some are faster now. */
 static double furthest(const queue *q)
 {
-    const path *step = q->step;
+    const dense_output *step = q->step;
     double way = q->contact->way;
     for (dem_index j = 0; j < n_moving(q); j++) {
         const dem_index i = q->patch.ball.nodes[j].i;
@@ -249,7 +249,7 @@ static dem_status take(queue *q, dem_index k)
     each_site(q, keep_site);
     calm(q);
     TRY(contact_resolve_at(c, k, q->now, q->state, &listener));
-    TRY(patch_close(&q->patch, q->step, &q->trail, q->state, &error));
+    TRY(patch_close(&q->patch, q->step, &q->changed, q->state, &error));
     CHECK(isfinite(error), DEM_ERROR_INTEGRATOR,
           "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->sites.list[k].node,
           q->now);
@@ -266,7 +266,7 @@ static bool has_moved(const queue *q, dem_index group)
 {
     const reactions *r = &q->contact->sites.reactions;
     for (dem_index m = r->row[group]; m < r->row[group + 1]; m++)
-        if (trail_has(&q->trail, r->sites[r->members[m]].node)) return true;
+        if (changed_motion_has(&q->changed, r->sites[r->members[m]].node)) return true;
     return false;
 }
 
@@ -276,13 +276,13 @@ static void renew(const queue *q, dem_index i, const double *y)
     const contact_sites *c = &q->contact->sites;
     const unsigned held = q->patch.rule.held != NULL ? q->patch.rule.held[i] : 0;
     const double *v = y + scene_velocities(&c->scene);
-    double *a = q->trail.f1 + scene_velocities(&c->scene);
+    double *a = q->changed.f1 + scene_velocities(&c->scene);
     const bool grouped = sites_group_at(c, i) >= 0;
     const vec2 now =
         grouped ? vec2_at(c->reactions.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
     if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
     if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
-    if (held == 0) vec2_put(q->trail.f1, i, vec2_at(v, i));
+    if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));
 }
 
 /* The rates of the books that contacts fill, from all of them. */
@@ -290,18 +290,18 @@ static dem_status renew_books(queue *q)
 {
     const contact_scene *scene = &q->contact->sites.scene;
     const dem_index first = scene_books(scene), n_impulses = 2 * scene->model->obstacles.n;
-    double *rate = q->trail.f1 + scene_velocities(scene) + 2 * first;
-    for (dem_index b = 0; b <= n_impulses; b++) TRY(trail_keep(&q->trail, first + b));
+    double *rate = q->changed.f1 + scene_velocities(scene) + 2 * first;
+    for (dem_index b = 0; b <= n_impulses; b++) TRY(changed_motion_keep(&q->changed, first + b));
     for (dem_index k = 0; k <= 2 * n_impulses; k++) rate[k] = 0.0; /* the last is the power of friction */
-    contact_account(q->contact, q->trail.y1, rate);
+    contact_account(q->contact, q->changed.y1, rate);
     return DEM_OK;
 }
 
 /* The same of a node whose motion has not changed. */
 static dem_status renew_beside(queue *q, dem_index i, const double *y)
 {
-    if (trail_has(&q->trail, i)) return DEM_OK;
-    TRY(trail_keep(&q->trail, i));
+    if (changed_motion_has(&q->changed, i)) return DEM_OK;
+    TRY(changed_motion_keep(&q->changed, i));
     renew(q, i, y);
     return DEM_OK;
 }
@@ -313,11 +313,11 @@ static dem_status renew_end(queue *q)
     contact_sites *c = &q->contact->sites;
     const springs *s = &c->scene.model->springs;
     const triangles *t = &c->scene.model->triangles;
-    const double *y1 = q->trail.y1;
+    const double *y1 = q->changed.y1;
     for (dem_index g = 0; g < c->reactions.n_groups; g++)
         reactions_solve(&c->reactions, g, y1, y1 + scene_velocities(&c->scene));
-    for (dem_index e = 0, n = q->trail.n; e < n; e++) {
-        const dem_index i = q->trail.list[e].node;
+    for (dem_index e = 0, n = q->changed.n; e < n; e++) {
+        const dem_index i = q->changed.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
         renew(q, i, y1);
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(renew_beside(q, s->neighbour[p], y1));
@@ -333,7 +333,7 @@ static dem_status renew_end(queue *q)
 static dem_status settle_end(queue *q)
 {
     contact_sites *c = &q->contact->sites;
-    double *y1 = q->trail.y1;
+    double *y1 = q->changed.y1;
     contact_moment now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
     for (dem_index g = 0; g < c->reactions.n_groups; g++) {
         if (!has_moved(q, g)) continue;

@@ -17,17 +17,17 @@ typedef struct queue_site {
 typedef struct queue {
     contact *contact;
     patch patch;
-    trail trail;
-    const path *step;   /* in hand */
-    double *state;      /* [4 n] scratch, the caller's */
-    double now;         /* s, everything until here is done */
-    bool settled;       /* and the end of the step is */
-    bool quiet;         /* nothing happens in the step */
-    double error;       /* of all patches, squared */
-    double ahead;       /* what it would be if the events had come right at the start of the step, squared */
-    double most;        /* of it; beyond it the step is to be rejected, and nothing more is done */
-    double *due;        /* [n sites] s, when something happens at a site; infinity: nothing */
-    dem_index *waiting; /* [n sites] sites that may be due */
+    changed_motion changed;
+    const dense_output *step; /* in hand */
+    double *state;            /* [4 n] scratch, the caller's */
+    double now;               /* s, everything until here is done */
+    bool settled;             /* and the end of the step is */
+    bool quiet;               /* nothing happens in the step */
+    double error;             /* of all patches, squared */
+    double ahead;             /* what it would be if the events had come right at the start of the step, squared */
+    double most;              /* of it; beyond it the step is to be rejected, and nothing more is done */
+    double *due;              /* [n sites] s, when something happens at a site; infinity: nothing */
+    dem_index *waiting;       /* [n sites] sites that may be due */
     dem_index n_waiting;
     bool *waits, *kept; /* [n sites] whether a site is one of them; whether it is among `sites` */
     dem_index n_sites;
@@ -46,7 +46,7 @@ void queue_destroy(queue *q);
 
 /** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given
  *  the trail; it must stay where it is.  \param state  [4 n] scratch */
-void queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+void queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
 
 /** Makes the contacts, and the step up to there, what they are at t; the end is whole when t is not before it.
  *  \return DEM_ERROR_CONTACT as contact_resolve(), DEM_ERROR_INTEGRATOR if what follows from an event is not finite,

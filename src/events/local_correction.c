@@ -13,7 +13,7 @@ dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule
 {
     const bool damped = sites->scene.model->springs.viscosity != NULL;
     patch p = {.rule = *rule};
-    TRY(method_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
+    TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
     TRY(ball_create(&p.ball, sites, 1 + (damped ? p.table.stages : p.table.stages / 2)));
     *out = p;
@@ -75,7 +75,7 @@ static dem_status reserve(patch *p, dem_index n, dem_index used)
     free(p->block);
     p->block = block;
     p->capacity = 0;
-    trail_motion *motions = realloc(p->motions, more * sizeof *motions);
+    motion_polynomial *motions = realloc(p->motions, more * sizeof *motions);
     if (motions != NULL) p->motions = motions;
     dem_index *book = realloc(p->book, more * sizeof *book);
     if (book != NULL) p->book = book;
@@ -90,13 +90,13 @@ static dem_status reserve(patch *p, dem_index n, dem_index used)
 static dem_status find_book(patch *p, dem_index place, dem_index *out)
 {
     const dem_index n = p->ball.n;
-    for (dem_index b = 0; b < p->n_books; b++) {
+    for (dem_index b = 0; b < p->n_quadratures; b++) {
         *out = n + b;
         if (p->book[b] == place) return DEM_OK;
     }
-    *out = n + p->n_books;
+    *out = n + p->n_quadratures;
     TRY(reserve(p, *out + 1, *out));
-    p->book[p->n_books++] = place;
+    p->book[p->n_quadratures++] = place;
     for (int k = CHANGES; k < ARRAYS; k++) vec2_put(*array_of(p, k), *out, (vec2){0.0, 0.0});
     return DEM_OK;
 }
@@ -174,17 +174,17 @@ static dem_status add_rates(patch *p, int stage, double sign, const double *y)
 
 /* ---- stages ---- */
 
-static double stage_time(const patch *p, const path *step, int stage)
+static double stage_time(const patch *p, const dense_output *step, int stage)
 {
     return stage == p->last ? step->t1 : p->t + p->table.c[stage] * p->h;
 }
 
 /* Puts the time into a state, for those who are driven by it. */
-static void put_time(const patch *p, const path *step, int stage, double *y)
+static void put_time(const patch *p, const dense_output *step, int stage, double *y)
 {
     const dem_index last = step->n_nodes - 1;
     if (!forces_are_driven(&p->ball.sites->scene.rule.load)) return;
-    vec2_put(y, step->n_nodes + last, path_velocity(step, stage_time(p, step, stage), last));
+    vec2_put(y, step->n_nodes + last, dense_output_velocity(step, stage_time(p, step, stage), last));
 }
 
 /* How n nodes go on to a stage without the event. */
@@ -193,7 +193,7 @@ static void fetch_stage(patch *p, int stage, dem_index n)
     const double s = p->table.c[stage];
     for (dem_index j = 0; j < n; j++) {
         double at[4];
-        trail_at(&p->motions[j], s, at);
+        motion_polynomial_at(&p->motions[j], s, at);
         vec2_put(p->x[stage], j, vec2_at(at, 0));
         vec2_put(p->v[stage], j, vec2_at(at, 1));
     }
@@ -205,7 +205,7 @@ static bool needs_state(const patch *p)
     return !p->ball.plain || p->ball.n_groups > 0 || has_powers(p);
 }
 
-static dem_status open_stage(patch *p, const path *step, int stage, double *y)
+static dem_status open_stage(patch *p, const dense_output *step, int stage, double *y)
 {
     const ball_state s = {p->x[stage], p->v[stage], y};
     const dem_index n = p->ball.end[reach(p, stage) + 1];
@@ -217,7 +217,7 @@ static dem_status open_stage(patch *p, const path *step, int stage, double *y)
 }
 
 /* At the end of the step that is known. */
-static dem_status open_end(patch *p, const path *step)
+static dem_status open_end(patch *p, const dense_output *step)
 {
     for (dem_index j = 0; j < p->ball.n; j++) {
         const dem_index i = p->ball.nodes[j].i;
@@ -231,30 +231,31 @@ static dem_status open_end(patch *p, const path *step)
 }
 
 /* The state at the event. What it is due by has the bits that it was found with. */
-static void open_start(patch *p, const path *step, double *y)
+static void open_start(patch *p, const dense_output *step, double *y)
 {
     const ball_state s = {p->x[0], p->v[0], y};
     fetch_stage(p, 0, p->ball.n);
     for (dem_index j = 0; j < p->ball.end[1]; j++) {
-        vec2_put(p->x[0], j, path_position(step, p->t, p->ball.nodes[j].i));
-        vec2_put(p->v[0], j, path_velocity(step, p->t, p->ball.nodes[j].i));
+        vec2_put(p->x[0], j, dense_output_position(step, p->t, p->ball.nodes[j].i));
+        vec2_put(p->v[0], j, dense_output_velocity(step, p->t, p->ball.nodes[j].i));
     }
     ball_put(&p->ball, &s, p->ball.n);
     put_time(p, step, 0, y);
 }
 
-static trail_motion motion_of(const patch *p, const path *step, dem_index place)
+static motion_polynomial motion_of(const patch *p, const dense_output *step, dem_index place)
 {
-    const bool turned = trail_has(step->trail, place);
-    const trail_motion motion = turned ? *trail_of(step->trail, place) : path_motion(step, place);
-    return trail_later(&motion, p->t, step->t1);
+    const bool turned = changed_motion_has(step->changed, place);
+    const motion_polynomial motion =
+        turned ? *changed_motion_of(step->changed, place) : dense_output_motion(step, place);
+    return motion_polynomial_later(&motion, p->t, step->t1);
 }
 
-dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state)
+dem_status patch_open(patch *p, const dense_output *step, dem_index site, double t, double *state)
 {
     p->t = t;
     p->h = step->t1 - t;
-    p->n_books = 0;
+    p->n_quadratures = 0;
     TRY(ball_gather(&p->ball, site));
     TRY(reserve(p, p->ball.n, 0));
     for (dem_index j = 0; j < p->ball.n; j++) p->motions[j] = motion_of(p, step, p->ball.nodes[j].i);
@@ -285,9 +286,9 @@ static void advance(patch *p, int stage)
     const dem_index n = p->ball.n;
     combine(p, stage, p->dv, p->dx, 0, n_moving(p));
     combine(p, stage, p->da, p->dv, 0, n_moving(p));
-    if (p->n_books == 0) return;
-    combine(p, stage, p->dv, p->dx, n, n + p->n_books);
-    combine(p, stage, p->da, p->dv, n, n + p->n_books);
+    if (p->n_quadratures == 0) return;
+    combine(p, stage, p->dv, p->dx, n, n + p->n_quadratures);
+    combine(p, stage, p->da, p->dv, n, n + p->n_quadratures);
 }
 
 static void add_change(const double *before, const double *change, dem_index n, dem_index n_changed, double *to)
@@ -297,7 +298,7 @@ static void add_change(const double *before, const double *change, dem_index n, 
 }
 
 /* Rates of the change at a stage. */
-static dem_status change_stage(patch *p, const path *step, int stage, double *y)
+static dem_status change_stage(patch *p, const dense_output *step, int stage, double *y)
 {
     const int at = stage == END ? p->last : stage, rings = reach(p, stage);
     const dem_index n = p->ball.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
@@ -314,19 +315,19 @@ static dem_status change_stage(patch *p, const path *step, int stage, double *y)
     return add_rates(p, stage, 1.0, y);
 }
 
-static trail_jump jump_at(const patch *p, int stage, dem_index j)
+static motion_change jump_at(const patch *p, int stage, dem_index j)
 {
-    return (trail_jump){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
+    return (motion_change){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
 }
 
 /* Makes the change of a node, or a pair of the books, one of the step. */
-static dem_status leave(const patch *p, trail *tr, dem_index j, dem_index place, trail_motion *motion)
+static dem_status leave(const patch *p, changed_motion *tr, dem_index j, dem_index place, motion_polynomial *motion)
 {
-    const trail_jump at = jump_at(p, 0, j), end = jump_at(p, END, j);
-    const trail_jump by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
-    trail_bend(motion, p->t + p->h, &at, &by);
-    TRY(trail_turn(tr, place, motion));
-    trail_move_end(tr, place, &end);
+    const motion_change at = jump_at(p, 0, j), end = jump_at(p, END, j);
+    const motion_change by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
+    motion_polynomial_add(motion, p->t + p->h, &at, &by);
+    TRY(changed_motion_set(tr, place, motion));
+    changed_motion_move_end(tr, place, &end);
     return DEM_OK;
 }
 
@@ -348,7 +349,7 @@ static double squared_error(const patch *p)
     return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / (4.0 * (double)n);
 }
 
-dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error)
+dem_status patch_close(patch *p, const dense_output *step, changed_motion *tr, double *state, double *error)
 {
     TRY(ball_regroup(&p->ball));
     for (dem_index j = 0; j < n_moving(p); j++) {
@@ -362,8 +363,8 @@ dem_status patch_close(patch *p, const path *step, trail *tr, double *state, dou
         TRY(change_stage(p, step, at, state));
     }
     for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->ball.nodes[j].i, &p->motions[j]));
-    for (dem_index b = 0; b < p->n_books; b++) {
-        trail_motion motion = motion_of(p, step, p->book[b]);
+    for (dem_index b = 0; b < p->n_quadratures; b++) {
+        motion_polynomial motion = motion_of(p, step, p->book[b]);
         TRY(leave(p, tr, p->ball.n + b, p->book[b], &motion));
     }
     *error = squared_error(p);

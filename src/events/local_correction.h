@@ -23,14 +23,14 @@ typedef struct patch_rule {
 typedef struct patch {
     ball ball; /* the change spreads over all its rings but the frame */
     patch_rule rule;
-    method_table table;
-    int last;          /* stage at the end of the step */
-    double t, h;       /* s, of the event; from it to the end of the step */
-    dem_index n_books; /* pairs of the books that change, behind the nodes of the ball */
+    butcher_table table;
+    int last;                /* stage at the end of the step */
+    double t, h;             /* s, of the event; from it to the end of the step */
+    dem_index n_quadratures; /* pairs of the books that change, behind the nodes of the ball */
     dem_index capacity;
-    dem_index *book;                                             /* [n_books] their places in a state */
-    trail_motion *motions;                                       /* of the nodes, without the event, from there on */
-    double *block;                                               /* those that follow, [n + n_books][2]: */
+    dem_index *book;                                             /* [n_quadratures] their places in a state */
+    motion_polynomial *motions;                                  /* of the nodes, without the event, from there on */
+    double *block;                                               /* those that follow, [n + n_quadratures][2]: */
     double *x[PATCH_STAGES], *v[PATCH_STAGES], *a[PATCH_STAGES]; /* at each stage, without the event: and x'' */
     double *dx[PATCH_STAGES + 1], *dv[PATCH_STAGES + 1], *da[PATCH_STAGES + 1]; /* the change, and at the end */
     double *changed[3];                                                         /* x, v, x'' with it at a stage */
@@ -42,10 +42,10 @@ void patch_destroy(patch *p);
 
 /** Before an event at a site: gathers the patch and what moves it, and puts the state of its nodes at t into `state`
  *  [4 n]. The forces of the closed contacts are to be those at the end of the step. */
-dem_status patch_open(patch *p, const path *step, dem_index site, double t, double *state);
+dem_status patch_open(patch *p, const dense_output *step, dem_index site, double t, double *state);
 
 /** After the event has changed `state` and the contacts: integrates the change and makes it one of the step.
  *  \param[out] error  squared, of all unknowns of the bodies together, in units of the tolerance */
-dem_status patch_close(patch *p, const path *step, trail *tr, double *state, double *error);
+dem_status patch_close(patch *p, const dense_output *step, changed_motion *tr, double *state, double *error);
 
 #endif

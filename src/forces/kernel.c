@@ -169,7 +169,7 @@ static double sweep_blocks(kernel *k, const sweep *s)
     return sum;
 }
 
-static void drift(const kernel *k, const sweep_leap *p, dem_index first, dem_index last)
+static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last)
 {
     const dem_index at = 2 * first;
     const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
@@ -177,7 +177,7 @@ static void drift(const kernel *k, const sweep_leap *p, dem_index first, dem_ind
 }
 
 /* What others than its own thread read of a share of blocks, and nodes in no block. */
-static void drift_ends(const kernel *k, int t, const sweep_leap *p)
+static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
 {
     const layout *l = &k->model->layout;
     const share b = share_of(k, t);
@@ -190,7 +190,7 @@ static void drift_ends(const kernel *k, int t, const sweep_leap *p)
 /* One row by itself; what it adds to the sum. */
 static double accelerate_row(const kernel *k, const forces *load, const kernel_state *y, dem_index i)
 {
-    const sweep_leap *p = y->leap;
+    const sweep_fused_step *p = y->fused_step;
     if (p != NULL) drift(k, p, i, i + 1);
     const vec2 a = forces_own_acceleration(k->model, load, i, y->x, y->v);
     vec2_put(y->a, i, a);
@@ -246,7 +246,7 @@ static double push(const kernel *k, const forces *load, const kernel_state *y)
     return sum;
 }
 
-bool kernel_may_leap(const kernel *k, const forces *load)
+bool kernel_can_fuse(const kernel *k, const forces *load)
 {
     return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && !forces_are_driven(load);
 }
@@ -264,8 +264,8 @@ double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
                .u = y->u,
                .a = y->a,
                .guarded = k->guarded,
-               .leap = y->leap};
-    if (y->leap != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->leap));
+               .fused_step = y->fused_step};
+    if (y->fused_step != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->fused_step));
     if (k->packed != NULL) {
         pack(k, y->x, k->packed + n);
         if (l->damped || load->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);

@@ -32,15 +32,15 @@ void kernel_destroy(kernel *k);
 /** A state and its derivative, [n_nodes][2] each. */
 typedef struct kernel_state {
     const double *x, *v;
-    double *u;              /* velocities, as v; NULL: not wanted */
-    double *a;              /* accelerations, free of contact */
-    const sweep_leap *leap; /* NULL: none. Else x and v are its x1 and v1, which are filled as well */
+    double *u;                          /* velocities, as v; NULL: not wanted */
+    double *a;                          /* accelerations, free of contact */
+    const sweep_fused_step *fused_step; /* NULL: none. Else x and v are its x1 and v1, which are filled as well */
 } kernel_state;
 
-/** Whether accelerations depend on nothing but positions, so that there may be a leap. */
-bool kernel_may_leap(const kernel *k, const forces *load);
+/** Whether accelerations depend on nothing but positions, so that a fused step is possible. */
+bool kernel_can_fuse(const kernel *k, const forces *load);
 
-/** Fills u and a, and does the leap's step, to the bits that bulk's drift and kick give before and after.
+/** Fills u and a, and takes the fused step, to the bits that drift and kick give before and after.
  *  \return a sum over them that is not finite if one of them is not */
 double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y);
 

@@ -152,10 +152,10 @@ dem_status recall_put(dem_simulation *s, dem_record *record)
 {
     const contact_books *books = &s->contact.sites.books;
     const record_way way = {.into = record};
-    const dem_counts of_engine = engine_counts(&s->engine);
+    const dem_counts of_engine = integrator_counts(&s->integrator);
     dem_counts counts = books->counts;
     sizes size = sizes_of(s);
-    numbers n = {s->t,          s->step,           engine_next_step(&s->engine),
+    numbers n = {s->t,          s->step,           integrator_next_step(&s->integrator),
                  books->impact, books->projection, s->contact.sites.straightened,
                  s->events,     s->unlooked,       s->contact.idle};
     counts.steps = of_engine.steps;
@@ -225,8 +225,8 @@ dem_status recall_get(dem_simulation *s, const dem_record *record)
     s->unlooked = (int)n.unlooked;
     s->unrecorded = 0;
     s->in_hand = s->at_event = false;
-    s->path = (path){0};
-    TRY(engine_renew(&s->engine, &(engine_start){n.t, n.next_step, y, c->books.counts}));
-    s->y = engine_state(&s->engine);
+    s->path = (dense_output){0};
+    TRY(integrator_renew(&s->integrator, &(integrator_start){n.t, n.next_step, y, c->books.counts}));
+    s->y = integrator_state(&s->integrator);
     return contact_renew(&s->contact, s->y);
 }

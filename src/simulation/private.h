@@ -27,13 +27,13 @@ struct dem_simulation {
     overlap overlap;
     contact contact;
     queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
-    engine engine;
+    integrator integrator;
     double t;              /* s, of y */
     double step;           /* s, length of the last committed step */
     double *y;             /* [4 n] state (x, v) after the last committed step, the engine's */
     double *initial;       /* [4 n] state before there is an engine */
     double *frame;         /* [4 n] state interpolated to a frame or to t_end */
-    path path;             /* the step in hand */
+    dense_output path;     /* the step in hand */
     bool in_hand;          /* whether there is one */
     bool at_event;         /* whether it ends with one */
     bool started;          /* whether the contacts of the initial state have been taken up */

@@ -29,7 +29,7 @@ static const contact *contact_of(const dem_simulation *s)
 static const double *seen_of(const dem_simulation *s)
 {
     (void)contact_of(s);
-    if (!s->measures->has_state) path_state(&s->path, s->seen_t, s->frame);
+    if (!s->measures->has_state) dense_output_state(&s->path, s->seen_t, s->frame);
     s->measures->has_state = true;
     return s->seen;
 }
@@ -106,7 +106,7 @@ dem_overlap dem_simulation_overlap(const dem_simulation *s)
 
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
-    const dem_counts of_engine = engine_counts(&s->engine);
+    const dem_counts of_engine = integrator_counts(&s->integrator);
     dem_counts counts = contact_of(s)->sites.books.counts;
     counts.steps = of_engine.steps;
     counts.rejected = of_engine.rejected;

@@ -57,11 +57,11 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     put(s, x, v, s->frame);
     s->events += s->in_hand ? s->queue.n_stops : 0;
     s->t = s->seen_t;
-    s->path = (path){0};
+    s->path = (dense_output){0};
     s->in_hand = s->at_event = s->started = s->has_record = false;
     TRY(contact_forget(&s->contact));
-    TRY(engine_restart(&s->engine, s->t, s->frame));
-    s->y = engine_state(&s->engine);
+    TRY(integrator_restart(&s->integrator, s->t, s->frame));
+    s->y = integrator_state(&s->integrator);
     view_at(s, s->t, s->y);
     return DEM_OK;
 }

@@ -34,7 +34,7 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
-/* Rates of the books: [2 n_books] behind the accelerations. */
+/* Rates of the books: [2 n_quadratures] behind the accelerations. */
 static void fill_rates(dem_simulation *s, const double *y, double *rate, double work)
 {
     double *impulse = rate + 2 * run_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
@@ -67,15 +67,15 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
 }
 
 /* Where nothing but springs, triangles and weight acts. */
-static int leap(const motion_leap *step, void *context)
+static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;
     const forces *load = &s->contact.sites.scene.rule.load;
     const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
-    const sweep_leap nodes = {
+    const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
-    const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .leap = &nodes};
-    if (!kernel_may_leap(&s->kernel, load) || s->contact.sites.reactions.n_groups > 0) return -1;
+    const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
+    if (!kernel_can_fuse(&s->kernel, load) || s->contact.sites.reactions.n_groups > 0) return -1;
     const double sum = kernel_accelerate(&s->kernel, load, &y);
     contact_constrain(&s->contact, y.x, y.a);
     fill_rates(s, y.x, y.a + n_real, 0.0);
@@ -84,7 +84,7 @@ static int leap(const motion_leap *step, void *context)
     return 1;
 }
 
-static void guards(double t, const double *y, double *g, void *context)
+static void root_functions(double t, const double *y, double *g, void *context)
 {
     dem_simulation *s = context;
     contact_guards(&s->contact, t, y, g);
@@ -161,7 +161,7 @@ static dem_status fall_back(dem_simulation *s)
     if (s->has_refuge)
         status = recall_get(s, s->refuge);
     else
-        status = engine_restart(&s->engine, s->t, s->y);
+        status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_refuge = false;
     view_at(s, s->t, s->y);
     return status_first(status, coupling_report(s->coupling));
@@ -183,7 +183,7 @@ static dem_status give_up(dem_simulation *s, dem_status status)
         status = status_fail(DEM_ERROR_INTEGRATOR,
                              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
                              s->t);
-    return status_first(status, engine_restart(&s->engine, s->t, s->y));
+    return status_first(status, integrator_restart(&s->integrator, s->t, s->y));
 }
 
 /* A step with all contact events inside it, which may reject it. */
@@ -192,15 +192,15 @@ static dem_status take_local_step(dem_simulation *s)
     bool rooted;
     double *y1, *f1;
     for (int attempt = 1;; attempt++) {
-        TRY(engine_step(&s->engine, &s->path, &rooted));
-        engine_end(&s->engine, &y1, &f1);
+        TRY(integrator_step(&s->integrator, &s->path, &rooted));
+        integrator_end(&s->integrator, &y1, &f1);
         queue_start(&s->queue, &s->path, y1, f1, s->frame);
         const dem_status status = heed(s, queue_show(&s->queue, s->path.t1));
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
         queue_undo(&s->queue);
         if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return give_up(s, status);
-        TRY(engine_redo(&s->engine, factor));
+        TRY(integrator_redo(&s->integrator, factor));
     }
 }
 
@@ -208,7 +208,7 @@ static dem_status take_local_step(dem_simulation *s)
 static dem_status take_step_to_event(dem_simulation *s)
 {
     bool rooted;
-    TRY(engine_step(&s->engine, &s->path, &rooted));
+    TRY(integrator_step(&s->integrator, &s->path, &rooted));
     s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
     return heed(s, DEM_OK);
 }
@@ -227,7 +227,7 @@ static dem_status go_on(dem_simulation *s, dem_status status)
 {
     TRY(heed(s, DEM_OK));
     s->has_refuge = false;
-    status = status_first(status, engine_restart(&s->engine, s->t, s->y));
+    status = status_first(status, integrator_restart(&s->integrator, s->t, s->y));
     return status == DEM_ERROR_CONTACT ? status : status_first(status, tell_step(s));
 }
 
@@ -240,9 +240,9 @@ static void look_for_overlaps(dem_simulation *s)
 /* The end of the step in hand becomes the state.  \return whether vertex contacts were put back */
 static bool settle_step(dem_simulation *s)
 {
-    const path *p = &s->path;
-    engine_settle(&s->engine, p);
-    s->y = engine_state(&s->engine);
+    const dense_output *p = &s->path;
+    integrator_settle(&s->integrator, p);
+    s->y = integrator_state(&s->integrator);
     const bool moved = contact_straighten(&s->contact, p->end, s->y);
     contact_follow(&s->contact, p, s->y);
     s->step = p->end - s->t;
@@ -258,7 +258,7 @@ static dem_status commit_step_to_event(dem_simulation *s)
     const contact_listener listener = {hear_event, s};
     if (s->at_event) TRY(take_refuge(s));
     const bool moved = settle_step(s);
-    if (!s->at_event && moved) TRY(engine_restart(&s->engine, s->t, s->y));
+    if (!s->at_event && moved) TRY(integrator_restart(&s->integrator, s->t, s->y));
     if (!s->at_event) return tell_step(s);
     s->events++;
     return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
@@ -270,11 +270,11 @@ static dem_status commit_local_step(dem_simulation *s)
     TRY(heed(s, queue_show(&s->queue, s->path.t1)));
     const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
     s->events += s->queue.n_stops;
-    TRY(engine_bound(&s->engine, queue_reach(&s->queue)));
+    TRY(integrator_bound(&s->integrator, queue_reach(&s->queue)));
     if (moved)
-        TRY(engine_restart(&s->engine, s->t, s->y));
+        TRY(integrator_restart(&s->integrator, s->t, s->y));
     else if (corrected)
-        TRY(engine_resume(&s->engine));
+        TRY(integrator_resume(&s->integrator));
     return tell_step(s);
 }
 
@@ -362,7 +362,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                           .max_impacts = o->max_impacts,
                           .vertices = o->vertices != 0,
-                          .n_books = run_books(model),
+                          .n_quadratures = run_books(model),
                           .n_threads = o->threads,
                           .load = run_load(s)};
 }
@@ -390,25 +390,25 @@ static dem_status set_up(dem_simulation *s)
     TRY(dem_method_describe(&method, o->method));
     const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
     if (run_is_local(s)) TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
-    const motion problem = {.n_nodes = model->lattice.n_nodes + run_books(model),
-                            .n_books = run_books(model),
-                            .n_guards =
-                                model->obstacles.n > 0 && !run_is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
-                            .prescribes = boundaries_move(&s->boundaries),
-                            .derivative = derivative,
-                            .leap = s->boundaries.n == 0 ? leap : NULL,
-                            .guards = guards,
-                            .stiffening = stiffening,
-                            .context = s,
-                            .method = o->method,
-                            .position_error = o->rtol * o->spacing,
-                            .velocity_error = o->rtol * o->v_scale,
-                            .max_step = o->max_step,
-                            .fixed_step = o->fixed_step,
-                            .ops = s->kernel.ops,
-                            .n_threads = s->kernel.n_threads};
-    TRY(engine_create(&s->engine, &problem, 0.0, s->y));
-    s->y = engine_state(&s->engine);
+    const ode_problem problem = {.n_nodes = model->lattice.n_nodes + run_books(model),
+                                 .n_quadratures = run_books(model),
+                                 .n_roots =
+                                     model->obstacles.n > 0 && !run_is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
+                                 .prescribes = boundaries_move(&s->boundaries),
+                                 .derivative = derivative,
+                                 .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
+                                 .root_functions = root_functions,
+                                 .stiffening = stiffening,
+                                 .context = s,
+                                 .method = o->method,
+                                 .position_error = o->rtol * o->spacing,
+                                 .velocity_error = o->rtol * o->v_scale,
+                                 .max_step = o->max_step,
+                                 .fixed_step = o->fixed_step,
+                                 .ops = s->kernel.ops,
+                                 .n_threads = s->kernel.n_threads};
+    TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
+    s->y = integrator_state(&s->integrator);
     free(s->initial);
     s->initial = NULL;
     TRY(dem_record_create(&s->record));
@@ -461,7 +461,7 @@ dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, c
 void dem_simulation_destroy(dem_simulation *s)
 {
     if (s == NULL) return;
-    engine_destroy(&s->engine);
+    integrator_destroy(&s->integrator);
     kernel_destroy(&s->kernel);
     queue_destroy(&s->queue);
     contact_destroy(&s->contact);
@@ -482,5 +482,5 @@ dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observe
     CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
           s == NULL ? "simulation" : "observer");
     CHECK(!s->advanced, DEM_ERROR_ARGUMENT, "observers come before the first advance");
-    return audience_add(&s->audience, observer, engine_counts(&s->engine).steps > 0 ? s->t : -1.0);
+    return audience_add(&s->audience, observer, integrator_counts(&s->integrator).steps > 0 ? s->t : -1.0);
 }

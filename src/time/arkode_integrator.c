@@ -19,20 +19,20 @@ enum {
 
 static const double no_weight = 1e-100;
 
-struct integrator {
-    motion problem;
-    method_table table;
+struct arkode_integrator {
+    ode_problem problem;
+    butcher_table table;
     SUNContext sundials;
     void *arkode;
     arkode_controller controller;
     arkode_errors errors;
-    vector_space *space;
+    nvector_space *space;
     N_Vector y;              /* what ARKODE returns */
     N_Vector y0, y1, f0, f1; /* the accepted step for the path; y0 is the last accepted state */
     N_Vector weights;        /* of the error, the same at all times */
     double *inside;          /* [4 n] state at a root function's time */
-    double *guards;          /* [n_guards] values of the guards at guards_t */
-    double guards_t;         /* s; NAN: none */
+    double *root_functions;  /* [n_roots] values of the root functions at root_functions_t */
+    double root_functions_t; /* s; NAN: none */
     double t;                /* last accepted time, of y0 */
     double t1;               /* end of the step that y1, f0, f1 hold */
     bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
@@ -49,21 +49,21 @@ struct integrator {
 
 static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
-    integrator *I = user;
-    if (I->gives_f0 && t == I->t && vector_values(y) == vector_values(I->y0)) {
-        vector_share(I->f0, f);
+    arkode_integrator *I = user;
+    if (I->gives_f0 && t == I->t && nvector_values(y) == nvector_values(I->y0)) {
+        nvector_share(I->f0, f);
         return 0;
     }
     I->counts.evaluations++;
-    double *u = vector_fresh(f), *a = u + 2 * I->problem.n_nodes;
-    const int flag = I->problem.derivative(t, vector_values(y), u, a, I->problem.context);
+    double *u = nvector_fresh(f), *a = u + 2 * I->problem.n_nodes;
+    const int flag = I->problem.derivative(t, nvector_values(y), u, a, I->problem.context);
     I->refused = flag > 1;
     return flag == 0 ? 0 : -1;
 }
 
 /* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation they are the stored ones: no
  * number is copied. */
-static int fetch_step(integrator *I)
+static int fetch_step(arkode_integrator *I)
 {
     double now;
     if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
@@ -77,72 +77,72 @@ static int fetch_step(integrator *I)
     return 0;
 }
 
-static path held_path(const integrator *I)
+static dense_output held_path(const arkode_integrator *I)
 {
-    return (path){.n_nodes = I->problem.n_nodes,
-                  .t0 = I->t,
-                  .t1 = I->t1,
-                  .end = I->t1,
-                  .y0 = vector_values(I->y0),
-                  .f0 = vector_values(I->f0),
-                  .y1 = vector_values(I->y1),
-                  .f1 = vector_values(I->f1)};
+    return (dense_output){.n_nodes = I->problem.n_nodes,
+                          .t0 = I->t,
+                          .t1 = I->t1,
+                          .end = I->t1,
+                          .y0 = nvector_values(I->y0),
+                          .f0 = nvector_values(I->f0),
+                          .y1 = nvector_values(I->y1),
+                          .f1 = nvector_values(I->f1)};
 }
 
 /* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in
  * for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
-static int call_guards(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+static int call_root_functions(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
-    integrator *I = user;
+    arkode_integrator *I = user;
     double now;
-    const double *state = vector_values(y);
+    const double *state = nvector_values(y);
     if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
     if (t > I->t && t < now) {
         if (fetch_step(I) != 0) return -1;
-        const path step = held_path(I);
-        path_state(&step, t, I->inside);
+        const dense_output step = held_path(I);
+        dense_output_state(&step, t, I->inside);
         state = I->inside;
     }
-    const size_t size = (size_t)I->problem.n_guards * sizeof *g;
-    if (t == I->guards_t) { /* ARKODE asks at the end of a step, and again as the next one starts there */
-        memcpy(g, I->guards, size);
+    const size_t size = (size_t)I->problem.n_roots * sizeof *g;
+    if (t == I->root_functions_t) { /* ARKODE asks at the end of a step, and again as the next one starts there */
+        memcpy(g, I->root_functions, size);
         return 0;
     }
-    I->problem.guards(t, state, g, I->problem.context);
-    for (dem_index k = 0; k < I->problem.n_guards; k++)
+    I->problem.root_functions(t, state, g, I->problem.context);
+    for (dem_index k = 0; k < I->problem.n_roots; k++)
         if (!isfinite(g[k])) return -1;
-    memcpy(I->guards, g, size);
-    I->guards_t = t;
+    memcpy(I->root_functions, g, size);
+    I->root_functions_t = t;
     return 0;
 }
 
 static int call_weights(N_Vector y, N_Vector weights, void *user)
 {
-    const integrator *I = user;
+    const arkode_integrator *I = user;
     (void)y;
-    vector_share(I->weights, weights);
+    nvector_share(I->weights, weights);
     return 0;
 }
 
 static void keep_message(const char *message, void *user)
 {
-    integrator *I = user;
+    arkode_integrator *I = user;
     (void)snprintf(I->message, sizeof I->message, "%s", message);
 }
 
 /* ---- set-up ---- */
 
-static dem_status allocate(integrator *I)
+static dem_status allocate(arkode_integrator *I)
 {
     const dem_index n = 4 * I->problem.n_nodes;
     N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
     I->inside = aligned_zeros((size_t)n);
-    I->space = vector_space_create(n, I->problem.ops, I->problem.n_threads, most_vectors + I->table.stages);
+    I->space = nvector_space_create(n, I->problem.ops, I->problem.n_threads, most_vectors + I->table.stages);
     bool complete = I->inside != NULL && I->space != NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
-        *vectors[k] = vector_create(I->space, I->sundials);
+        *vectors[k] = nvector_create(I->space, I->sundials);
         complete = *vectors[k] != NULL;
     }
     CHECK(complete, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)I->problem.n_nodes);
@@ -150,30 +150,30 @@ static dem_status allocate(integrator *I)
 }
 
 /* The norm is a mean over all, books too, which have no part in the error. */
-static void fill_weights(integrator *I)
+static void fill_weights(arkode_integrator *I)
 {
-    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_books;
+    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_quadratures;
     const double share = sqrt((double)n / (double)n_real);
-    double *w = vector_fresh(I->weights);
+    double *w = nvector_fresh(I->weights);
     for (dem_index k = 0; k < 4 * n; k++) w[k] = no_weight;
     for (dem_index k = 0; k < 2 * n_real; k++) w[k] = share / I->problem.position_error;
     for (dem_index k = 2 * n; k < 2 * (n + n_real); k++) w[k] = share / I->problem.velocity_error;
 }
 
 /* The state from which the next step goes. */
-static void start_from(integrator *I, double t, const double *y)
+static void start_from(arkode_integrator *I, double t, const double *y)
 {
-    if (y != vector_values(I->y0)) memcpy(vector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
-    vector_share(I->y0, I->y);
+    if (y != nvector_values(I->y0)) memcpy(nvector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    nvector_share(I->y0, I->y);
     I->t = t;
     I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;
 }
 
 /* The order that ARKODE is told limits the degree of its interpolant, and nothing else: below 4 it would not hold the
  * derivatives at both ends of a step. */
-static int set_table(integrator *I)
+static int set_table(arkode_integrator *I)
 {
-    method_table *t = &I->table;
+    butcher_table *t = &I->table;
     ARKodeButcherTable table = ARKodeButcherTable_Create(t->stages, t->order < 4 ? 4 : t->order, t->embedded_order,
                                                          t->c, t->a, t->b, t->embedded_order > 0 ? t->d : NULL);
     if (table == NULL) return -1;
@@ -183,13 +183,13 @@ static int set_table(integrator *I)
 }
 
 /* The first step after the restart that follows. */
-static int ask_step(integrator *I, double h)
+static int ask_step(arkode_integrator *I, double h)
 {
     I->asked = h;
     return ARKodeSetInitStep(I->arkode, h);
 }
 
-static int set_adaptivity(integrator *I)
+static int set_adaptivity(arkode_integrator *I)
 {
     void *a = I->arkode;
     const double h = I->problem.fixed_step;
@@ -210,17 +210,17 @@ static int set_adaptivity(integrator *I)
     return failed;
 }
 
-static dem_status set_guards(integrator *I)
+static dem_status set_root_functions(arkode_integrator *I)
 {
-    const dem_index n = I->problem.n_guards;
+    const dem_index n = I->problem.n_roots;
     if (n == 0) return DEM_OK;
-    I->guards_t = NAN;
-    I->guards = malloc((size_t)n * sizeof *I->guards);
-    CHECK(I->guards != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
+    I->root_functions_t = NAN;
+    I->root_functions = malloc((size_t)n * sizeof *I->root_functions);
+    CHECK(I->root_functions != NULL, DEM_ERROR_MEMORY, "out of memory for %lld root functions", (long long)n);
     int *falling = malloc((size_t)n * sizeof *falling);
-    CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld guards", (long long)n);
+    CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld root functions", (long long)n);
     for (dem_index k = 0; k < n; k++) falling[k] = -1;
-    int failed = ARKodeRootInit(I->arkode, (int)n, call_guards);
+    int failed = ARKodeRootInit(I->arkode, (int)n, call_root_functions);
     failed |= ARKodeSetRootDirection(I->arkode, falling);
     failed |= ARKodeSetNoInactiveRootWarn(I->arkode);
     free(falling);
@@ -228,13 +228,13 @@ static dem_status set_guards(integrator *I)
     return DEM_OK;
 }
 
-static dem_status set_up(integrator *I, double t, const double *y)
+static dem_status set_up(arkode_integrator *I, double t, const double *y)
 {
-    TRY(method_load(&I->table, I->problem.method));
+    TRY(butcher_load(&I->table, I->problem.method));
     CHECK(I->table.embedded_order > 0 || I->problem.fixed_step > 0.0, DEM_ERROR_ARGUMENT,
           "a method without error estimate needs a fixed step");
-    CHECK(I->problem.n_guards <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld guards are too many for ARKODE",
-          (long long)I->problem.n_guards);
+    CHECK(I->problem.n_roots <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld root functions are too many for ARKODE",
+          (long long)I->problem.n_roots);
     TRY(allocate(I));
     fill_weights(I);
     start_from(I, t, y);
@@ -250,14 +250,14 @@ static dem_status set_up(integrator *I, double t, const double *y)
     failed |= ARKodeSetMaxHnilWarns(I->arkode, -1);
     failed |= set_adaptivity(I);
     CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its settings: %s", I->message);
-    return set_guards(I);
+    return set_root_functions(I);
 }
 
 /* ---- public ---- */
 
-dem_status integrator_create(integrator **out, const motion *problem, double t, const double *y)
+dem_status arkode_integrator_create(arkode_integrator **out, const ode_problem *problem, double t, const double *y)
 {
-    integrator *I = calloc(1, sizeof *I);
+    arkode_integrator *I = calloc(1, sizeof *I);
     CHECK_MEMORY(I);
     I->problem = *problem;
     I->errors = (arkode_errors){keep_message, I};
@@ -265,11 +265,11 @@ dem_status integrator_create(integrator **out, const motion *problem, double t, 
     if (status == DEM_OK)
         *out = I;
     else
-        integrator_destroy(I);
+        arkode_integrator_destroy(I);
     return status;
 }
 
-void integrator_destroy(integrator *I)
+void arkode_integrator_destroy(arkode_integrator *I)
 {
     if (I == NULL) return;
     if (I->arkode != NULL) ARKodeFree(&I->arkode);
@@ -277,24 +277,24 @@ void integrator_destroy(integrator *I)
     N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
         if (vectors[k] != NULL) N_VDestroy(vectors[k]);
-    vector_space_free(I->space);
+    nvector_space_free(I->space);
     if (I->sundials != NULL) SUNContext_Free(&I->sundials);
     free(I->inside);
-    free(I->guards);
+    free(I->root_functions);
     free(I);
 }
 
 /* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. */
-static dem_status retry(integrator *I, double *h)
+static dem_status retry(arkode_integrator *I, double *h)
 {
     if (*h == 0.0 && ARKodeGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
     *h *= 0.1;
     I->counts.retries++;
     CHECK(ask_step(I, *h) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
-    return integrator_restart(I, I->t, vector_values(I->y0));
+    return arkode_integrator_restart(I, I->t, nvector_values(I->y0));
 }
 
-static const char *cause(const integrator *I, int flag)
+static const char *cause(const arkode_integrator *I, int flag)
 {
     switch (flag) {
     case ARK_TOO_MUCH_ACC:
@@ -308,40 +308,40 @@ static const char *cause(const integrator *I, int flag)
     }
 }
 
-static dem_status fail_step(integrator *I, int flag)
+static dem_status fail_step(arkode_integrator *I, int flag)
 {
     return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
 }
 
 /* From the end of the path handed out. */
-static void go_on(integrator *I)
+static void go_on(arkode_integrator *I)
 {
     if (!I->at_end) return;
-    vector_share(I->y1, I->y0);
-    vector_share(I->f1, I->f0);
+    nvector_share(I->y1, I->y0);
+    nvector_share(I->f1, I->f0);
     I->t = I->t1;
     I->at_end = I->gives_f0 = false;
 }
 
 /* ARKODE begins anew from the state, of which the derivative may be known. */
-static dem_status reset(integrator *I)
+static dem_status reset(arkode_integrator *I)
 {
-    vector_share(I->y0, I->y);
+    nvector_share(I->y0, I->y);
     I->at_end = I->holds_step = false;
     I->gives_f0 = I->knows_f0;
-    I->guards_t = NAN;
+    I->root_functions_t = NAN;
     CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
           "ARKODE does not restart at t = %.9g s: %s", I->t, I->message);
     return DEM_OK;
 }
 
-void integrator_end(integrator *I, double **y1, double **f1)
+void arkode_integrator_end(arkode_integrator *I, double **y1, double **f1)
 {
-    *y1 = vector_shared(I->y1);
-    *f1 = vector_shared(I->f1);
+    *y1 = nvector_shared(I->y1);
+    *f1 = nvector_shared(I->f1);
 }
 
-dem_status integrator_redo(integrator *I, double factor)
+dem_status arkode_integrator_redo(arkode_integrator *I, double factor)
 {
     I->counts.steps--;
     I->counts.rejected++;
@@ -349,24 +349,24 @@ dem_status integrator_redo(integrator *I, double factor)
     return reset(I);
 }
 
-void integrator_settle(integrator *I, const path *step)
+void arkode_integrator_settle(arkode_integrator *I, const dense_output *step)
 {
     if (step->end == step->t1) {
         go_on(I);
         return;
     }
-    path_state(step, step->end, vector_fresh(I->y));
-    vector_share(I->y, I->y0);
+    dense_output_state(step, step->end, nvector_fresh(I->y));
+    nvector_share(I->y, I->y0);
     I->t = step->end;
     I->at_end = I->knows_f0 = false;
 }
 
-double *integrator_state(const integrator *I)
+double *arkode_integrator_state(const arkode_integrator *I)
 {
-    return vector_shared(I->y0);
+    return nvector_shared(I->y0);
 }
 
-dem_status integrator_step(integrator *I, path *step, bool *rooted)
+dem_status arkode_integrator_step(arkode_integrator *I, dense_output *step, bool *rooted)
 {
     go_on(I);
     double reached, h = 0.0;
@@ -374,7 +374,7 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
     for (int attempt = 0; attempt <= max_retries; attempt++) {
         I->holds_step = false;
         if (I->problem.fixed_step > 0.0)
-            (void)ARKodeSetFixedStep(I->arkode, motion_fixed_step(&I->problem, vector_values(I->y0)));
+            (void)ARKodeSetFixedStep(I->arkode, ode_problem_fixed_step(&I->problem, nvector_values(I->y0)));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)
@@ -392,13 +392,13 @@ dem_status integrator_step(integrator *I, path *step, bool *rooted)
     return DEM_OK;
 }
 
-dem_status integrator_restart(integrator *I, double t, const double *y)
+dem_status arkode_integrator_restart(arkode_integrator *I, double t, const double *y)
 {
     start_from(I, t, y);
     return reset(I);
 }
 
-double integrator_next_step(const integrator *I)
+double arkode_integrator_next_step(const arkode_integrator *I)
 {
     double next = 0.0;
     if (I->problem.fixed_step > 0.0) return 0.0;
@@ -406,10 +406,10 @@ double integrator_next_step(const integrator *I)
     return ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS ? next : 0.0;
 }
 
-dem_status integrator_renew(integrator *I, const engine_start *from)
+dem_status arkode_integrator_renew(arkode_integrator *I, const integrator_start *from)
 {
     start_from(I, from->t, from->y);
-    I->guards_t = NAN;
+    I->root_functions_t = NAN;
     I->counts = (dem_counts){.steps = from->counts.steps,
                              .rejected = from->counts.rejected,
                              .evaluations = from->counts.evaluations,
@@ -420,7 +420,7 @@ dem_status integrator_renew(integrator *I, const engine_start *from)
     return DEM_OK;
 }
 
-dem_status integrator_bound(integrator *I, double longest)
+dem_status arkode_integrator_bound(arkode_integrator *I, double longest)
 {
     double next;
     if (isfinite(longest) && ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS && next > longest)
@@ -428,12 +428,12 @@ dem_status integrator_bound(integrator *I, double longest)
     return DEM_OK;
 }
 
-dem_status integrator_resume(integrator *I)
+dem_status arkode_integrator_resume(arkode_integrator *I)
 {
     return reset(I);
 }
 
-dem_counts integrator_counts(const integrator *I)
+dem_counts arkode_integrator_counts(const arkode_integrator *I)
 {
     dem_counts counts = I->counts;
     long rejected = 0;

@@ -7,45 +7,45 @@
 
 #include "time/ode_problem.h"
 
-typedef struct integrator integrator;
+typedef struct arkode_integrator arkode_integrator;
 
-/** Starts at (t, y). Free with integrator_destroy. */
-dem_status integrator_create(integrator **out, const motion *problem, double t, const double *y);
-void integrator_destroy(integrator *i);
+/** Starts at (t, y). Free with arkode_integrator_destroy. */
+dem_status arkode_integrator_create(arkode_integrator **out, const ode_problem *problem, double t, const double *y);
+void arkode_integrator_destroy(arkode_integrator *i);
 
 /** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the
  *  integrator and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
-dem_status integrator_step(integrator *i, path *step, bool *rooted);
+dem_status arkode_integrator_step(arkode_integrator *i, dense_output *step, bool *rooted);
 
 /** The end of the step just taken and its derivative, to be changed. */
-void integrator_end(integrator *i, double **y1, double **f1);
+void arkode_integrator_end(arkode_integrator *i, double **y1, double **f1);
 
 /** Goes back to the start of the step just taken; the next is shorter by the factor. */
-dem_status integrator_redo(integrator *i, double factor);
+dem_status arkode_integrator_redo(arkode_integrator *i, double factor);
 
 /** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
  *  path holds on until the next step or restart. */
-void integrator_settle(integrator *i, const path *step);
+void arkode_integrator_settle(arkode_integrator *i, const dense_output *step);
 
 /** The state from which the next step goes; who changes it restarts. */
-double *integrator_state(const integrator *i);
+double *arkode_integrator_state(const arkode_integrator *i);
 
 /** Goes on from another state, or from its own as it has been changed, with step size and history kept. */
-dem_status integrator_restart(integrator *i, double t, const double *y);
+dem_status arkode_integrator_restart(arkode_integrator *i, double t, const double *y);
 
 /** How long the next step is to be, s; 0 where steps are fixed. */
-double integrator_next_step(const integrator *i);
+double arkode_integrator_next_step(const arkode_integrator *i);
 
 /** Begins anew, without step size and history of before. */
-dem_status integrator_renew(integrator *i, const engine_start *from);
+dem_status arkode_integrator_renew(arkode_integrator *i, const integrator_start *from);
 
 /** Bounds the first step after the restart or resumption that follows, s. */
-dem_status integrator_bound(integrator *i, double longest);
+dem_status arkode_integrator_bound(arkode_integrator *i, double longest);
 
 /** Goes on from the end of the step just settled as it has been changed, whose derivative is known. */
-dem_status integrator_resume(integrator *i);
+dem_status arkode_integrator_resume(arkode_integrator *i);
 
 /** Steps, rejections, evaluations and retries so far; the rest is 0. */
-dem_counts integrator_counts(const integrator *i);
+dem_counts arkode_integrator_counts(const arkode_integrator *i);
 
 #endif

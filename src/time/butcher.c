@@ -13,12 +13,12 @@
 #include "base/status.h"
 
 /* A table in SUNDIALS, and the first version that has it, 100 major + minor. */
-typedef struct method_row {
+typedef struct butcher_row {
     const char *name, *table;
     int since;
-} method_row;
+} butcher_row;
 
-static const method_row rows[] = {
+static const butcher_row rows[] = {
     [DEM_METHOD_FEHLBERG45] = {"fehlberg45", "ARKODE_FEHLBERG_6_4_5", 604},
     [DEM_METHOD_DOPRI45] = {"dopri45", "ARKODE_DORMAND_PRINCE_7_4_5", 604},
     [DEM_METHOD_CASHKARP45] = {"cashkarp45", "ARKODE_CASH_KARP_6_4_5", 604},
@@ -42,26 +42,27 @@ static const method_row rows[] = {
 };
 static const int n_rows = sizeof rows / sizeof rows[0];
 
-static double *entry(method_table *t, int i, int j)
+static double *entry(butcher_table *t, int i, int j)
 {
     return &t->a[i * t->stages + j];
 }
 
-static const method_table rk4 = {.stages = 4,
-                                 .order = 4,
-                                 .a = {0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0},
-                                 .b = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
-                                 .c = {0.0, 0.5, 0.5, 1.0}};
+static const butcher_table rk4 = {.stages = 4,
+                                  .order = 4,
+                                  .a = {0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0},
+                                  .b = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
+                                  .c = {0.0, 0.5, 0.5, 1.0}};
 
-static dem_status read_table(method_table *out, const method_row *row)
+static dem_status read_table(butcher_table *out, const butcher_row *row)
 {
     CHECK(100 * SUNDIALS_VERSION_MAJOR + SUNDIALS_VERSION_MINOR >= row->since, DEM_ERROR_ARGUMENT,
           "method '%s' needs SUNDIALS %d.%d or later, this is " SUNDIALS_VERSION, row->name, row->since / 100,
           row->since % 100);
     ARKodeButcherTable table = ARKodeButcherTable_LoadERKByName(row->table);
-    CHECK(table != NULL && table->stages < METHOD_STAGES, DEM_ERROR_ARGUMENT, "SUNDIALS gives no table %s", row->table);
+    CHECK(table != NULL && table->stages < BUTCHER_STAGES, DEM_ERROR_ARGUMENT, "SUNDIALS gives no table %s",
+          row->table);
     const size_t size = (size_t)table->stages * sizeof(double);
-    *out = (method_table){.stages = table->stages, .order = table->q};
+    *out = (butcher_table){.stages = table->stages, .order = table->q};
     for (int i = 0; i < table->stages; i++) memcpy(entry(out, i, 0), table->A[i], size);
     memcpy(out->b, table->b, size);
     memcpy(out->c, table->c, size);
@@ -74,7 +75,7 @@ static dem_status read_table(method_table *out, const method_row *row)
 }
 
 /* Whether the last stage is the solution, so that its derivative is the first of the next step. */
-static bool ends_with_solution(method_table *t)
+static bool ends_with_solution(butcher_table *t)
 {
     for (int j = 0; j < t->stages; j++)
         if (fabs(*entry(t, t->stages - 1, j) - t->b[j]) > 1e-14) return false;
@@ -84,10 +85,10 @@ static bool ends_with_solution(method_table *t)
 /* SUNDIALS before 6.7 takes any last stage at the end of the step for the solution, and loses order where it is not
  * (LLNL/sundials #311). One stage more, the solution, makes it true, and costs nothing: ARKODE would call for that
  * derivative all the same. */
-static void append_solution(method_table *t)
+static void append_solution(butcher_table *t)
 {
     const int n = t->stages;
-    method_table longer = {.stages = n + 1, .order = t->order, .embedded_order = t->embedded_order};
+    butcher_table longer = {.stages = n + 1, .order = t->order, .embedded_order = t->embedded_order};
     for (int i = 0; i < n; i++) memcpy(entry(&longer, i, 0), entry(t, i, 0), (size_t)n * sizeof(double));
     memcpy(entry(&longer, n, 0), t->b, (size_t)n * sizeof(double));
     memcpy(longer.b, t->b, (size_t)n * sizeof(double));
@@ -97,14 +98,14 @@ static void append_solution(method_table *t)
     *t = longer;
 }
 
-static const method_row *row_of(dem_method method)
+static const butcher_row *row_of(dem_method method)
 {
     return (int)method >= 0 && (int)method < n_rows ? &rows[method] : NULL;
 }
 
-dem_status method_load(method_table *out, dem_method method)
+dem_status butcher_load(butcher_table *out, dem_method method)
 {
-    const method_row *row = row_of(method);
+    const butcher_row *row = row_of(method);
     CHECK(row != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)method);
     CHECK(method != DEM_METHOD_VERLET, DEM_ERROR_ARGUMENT, "method '%s' has no table", row->name);
     if (method == DEM_METHOD_RK4)
@@ -118,9 +119,9 @@ dem_status method_load(method_table *out, dem_method method)
 /* ---- stability ---- */
 
 /* |R(i z)| of y' = i omega y, z = omega h:  Y_j = 1 + i z sum of a_jk Y_k,  R = 1 + i z sum of b_j Y_j. */
-static double table_growth(method_table *t, double z)
+static double table_growth(butcher_table *t, double z)
 {
-    double re[METHOD_STAGES], im[METHOD_STAGES], sum_re = 1.0, sum_im = 0.0;
+    double re[BUTCHER_STAGES], im[BUTCHER_STAGES], sum_re = 1.0, sum_im = 0.0;
     for (int j = 0; j < t->stages; j++) {
         re[j] = 1.0;
         im[j] = 0.0;
@@ -135,14 +136,14 @@ static double table_growth(method_table *t, double z)
 }
 
 /* Of a step of Verlet the eigenvalues have the product 1 and the sum 2 - z^2. */
-static double verlet_growth(double z)
+static double verlet_integrator_growth(double z)
 {
     const double half = 0.5 * z * z - 1.0;
     return z > 2.0 ? half + sqrt(half * half - 1.0) : 1.0;
 }
 
 /* Largest z below which growth exceeds 1 by no more than `allowed`, to 1e-3; 0 where it does from the start. */
-static double largest_step(method_table *t, double allowed)
+static double largest_step(butcher_table *t, double allowed)
 {
     const double rounding = 1e-13, step = 1e-3;
     double z = step;
@@ -155,7 +156,7 @@ static double largest_step(method_table *t, double allowed)
     return moves ? z - step : 0.0;
 }
 
-static dem_method_traits traits_of(const char *name, method_table *t)
+static dem_method_traits traits_of(const char *name, butcher_table *t)
 {
     return (dem_method_traits){.name = name,
                                .order = t->order,
@@ -167,15 +168,15 @@ static dem_method_traits traits_of(const char *name, method_table *t)
 
 dem_status dem_method_describe(dem_method_traits *out, dem_method method)
 {
-    const method_row *row = row_of(method);
-    method_table table;
+    const butcher_row *row = row_of(method);
+    butcher_table table;
     CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_method_describe: out is NULL");
     CHECK(row != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)method);
     if (method == DEM_METHOD_VERLET) {
         *out = (dem_method_traits){.name = row->name, .order = 2, .evaluations = 1, .stable = 2.0, .usable = 2.0};
         return DEM_OK;
     }
-    TRY(method_load(&table, method));
+    TRY(butcher_load(&table, method));
     *out = traits_of(row->name, &table);
     return DEM_OK;
 }
@@ -193,7 +194,7 @@ dem_status dem_method_find(dem_method *out, const char *name)
 
 double dem_method_growth(dem_method method, double omega_h)
 {
-    method_table table;
-    if (method == DEM_METHOD_VERLET) return verlet_growth(omega_h);
-    return method_load(&table, method) == DEM_OK ? table_growth(&table, omega_h) : (double)NAN;
+    butcher_table table;
+    if (method == DEM_METHOD_VERLET) return verlet_integrator_growth(omega_h);
+    return butcher_load(&table, method) == DEM_OK ? table_growth(&table, omega_h) : (double)NAN;
 }

@@ -5,19 +5,19 @@
 
 #include <dem/dem.h>
 
-enum { METHOD_STAGES = 17 }; /* of the largest table */
+enum { BUTCHER_STAGES = 17 }; /* of the largest table */
 
 /** Butcher's table of an explicit method:  k_i = f(t + c_i h, y + h sum of a_ij k_j),  y' = y + h sum of b_i k_i. */
-typedef struct method_table {
+typedef struct butcher_table {
     int stages;
-    int order, embedded_order;               /* of the weights b, and of d; 0: there are no d */
-    double a[METHOD_STAGES * METHOD_STAGES]; /* [stages][stages] */
-    double b[METHOD_STAGES], c[METHOD_STAGES], d[METHOD_STAGES];
-} method_table;
+    int order, embedded_order;                 /* of the weights b, and of d; 0: there are no d */
+    double a[BUTCHER_STAGES * BUTCHER_STAGES]; /* [stages][stages] */
+    double b[BUTCHER_STAGES], c[BUTCHER_STAGES], d[BUTCHER_STAGES];
+} butcher_table;
 
 /** Coefficients such that ARKODE of every version integrates them at their order.
  *  \return DEM_ERROR_ARGUMENT for an unknown method, one that this SUNDIALS does not have, and Verlet's, which has no
  *  table */
-dem_status method_load(method_table *out, dem_method method);
+dem_status butcher_load(butcher_table *out, dem_method method);
 
 #endif

@@ -15,7 +15,7 @@ typedef struct basis {
     double bump, slope;        /* B, B' */
 } basis;
 
-static basis basis_at(const path *p, double t)
+static basis basis_at(const dense_output *p, double t)
 {
     const double h = p->t1 - p->t0, s = (t - p->t0) / h, s2 = s * s, s3 = s2 * s;
     return (basis){.h = h,
@@ -34,7 +34,7 @@ static basis basis_at(const path *p, double t)
 
 /* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the
  * bump's slope would turn into velocity when h is tiny. */
-static inline double defect(const path *p, dem_index k, double h)
+static inline double defect(const dense_output *p, dem_index k, double h)
 {
     const dem_index n = 2 * p->n_nodes;
     const double x0 = p->y0[k], x1 = p->y1[k], v0 = p->y0[n + k], v1 = p->y1[n + k];
@@ -48,7 +48,7 @@ static inline double parabola(const basis *b, double y0, double f0, double y1)
     return y0 + b->s * (b->h * f0 + b->s * (y1 - y0 - b->h * f0));
 }
 
-static inline double position(const path *p, const basis *b, dem_index k)
+static inline double position(const dense_output *p, const basis *b, dem_index k)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
@@ -57,7 +57,7 @@ static inline double position(const path *p, const basis *b, dem_index k)
            h * h * (b->ia0 * p->f0[n + k] + b->ia1 * p->f1[n + k]) + b->bump * defect(p, k, h);
 }
 
-static inline double velocity(const path *p, const basis *b, dem_index k)
+static inline double velocity(const dense_output *p, const basis *b, dem_index k)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
@@ -66,32 +66,32 @@ static inline double velocity(const path *p, const basis *b, dem_index k)
            b->slope * defect(p, k, h) / h;
 }
 
-static bool turned(const path *p, dem_index i)
+static bool turned(const dense_output *p, dem_index i)
 {
-    return p->trail != NULL && trail_has(p->trail, i);
+    return p->changed != NULL && changed_motion_has(p->changed, i);
 }
 
-vec2 path_position(const path *p, double t, dem_index i)
+vec2 dense_output_position(const dense_output *p, double t, dem_index i)
 {
     if (t == p->t1) return vec2_at(p->y1, i);
-    if (turned(p, i)) return trail_position(p->trail, t, i);
+    if (turned(p, i)) return changed_motion_position(p->changed, t, i);
     if (t == p->t0) return vec2_at(p->y0, i);
     const basis b = basis_at(p, t);
     return (vec2){position(p, &b, 2 * i), position(p, &b, 2 * i + 1)};
 }
 
-vec2 path_velocity(const path *p, double t, dem_index i)
+vec2 dense_output_velocity(const dense_output *p, double t, dem_index i)
 {
     const dem_index n = p->n_nodes;
     if (t == p->t1) return vec2_at(p->y1, n + i);
-    if (turned(p, i)) return trail_velocity(p->trail, t, i);
+    if (turned(p, i)) return changed_motion_velocity(p->changed, t, i);
     if (t == p->t0) return vec2_at(p->y0, n + i);
     const basis b = basis_at(p, t);
     return (vec2){velocity(p, &b, 2 * i), velocity(p, &b, 2 * i + 1)};
 }
 
 /* As if no event inside had changed it. */
-static void interpolate(const path *p, double t, double *y)
+static void interpolate(const dense_output *p, double t, double *y)
 {
     const dem_index n = 2 * p->n_nodes;
     const basis b = basis_at(p, t);
@@ -101,21 +101,21 @@ static void interpolate(const path *p, double t, double *y)
     }
 }
 
-void path_state(const path *p, double t, double *y)
+void dense_output_state(const dense_output *p, double t, double *y)
 {
     if (t == p->t0 || t == p->t1)
         memcpy(y, t == p->t0 ? p->y0 : p->y1, 4 * (size_t)p->n_nodes * sizeof *y);
     else
         interpolate(p, t, y);
-    for (dem_index i = 0; i < p->n_nodes && p->trail != NULL && t != p->t1; i++) {
-        if (!trail_has(p->trail, i)) continue;
-        vec2_put(y, i, trail_position(p->trail, t, i));
-        vec2_put(y, p->n_nodes + i, trail_velocity(p->trail, t, i));
+    for (dem_index i = 0; i < p->n_nodes && p->changed != NULL && t != p->t1; i++) {
+        if (!changed_motion_has(p->changed, i)) continue;
+        vec2_put(y, i, changed_motion_position(p->changed, t, i));
+        vec2_put(y, p->n_nodes + i, changed_motion_velocity(p->changed, t, i));
     }
 }
 
 /* The same in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
-static void quintic(const path *p, dem_index i, trail_motion *m)
+static void quintic(const dense_output *p, dem_index i, motion_polynomial *m)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = p->t1 - p->t0, per_h = 1.0 / h;
@@ -123,15 +123,15 @@ static void quintic(const path *p, dem_index i, trail_motion *m)
         const dem_index k = 2 * i + d;
         const double bump = 30.0 * per_h * defect(p, k, h), jump = p->y1[n + k] - p->y0[n + k];
         const double a0 = h * p->f0[n + k], a1 = h * p->f1[n + k];
-        const double v[TRAIL_TERMS] = {
+        const double v[MOTION_TERMS] = {
             p->y0[n + k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump, bump, 0.0};
         m->c[0][d] = p->y0[k];
-        for (int q = 0; q < TRAIL_TERMS; q++) m->c[q][2 + d] = v[q];
-        for (int q = 1; q < TRAIL_TERMS; q++) m->c[q][d] = h / q * v[q - 1];
+        for (int q = 0; q < MOTION_TERMS; q++) m->c[q][2 + d] = v[q];
+        for (int q = 1; q < MOTION_TERMS; q++) m->c[q][d] = h / q * v[q - 1];
     }
 }
 
-static void parabolas(const path *p, dem_index i, trail_motion *m)
+static void parabolas(const dense_output *p, dem_index i, motion_polynomial *m)
 {
     const dem_index n = 2 * p->n_nodes;
     const double h = p->t1 - p->t0;
@@ -146,9 +146,9 @@ static void parabolas(const path *p, dem_index i, trail_motion *m)
     }
 }
 
-trail_motion path_motion(const path *p, dem_index i)
+motion_polynomial dense_output_motion(const dense_output *p, dem_index i)
 {
-    trail_motion m = {.from = p->t0};
+    motion_polynomial m = {.from = p->t0};
     if (p->parabolic)
         parabolas(p, i, &m);
     else

@@ -8,25 +8,25 @@
 
 #include "time/changed_motion.h"
 
-typedef struct path {
+typedef struct dense_output {
     dem_index n_nodes;
     double t0, t1;    /* the accepted step, s */
     double end;       /* the motion holds up to here, t0 <= end <= t1: an event cuts it short */
     const double *y0; /* [4 n] state (x, v) at t0 */
     const double *f0; /* [4 n] its derivative, of which the second half is read, accelerations */
     const double *y1, *f1;
-    bool parabolic;     /* positions through x0, v0, x1 and velocities through v0, a0, v1: the way of Verlet's method */
-    const trail *trail; /* how nodes go on from events inside, up to y1; NULL: there were none */
-} path;
+    bool parabolic; /* positions through x0, v0, x1 and velocities through v0, a0, v1: the way of Verlet's method */
+    const changed_motion *changed; /* how nodes go on from events inside, up to y1; NULL: there were none */
+} dense_output;
 
-vec2 path_position(const path *p, double t, dem_index i);
-vec2 path_velocity(const path *p, double t, dem_index i);
+vec2 dense_output_position(const dense_output *p, double t, dem_index i);
+vec2 dense_output_velocity(const dense_output *p, double t, dem_index i);
 
 /** The motion of a node over the whole step, as if no event inside had changed it. */
-trail_motion path_motion(const path *p, dem_index i);
+motion_polynomial dense_output_motion(const dense_output *p, dem_index i);
 
 /** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at t0 has
  *  changed there. */
-void path_state(const path *p, double t, double *y);
+void dense_output_state(const dense_output *p, double t, double *y);
 
 #endif

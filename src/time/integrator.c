@@ -5,81 +5,82 @@
 #include "time/arkode_integrator.h"
 #include "time/verlet_integrator.h"
 
-dem_status engine_create(engine *out, const motion *problem, double t, const double *y)
+dem_status integrator_create(integrator *out, const ode_problem *problem, double t, const double *y)
 {
-    *out = (engine){0};
-    if (problem->method == DEM_METHOD_VERLET) return verlet_create(&out->verlet, problem, t, y);
-    return integrator_create(&out->integrator, problem, t, y);
+    *out = (integrator){0};
+    if (problem->method == DEM_METHOD_VERLET) return verlet_integrator_create(&out->verlet, problem, t, y);
+    return arkode_integrator_create(&out->integrator, problem, t, y);
 }
 
-void engine_destroy(engine *e)
+void integrator_destroy(integrator *e)
 {
-    integrator_destroy(e->integrator);
-    verlet_destroy(e->verlet);
-    *e = (engine){0};
+    arkode_integrator_destroy(e->integrator);
+    verlet_integrator_destroy(e->verlet);
+    *e = (integrator){0};
 }
 
-dem_status engine_step(engine *e, path *step, bool *rooted)
+dem_status integrator_step(integrator *e, dense_output *step, bool *rooted)
 {
-    return e->verlet != NULL ? verlet_step(e->verlet, step, rooted) : integrator_step(e->integrator, step, rooted);
+    return e->verlet != NULL ? verlet_integrator_step(e->verlet, step, rooted)
+                             : arkode_integrator_step(e->integrator, step, rooted);
 }
 
-void engine_end(engine *e, double **y1, double **f1)
+void integrator_end(integrator *e, double **y1, double **f1)
 {
     if (e->verlet != NULL)
-        verlet_end(e->verlet, y1, f1);
+        verlet_integrator_end(e->verlet, y1, f1);
     else
-        integrator_end(e->integrator, y1, f1);
+        arkode_integrator_end(e->integrator, y1, f1);
 }
 
-dem_status engine_redo(engine *e, double factor)
+dem_status integrator_redo(integrator *e, double factor)
 {
-    return integrator_redo(e->integrator, factor); /* the other has no error control */
+    return arkode_integrator_redo(e->integrator, factor); /* the other has no error control */
 }
 
-void engine_settle(engine *e, const path *step)
+void integrator_settle(integrator *e, const dense_output *step)
 {
     if (e->verlet != NULL)
-        verlet_settle(e->verlet, step);
+        verlet_integrator_settle(e->verlet, step);
     else
-        integrator_settle(e->integrator, step);
+        arkode_integrator_settle(e->integrator, step);
 }
 
-double *engine_state(const engine *e)
+double *integrator_state(const integrator *e)
 {
-    return e->verlet != NULL ? verlet_state(e->verlet) : integrator_state(e->integrator);
+    return e->verlet != NULL ? verlet_integrator_state(e->verlet) : arkode_integrator_state(e->integrator);
 }
 
-dem_status engine_bound(engine *e, double longest)
+dem_status integrator_bound(integrator *e, double longest)
 {
-    return e->verlet != NULL ? DEM_OK : integrator_bound(e->integrator, longest);
+    return e->verlet != NULL ? DEM_OK : arkode_integrator_bound(e->integrator, longest);
 }
 
-dem_status engine_resume(engine *e)
+dem_status integrator_resume(integrator *e)
 {
-    return e->verlet != NULL ? DEM_OK : integrator_resume(e->integrator);
+    return e->verlet != NULL ? DEM_OK : arkode_integrator_resume(e->integrator);
 }
 
-dem_status engine_restart(engine *e, double t, const double *y)
+dem_status integrator_restart(integrator *e, double t, const double *y)
 {
-    if (e->verlet == NULL) return integrator_restart(e->integrator, t, y);
-    verlet_restart(e->verlet, t, y);
+    if (e->verlet == NULL) return arkode_integrator_restart(e->integrator, t, y);
+    verlet_integrator_restart(e->verlet, t, y);
     return DEM_OK;
 }
 
-double engine_next_step(const engine *e)
+double integrator_next_step(const integrator *e)
 {
-    return e->verlet != NULL ? 0.0 : integrator_next_step(e->integrator);
+    return e->verlet != NULL ? 0.0 : arkode_integrator_next_step(e->integrator);
 }
 
-dem_status engine_renew(engine *e, const engine_start *from)
+dem_status integrator_renew(integrator *e, const integrator_start *from)
 {
-    if (e->verlet == NULL) return integrator_renew(e->integrator, from);
-    verlet_renew(e->verlet, from);
+    if (e->verlet == NULL) return arkode_integrator_renew(e->integrator, from);
+    verlet_integrator_renew(e->verlet, from);
     return DEM_OK;
 }
 
-dem_counts engine_counts(const engine *e)
+dem_counts integrator_counts(const integrator *e)
 {
-    return e->verlet != NULL ? verlet_counts(e->verlet) : integrator_counts(e->integrator);
+    return e->verlet != NULL ? verlet_integrator_counts(e->verlet) : arkode_integrator_counts(e->integrator);
 }

@@ -7,49 +7,49 @@
 
 #include "time/ode_problem.h"
 
-typedef struct engine {
-    struct integrator *integrator; /* one of both */
-    struct verlet *verlet;
-} engine;
+typedef struct integrator {
+    struct arkode_integrator *integrator; /* one of both */
+    struct verlet_integrator *verlet;
+} integrator;
 
-/** Starts at (t, y). Free with engine_destroy. */
-dem_status engine_create(engine *out, const motion *problem, double t, const double *y);
-void engine_destroy(engine *e);
+/** Starts at (t, y). Free with integrator_destroy. */
+dem_status integrator_create(integrator *out, const ode_problem *problem, double t, const double *y);
+void integrator_destroy(integrator *e);
 
 /** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the engine and
  *  hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
-dem_status engine_step(engine *e, path *step, bool *rooted);
+dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 
 /** The end of the step just taken, [4 n], and its derivative, for who changes both before settling. */
-void engine_end(engine *e, double **y1, double **f1);
+void integrator_end(integrator *e, double **y1, double **f1);
 
 /** Takes the step just taken back: the next goes from its start, and is shorter by the factor. */
-dem_status engine_redo(engine *e, double factor);
+dem_status integrator_redo(integrator *e, double factor);
 
 /** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
  *  path holds on until the next step or restart. */
-void engine_settle(engine *e, const path *step);
+void integrator_settle(integrator *e, const dense_output *step);
 
 /** The state from which the next step goes, [4 n]. Who changes it restarts the engine there: it is no copy, and the end
  *  of the step that led to it changes with it. */
-double *engine_state(const engine *e);
+double *integrator_state(const integrator *e);
 
 /** Bounds the first step after the restart or resumption that follows, s. */
-dem_status engine_bound(engine *e, double longest);
+dem_status integrator_bound(integrator *e, double longest);
 
 /** Goes on from the end of the step just settled, which has been changed and its derivative with it. */
-dem_status engine_resume(engine *e);
+dem_status integrator_resume(integrator *e);
 
 /** How long the next step is to be, s; 0 where steps are fixed. */
-double engine_next_step(const engine *e);
+double integrator_next_step(const integrator *e);
 
 /** Begins anew, so that nothing before it shows: as an engine does that is created there, but with counts. */
-dem_status engine_renew(engine *e, const engine_start *from);
+dem_status integrator_renew(integrator *e, const integrator_start *from);
 
 /** Goes on from another state, or from its own as it has been changed. */
-dem_status engine_restart(engine *e, double t, const double *y);
+dem_status integrator_restart(integrator *e, double t, const double *y);
 
 /** Steps, rejections, evaluations and retries so far; the rest is 0. */
-dem_counts engine_counts(const engine *e);
+dem_counts integrator_counts(const integrator *e);
 
 #endif

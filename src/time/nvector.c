@@ -18,12 +18,12 @@ typedef struct buffer {
 } buffer;
 
 typedef struct content {
-    vector_space *space;
+    nvector_space *space;
     buffer *buffer;
     struct content *next; /* of the free ones */
 } content;
 
-struct vector_space {
+struct nvector_space {
     dem_index length;
     const array_ops *ops;
     int n_threads;
@@ -39,7 +39,7 @@ static content *content_of(N_Vector v)
 
 /* ---- buffers ---- */
 
-static bool add_buffer(vector_space *s)
+static bool add_buffer(nvector_space *s)
 {
     buffer *b = calloc(1, sizeof *b);
     if (b != NULL) b->values = aligned_reals((size_t)s->length);
@@ -53,7 +53,7 @@ static bool add_buffer(vector_space *s)
 }
 
 /* For one vector more. */
-static bool add_content(vector_space *s)
+static bool add_content(nvector_space *s)
 {
     content *c = calloc(1, sizeof *c);
     if (c == NULL || !add_buffer(s)) {
@@ -65,14 +65,14 @@ static bool add_content(vector_space *s)
     return true;
 }
 
-static void leave(vector_space *s, buffer *b)
+static void leave(nvector_space *s, buffer *b)
 {
     if (--b->users > 0) return;
     b->next = s->buffers;
     s->buffers = b;
 }
 
-static buffer *take(vector_space *s)
+static buffer *take(nvector_space *s)
 {
     buffer *b = s->buffers;
     s->buffers = b->next;
@@ -80,7 +80,7 @@ static buffer *take(vector_space *s)
     return b;
 }
 
-double *vector_fresh(N_Vector v)
+double *nvector_fresh(N_Vector v)
 {
     content *c = content_of(v);
     if (c->buffer->users > 1) {
@@ -90,17 +90,17 @@ double *vector_fresh(N_Vector v)
     return c->buffer->values;
 }
 
-const double *vector_values(N_Vector v)
+const double *nvector_values(N_Vector v)
 {
     return content_of(v)->buffer->values;
 }
 
-double *vector_shared(N_Vector v)
+double *nvector_shared(N_Vector v)
 {
     return content_of(v)->buffer->values;
 }
 
-void vector_share(N_Vector from, N_Vector to)
+void nvector_share(N_Vector from, N_Vector to)
 {
     content *c = content_of(to);
     buffer *b = content_of(from)->buffer;
@@ -114,7 +114,7 @@ void vector_share(N_Vector from, N_Vector to)
 static void fill(double value, N_Vector z)
 {
     const content *c = content_of(z);
-    double *to = vector_fresh(z);
+    double *to = nvector_fresh(z);
     for (dem_index k = 0; k < c->space->length; k++) to[k] = value;
 }
 
@@ -129,10 +129,10 @@ static double *apart_from(N_Vector z, const double *const *in, int n)
             leave(c->space, old);
             break;
         }
-    return vector_fresh(z);
+    return nvector_fresh(z);
 }
 
-static void combine_share(const vector_space *s, int t, double *out, int n, const double *c, const double *const *in)
+static void combine_share(const nvector_space *s, int t, double *out, int n, const double *c, const double *const *in)
 {
     const dem_index first = threads_share(s->length, s->n_threads, t);
     const double *from[most_terms];
@@ -144,21 +144,21 @@ static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
     double factor[most_terms];
     const double *in[most_terms];
-    const vector_space *s = content_of(z)->space;
+    const nvector_space *s = content_of(z)->space;
     int m = 0, last = 0;
     for (int k = 0; k < n; k++) {
         if (c[k] == 0.0) continue;
         if (m == most_terms) return -1;
         last = k;
         factor[m] = c[k];
-        in[m++] = vector_values(x[k]);
+        in[m++] = nvector_values(x[k]);
     }
     if (m == 0) {
         fill(0.0, z);
         return 0;
     }
     if (m == 1 && factor[0] == 1.0) {
-        vector_share(x[last], z);
+        nvector_share(x[last], z);
         return 0;
     }
     double *out = apart_from(z, in, m);
@@ -184,14 +184,14 @@ static double scale_of(double size)
     return scale;
 }
 
-static void square_share(const vector_space *s, int t, const double *x, const double *w, double scale)
+static void square_share(const nvector_space *s, int t, const double *x, const double *w, double scale)
 {
     const dem_index first = threads_share(s->length, s->n_threads, t);
     s->sums[t] = (array_ops_sum){0};
     s->ops->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
 }
 
-static array_ops_sum square(const vector_space *s, const double *x, const double *w, double scale)
+static array_ops_sum square(const nvector_space *s, const double *x, const double *w, double scale)
 {
     array_ops_sum sum = {0};
     THREADS_RUN(s->n_threads, t, square_share(s, t, x, w, scale));
@@ -202,8 +202,8 @@ static array_ops_sum square(const vector_space *s, const double *x, const double
 /* Sums are exact within a range of sizes. Ranges are tried from a sample on: the least that holds all counts. */
 static sunrealtype norm(N_Vector x, N_Vector w)
 {
-    const vector_space *s = content_of(x)->space;
-    const double *values = vector_values(x), *weights = vector_values(w);
+    const nvector_space *s = content_of(x)->space;
+    const double *values = nvector_values(x), *weights = nvector_values(w);
     double largest = 0.0, scale = 1.0;
     for (dem_index k = 0; k < s->length; k += s->length / n_sampled + 1)
         largest = fmax(largest, fabs(values[k] * weights[k]));
@@ -220,7 +220,7 @@ static sunrealtype norm(N_Vector x, N_Vector w)
 
 static sunrealtype largest(N_Vector x)
 {
-    const double *a = vector_values(x);
+    const double *a = nvector_values(x);
     double most = 0.0;
     for (dem_index k = 0; k < content_of(x)->space->length; k++) most = fmax(most, fabs(a[k]));
     return most;
@@ -228,29 +228,29 @@ static sunrealtype largest(N_Vector x)
 
 static void divide(N_Vector x, N_Vector y, N_Vector z)
 {
-    const double *a = vector_values(x), *b = vector_values(y);
-    double *to = vector_fresh(z);
+    const double *a = nvector_values(x), *b = nvector_values(y);
+    double *to = nvector_fresh(z);
     for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = a[k] / b[k];
 }
 
 static void take_size(N_Vector x, N_Vector z)
 {
-    const double *a = vector_values(x);
-    double *to = vector_fresh(z);
+    const double *a = nvector_values(x);
+    double *to = nvector_fresh(z);
     for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = fabs(a[k]);
 }
 
 static void invert(N_Vector x, N_Vector z)
 {
-    const double *a = vector_values(x);
-    double *to = vector_fresh(z);
+    const double *a = nvector_values(x);
+    double *to = nvector_fresh(z);
     for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = 1.0 / a[k];
 }
 
 static void add_constant(N_Vector x, sunrealtype c, N_Vector z)
 {
-    const double *a = vector_values(x);
-    double *to = vector_fresh(z);
+    const double *a = nvector_values(x);
+    double *to = nvector_fresh(z);
     for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = a[k] + c;
 }
 
@@ -264,7 +264,7 @@ static N_Vector_ID kind_of(N_Vector v)
 
 static N_Vector clone(N_Vector v)
 {
-    return vector_create(content_of(v)->space, v->sunctx);
+    return nvector_create(content_of(v)->space, v->sunctx);
 }
 
 static void destroy(N_Vector v)
@@ -294,7 +294,7 @@ static void set_operations(N_Vector_Ops ops)
     ops->nvaddconst = add_constant;
 }
 
-N_Vector vector_create(vector_space *s, SUNContext context)
+N_Vector nvector_create(nvector_space *s, SUNContext context)
 {
     if (s->contents == NULL && !add_content(s)) return NULL;
     N_Vector v = N_VNewEmpty(context);
@@ -307,20 +307,20 @@ N_Vector vector_create(vector_space *s, SUNContext context)
     return v;
 }
 
-vector_space *vector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors)
+nvector_space *nvector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors)
 {
-    vector_space *s = calloc(1, sizeof *s);
+    nvector_space *s = calloc(1, sizeof *s);
     if (s == NULL) return NULL;
-    *s = (vector_space){.length = length, .ops = operations, .n_threads = n_threads};
+    *s = (nvector_space){.length = length, .ops = operations, .n_threads = n_threads};
     s->sums = calloc((size_t)n_threads, sizeof *s->sums);
     bool complete = s->sums != NULL && add_buffer(s);
     for (int k = 0; k < n_vectors && complete; k++) complete = add_content(s);
     if (complete) return s;
-    vector_space_free(s);
+    nvector_space_free(s);
     return NULL;
 }
 
-void vector_space_free(vector_space *s)
+void nvector_space_free(nvector_space *s)
 {
     if (s == NULL) return;
     while (s->buffers != NULL) {

@@ -9,26 +9,26 @@
 
 #include "base/array_ops.h"
 
-typedef struct vector_space vector_space;
+typedef struct nvector_space nvector_space;
 
 /** Borrows the operations. NULL without memory, else there is enough for n_vectors, clones too: N_VClone() of SUNDIALS
- *  6 crashes without. Free with vector_space_free(), after its vectors. */
-vector_space *vector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors);
-void vector_space_free(vector_space *s);
+ *  6 crashes without. Free with nvector_space_free(), after its vectors. */
+nvector_space *nvector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors);
+void nvector_space_free(nvector_space *s);
 
 /** A vector of the space, of no certain numbers; NULL without memory. For N_VDestroy(). */
-N_Vector vector_create(vector_space *s, SUNContext context);
+N_Vector nvector_create(nvector_space *s, SUNContext context);
 
 /** Its numbers, to read. */
-const double *vector_values(N_Vector v);
+const double *nvector_values(N_Vector v);
 
 /** Its numbers, all of them to be written. */
-double *vector_fresh(N_Vector v);
+double *nvector_fresh(N_Vector v);
 
 /** Its numbers, some of them to be changed, also for those who share them. */
-double *vector_shared(N_Vector v);
+double *nvector_shared(N_Vector v);
 
 /** From now on `to` has the numbers of `from`. */
-void vector_share(N_Vector from, N_Vector to);
+void nvector_share(N_Vector from, N_Vector to);
 
 #endif

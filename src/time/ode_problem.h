@@ -7,17 +7,17 @@
 #include "time/dense_output.h"
 
 /** A step of Verlet's method from y0 with derivative f0 to y1 with f1, of which the second halves count. */
-typedef struct motion_leap {
+typedef struct ode_fused_step {
     double t1, h; /* s */
     const double *y0, *f0;
     double *y1, *f1;
-} motion_leap;
+} ode_fused_step;
 
-typedef struct motion {
-    dem_index n_nodes;  /* y has 4 n_nodes entries */
-    dem_index n_books;  /* the last of these nodes are integrated along, and have no part in the error */
-    dem_index n_guards; /* root functions, each looked for as it falls through 0; may be 0 */
-    bool prescribes;    /* whether some x' are given, so that they are not v */
+typedef struct ode_problem {
+    dem_index n_nodes;       /* y has 4 n_nodes entries */
+    dem_index n_quadratures; /* the last of these nodes are integrated along, and have no part in the error */
+    dem_index n_roots;       /* root functions, each looked for as it falls through 0; may be 0 */
+    bool prescribes;         /* whether some x' are given, so that they are not v */
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An engine that knows v may leave
      *  u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or 2
      *  if nothing may. */
@@ -25,8 +25,8 @@ typedef struct motion {
     /** Does the step of all nodes but the books, whose positions and velocities at its end are given, and fills their
      *  rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not from this
      *  state. NULL: from none. */
-    int (*leap)(const motion_leap *step, void *context);
-    void (*guards)(double t, const double *y, double *g, void *context);
+    int (*fused_step)(const ode_fused_step *step, void *context);
+    void (*root_functions)(double t, const double *y, double *g, void *context);
     /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */
     double (*stiffening)(const double *y, void *context);
     void *context;
@@ -36,18 +36,18 @@ typedef struct motion {
     double fixed_step;                     /* s; > 0: steps of this length without error control */
     const array_ops *ops;                  /* arithmetic on the states */
     int n_threads;
-} motion;
+} ode_problem;
 
 /** Where an engine begins anew. */
-typedef struct engine_start {
+typedef struct integrator_start {
     double t, next_step; /* s */
     const double *y;     /* [4 n] */
     dem_counts counts;   /* of which steps, rejections, evaluations and retries are read */
-} engine_start;
+} integrator_start;
 
 /** Length of a fixed step from y, s: halved as often as it takes that it is no longer in units of the highest frequency
  *  than about the rest shape. */
-static inline double motion_fixed_step(const motion *p, const double *y)
+static inline double ode_problem_fixed_step(const ode_problem *p, const double *y)
 {
     enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are told */
     double h = p->fixed_step;

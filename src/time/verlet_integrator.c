@@ -11,23 +11,23 @@
 #include "base/status.h"
 #include "base/threads.h"
 
-struct verlet {
-    motion problem;
+struct verlet_integrator {
+    ode_problem problem;
     double *arrays;                    /* [5][4 n] those that follow */
     double *y0, *f0, *y1, *f1, *state; /* ends of the step with derivatives; a state inside */
-    double *values;                    /* [3][n_guards] those that follow */
-    double *low, *high, *trial;        /* guards at both ends of a bracket and inside */
+    double *values;                    /* [3][n_roots] those that follow */
+    double *low, *high, *trial;        /* root functions at both ends of a bracket and inside */
     double t, t1;                      /* s, of y0, y1 */
-    bool has_f0, has_low;              /* f0 is that of y0, low the guards there */
+    bool has_f0, has_low;              /* f0 is that of y0, low the root functions there */
     bool at_end;                       /* the path was handed out: y1 is the start of the next step */
     dem_counts counts;
 };
 
-static dem_status allocate(verlet *V)
+static dem_status allocate(verlet_integrator *V)
 {
-    const size_t n = 4 * (size_t)V->problem.n_nodes, n_guards = (size_t)V->problem.n_guards;
+    const size_t n = 4 * (size_t)V->problem.n_nodes, n_roots = (size_t)V->problem.n_roots;
     V->arrays = aligned_zeros(5 * n);
-    V->values = calloc(3 * n_guards + 1, sizeof *V->values);
+    V->values = calloc(3 * n_roots + 1, sizeof *V->values);
     CHECK(V->arrays && V->values, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)V->problem.n_nodes);
     V->y0 = V->arrays;
@@ -36,28 +36,28 @@ static dem_status allocate(verlet *V)
     V->f1 = V->arrays + 3 * n;
     V->state = V->arrays + 4 * n;
     V->low = V->values;
-    V->high = V->values + n_guards;
-    V->trial = V->values + 2 * n_guards;
+    V->high = V->values + n_roots;
+    V->trial = V->values + 2 * n_roots;
     return DEM_OK;
 }
 
-dem_status verlet_create(verlet **out, const motion *problem, double t, const double *y)
+dem_status verlet_integrator_create(verlet_integrator **out, const ode_problem *problem, double t, const double *y)
 {
     CHECK(problem->fixed_step > 0.0, DEM_ERROR_ARGUMENT, "Verlet's method needs a fixed step");
-    verlet *V = calloc(1, sizeof *V);
+    verlet_integrator *V = calloc(1, sizeof *V);
     CHECK_MEMORY(V);
     V->problem = *problem;
     const dem_status status = allocate(V);
     if (status != DEM_OK) {
-        verlet_destroy(V);
+        verlet_integrator_destroy(V);
         return status;
     }
-    verlet_restart(V, t, y);
+    verlet_integrator_restart(V, t, y);
     *out = V;
     return DEM_OK;
 }
 
-void verlet_destroy(verlet *V)
+void verlet_integrator_destroy(verlet_integrator *V)
 {
     if (V == NULL) return;
     free(V->arrays);
@@ -65,16 +65,16 @@ void verlet_destroy(verlet *V)
     free(V);
 }
 
-void verlet_restart(verlet *V, double t, const double *y)
+void verlet_integrator_restart(verlet_integrator *V, double t, const double *y)
 {
     if (y != V->y0) memcpy(V->y0, y, 4 * (size_t)V->problem.n_nodes * sizeof *y);
     V->t = t;
     V->has_f0 = V->has_low = V->at_end = false;
 }
 
-void verlet_renew(verlet *V, const engine_start *from)
+void verlet_integrator_renew(verlet_integrator *V, const integrator_start *from)
 {
-    verlet_restart(V, from->t, from->y);
+    verlet_integrator_restart(V, from->t, from->y);
     V->counts = (dem_counts){.steps = from->counts.steps, .evaluations = from->counts.evaluations};
 }
 
@@ -86,7 +86,7 @@ static void swap(double **a, double **b)
 }
 
 /* The end of the last step becomes the start of the next. */
-static void go_on(verlet *V)
+static void go_on(verlet_integrator *V)
 {
     if (!V->at_end) return;
     swap(&V->y0, &V->y1);
@@ -96,16 +96,16 @@ static void go_on(verlet *V)
     V->at_end = false;
 }
 
-void verlet_end(verlet *V, double **y1, double **f1)
+void verlet_integrator_end(verlet_integrator *V, double **y1, double **f1)
 {
     *y1 = V->y1;
     *f1 = V->f1;
 }
 
-void verlet_settle(verlet *V, const path *step)
+void verlet_integrator_settle(verlet_integrator *V, const dense_output *step)
 {
     if (step->end < step->t1) {
-        path_state(step, step->end, V->state);
+        dense_output_state(step, step->end, V->state);
         swap(&V->y1, &V->state);
         V->t1 = step->end;
     }
@@ -114,12 +114,12 @@ void verlet_settle(verlet *V, const path *step)
     V->has_low = V->has_low && V->has_f0;
 }
 
-double *verlet_state(const verlet *V)
+double *verlet_integrator_state(const verlet_integrator *V)
 {
     return V->y0;
 }
 
-static int evaluate(verlet *V, double t, const double *y, double *f)
+static int evaluate(verlet_integrator *V, double t, const double *y, double *f)
 {
     double *u = V->problem.prescribes ? f : NULL, *a = f + 2 * V->problem.n_nodes;
     V->counts.evaluations++;
@@ -131,27 +131,27 @@ typedef struct stretch {
     dem_index at, size;
 } stretch;
 
-static stretch share_of(const verlet *V, int t)
+static stretch share_of(const verlet_integrator *V, int t)
 {
     const dem_index n = 2 * V->problem.n_nodes, at = threads_share(n, V->problem.n_threads, t);
     return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
 }
 
-static void drift_stretch(verlet *V, double h, stretch s)
+static void drift_stretch(verlet_integrator *V, double h, stretch s)
 {
     const dem_index n = 2 * V->problem.n_nodes;
     const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
     V->problem.ops->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
 }
 
-static void kick_stretch(verlet *V, double h, stretch s)
+static void kick_stretch(verlet_integrator *V, double h, stretch s)
 {
     const dem_index at = 2 * V->problem.n_nodes + s.at;
     V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
 }
 
 /* A velocity that the derivative does not take over as it is, is prescribed. */
-static void kick_free(verlet *V, double h)
+static void kick_free(verlet_integrator *V, double h)
 {
     const dem_index n = 2 * V->problem.n_nodes;
     double *v1 = V->y1 + n;
@@ -160,24 +160,24 @@ static void kick_free(verlet *V, double h)
 }
 
 /* All nodes at once where that can be, and the books: 0, 1 on failure, or -1. */
-static int leap(verlet *V, double h)
+static int take_fused_step(verlet_integrator *V, double h)
 {
-    const motion *p = &V->problem;
-    const motion_leap step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
-    const stretch books = {2 * (p->n_nodes - p->n_books), 2 * p->n_books};
-    if (p->leap == NULL) return -1;
+    const ode_problem *p = &V->problem;
+    const ode_fused_step step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
+    const stretch books = {2 * (p->n_nodes - p->n_quadratures), 2 * p->n_quadratures};
+    if (p->fused_step == NULL) return -1;
     drift_stretch(V, h, books);
-    const int flag = p->leap(&step, p->context);
+    const int flag = p->fused_step(&step, p->context);
     if (flag < 0) return flag;
     V->counts.evaluations++;
     kick_stretch(V, h, books);
     return flag;
 }
 
-static int kick_drift_kick(verlet *V, double h)
+static int kick_drift_kick(verlet_integrator *V, double h)
 {
     V->t1 = V->t + h;
-    const int flag = leap(V, h);
+    const int flag = take_fused_step(V, h);
     if (flag >= 0) return flag;
     THREADS_RUN(V->problem.n_threads, t, drift_stretch(V, h, share_of(V, t)));
     if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
@@ -190,11 +190,11 @@ static int kick_drift_kick(verlet *V, double h)
 
 /* ---- roots ---- */
 
-static dem_status look(verlet *V, double t, const double *y, double *g)
+static dem_status look(verlet_integrator *V, double t, const double *y, double *g)
 {
-    if (V->problem.n_guards == 0) return DEM_OK;
-    V->problem.guards(t, y, g, V->problem.context);
-    for (dem_index k = 0; k < V->problem.n_guards; k++)
+    if (V->problem.n_roots == 0) return DEM_OK;
+    V->problem.root_functions(t, y, g, V->problem.context);
+    for (dem_index k = 0; k < V->problem.n_roots; k++)
         CHECK(isfinite(g[k]), DEM_ERROR_INTEGRATOR, "guard %lld is not finite at t = %.9g s", (long long)k, t);
     return DEM_OK;
 }
@@ -204,24 +204,25 @@ static bool falls(double before, double after)
     return before > 0.0 && after <= 0.0;
 }
 
-/* Where the first of the guards that fall between both ends would be 0 if they were straight; 1 if none falls. */
-static double first_secant(const verlet *V, const double *low, const double *high)
+/* Where the first of the root functions that fall between both ends would be 0 if they were straight; 1 if none falls.
+ * */
+static double first_secant(const verlet_integrator *V, const double *low, const double *high)
 {
     double share = 1.0;
-    for (dem_index k = 0; k < V->problem.n_guards; k++)
+    for (dem_index k = 0; k < V->problem.n_roots; k++)
         if (falls(low[k], high[k])) share = fmin(share, low[k] / (low[k] - high[k]));
     return share;
 }
 
-static bool any_falls(const verlet *V, const double *low, const double *high)
+static bool any_falls(const verlet_integrator *V, const double *low, const double *high)
 {
-    for (dem_index k = 0; k < V->problem.n_guards; k++)
+    for (dem_index k = 0; k < V->problem.n_roots; k++)
         if (falls(low[k], high[k])) return true;
     return false;
 }
 
 /* Shortens the step to the first root: secants, and the middle after one that did not halve the bracket. */
-static dem_status find_root(verlet *V, path *step)
+static dem_status find_root(verlet_integrator *V, dense_output *step)
 {
     double low = step->t0, high = step->t1;
     bool secant = true;
@@ -229,7 +230,7 @@ static dem_status find_root(verlet *V, path *step)
     while (high - low > width) {
         const double share = secant ? first_secant(V, V->low, V->high) : 0.5, whole = high - low;
         const double t = fmin(fmax(low + share * whole, low + 0.5 * width), high - 0.5 * width);
-        path_state(step, t, V->state);
+        dense_output_state(step, t, V->state);
         TRY(look(V, t, V->state, V->trial));
         if (any_falls(V, V->low, V->trial)) {
             high = t;
@@ -246,23 +247,23 @@ static dem_status find_root(verlet *V, path *step)
 
 /* ---- the step ---- */
 
-dem_status verlet_step(verlet *V, path *step, bool *rooted)
+dem_status verlet_integrator_step(verlet_integrator *V, dense_output *step, bool *rooted)
 {
     go_on(V);
     if (!V->has_f0 && evaluate(V, V->t, V->y0, V->f0) != 0) return DEM_ERROR_INTEGRATOR; /* message: derivative's */
     V->has_f0 = true;
     if (!V->has_low) TRY(look(V, V->t, V->y0, V->low));
-    if (kick_drift_kick(V, motion_fixed_step(&V->problem, V->y0)) != 0) return DEM_ERROR_INTEGRATOR;
+    if (kick_drift_kick(V, ode_problem_fixed_step(&V->problem, V->y0)) != 0) return DEM_ERROR_INTEGRATOR;
     TRY(look(V, V->t1, V->y1, V->high));
-    *step = (path){.n_nodes = V->problem.n_nodes,
-                   .parabolic = true,
-                   .t0 = V->t,
-                   .t1 = V->t1,
-                   .end = V->t1,
-                   .y0 = V->y0,
-                   .f0 = V->f0,
-                   .y1 = V->y1,
-                   .f1 = V->f1};
+    *step = (dense_output){.n_nodes = V->problem.n_nodes,
+                           .parabolic = true,
+                           .t0 = V->t,
+                           .t1 = V->t1,
+                           .end = V->t1,
+                           .y0 = V->y0,
+                           .f0 = V->f0,
+                           .y1 = V->y1,
+                           .f1 = V->f1};
     *rooted = any_falls(V, V->low, V->high);
     V->has_low = !*rooted; /* of the end, when that is the start */
     if (*rooted) TRY(find_root(V, step));
@@ -271,7 +272,7 @@ dem_status verlet_step(verlet *V, path *step, bool *rooted)
     return DEM_OK;
 }
 
-dem_counts verlet_counts(const verlet *V)
+dem_counts verlet_integrator_counts(const verlet_integrator *V)
 {
     return V->counts;
 }

@@ -65,14 +65,14 @@ enum { PARTS = 5 };
 static double spent[PARTS]; /* s, in this step */
 
 void __real_contact_guards(contact *c, double t, const double *y, double *g);
-bool __real_contact_check(contact *c, path *p, bool rooted, double *state);
-void __real_contact_follow(contact *c, const path *p, const double *y);
-void __real_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+bool __real_contact_check(contact *c, dense_output *p, bool rooted, double *state);
+void __real_contact_follow(contact *c, const dense_output *p, const double *y);
+void __real_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __real_queue_show(queue *q, double t);
 void __wrap_contact_guards(contact *c, double t, const double *y, double *g);
-bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state);
-void __wrap_contact_follow(contact *c, const path *p, const double *y);
-void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+bool __wrap_contact_check(contact *c, dense_output *p, bool rooted, double *state);
+void __wrap_contact_follow(contact *c, const dense_output *p, const double *y);
+void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __wrap_queue_show(queue *q, double t);
 
 void __wrap_contact_guards(contact *c, double t, const double *y, double *g)
@@ -82,7 +82,7 @@ void __wrap_contact_guards(contact *c, double t, const double *y, double *g)
     spent[0] += seconds(CLOCK_MONOTONIC) - start;
 }
 
-bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state)
+bool __wrap_contact_check(contact *c, dense_output *p, bool rooted, double *state)
 {
     const double start = seconds(CLOCK_MONOTONIC);
     const bool late = __real_contact_check(c, p, rooted, state);
@@ -90,7 +90,7 @@ bool __wrap_contact_check(contact *c, path *p, bool rooted, double *state)
     return late;
 }
 
-void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
     const double start = seconds(CLOCK_MONOTONIC);
     __real_queue_start(q, step, y1, f1, state);
@@ -105,7 +105,7 @@ dem_status __wrap_queue_show(queue *q, double t)
     return status;
 }
 
-void __wrap_contact_follow(contact *c, const path *p, const double *y)
+void __wrap_contact_follow(contact *c, const dense_output *p, const double *y)
 {
     const double start = seconds(CLOCK_MONOTONIC);
     __real_contact_follow(c, p, y);

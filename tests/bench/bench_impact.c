@@ -73,12 +73,12 @@ typedef struct times {
 
 static times spent;
 
-void __real_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+void __real_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __real_queue_show(queue *q, double t);
-void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state);
+void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __wrap_queue_show(queue *q, double t);
 
-void __wrap_queue_start(queue *q, path *step, double *y1, double *f1, double *state)
+void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
     const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
     __real_queue_start(q, step, y1, f1, state);

@@ -128,7 +128,7 @@ static inline dem_status scene_resolve(scene *s, double t)
 /* A step of length h from s->y with the same acceleration of all nodes, which the path's quintic follows exactly. */
 typedef struct scene_flight {
     double f0[4 * SCENE_NODES], y1[4 * SCENE_NODES], f1[4 * SCENE_NODES], scratch[4 * SCENE_NODES];
-    path path; /* points into this and into the scene */
+    dense_output path; /* points into this and into the scene */
 } scene_flight;
 
 static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_flight *out)
@@ -143,7 +143,7 @@ static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_
         vec2_put(out->f0, n + i, a);
         vec2_put(out->f1, n + i, a);
     }
-    out->path = (path){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
+    out->path = (dense_output){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
 }
 
 #endif

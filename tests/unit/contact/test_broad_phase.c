@@ -146,7 +146,7 @@ static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(vo
     assert_true(f.y1[1] < 0.0);
     assert_true(contact_check(&s.c, &f.path, false, f.scratch));
     assert_close(f.path.end, sqrt(2.0 * (2e-4 + skin) / scene_gravity), 1e-13);
-    path_state(&f.path, f.path.end, y);
+    dense_output_state(&f.path, f.path.end, y);
     contact_follow(&s.c, &f.path, y);
     memcpy(s.y, y, sizeof y);
     assert_int_equal(s.c.sites.list[0].behind[0], -1);

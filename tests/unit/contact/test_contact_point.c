@@ -113,9 +113,9 @@ static void a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps(voi
 /* ---- against differences ---- */
 
 /* Both ends move as polynomials of degree 3 in time. */
-typedef struct motion {
+typedef struct ode_problem {
     vec2 a[4], b[4];
-} motion;
+} ode_problem;
 
 static vec2 poly(const vec2 c[4], double t)
 {
@@ -126,7 +126,7 @@ typedef struct seen {
     double height, place; /* of the edge above a fixed point, m; of that point along it, a fraction */
 } seen;
 
-static seen look(const motion *m, vec2 at, double t)
+static seen look(const ode_problem *m, vec2 at, double t)
 {
     const vec2 a = poly(m->a, t), ab = vec2_sub(poly(m->b, t), a), to = vec2_sub(at, a);
     return (seen){vec2_cross(to, ab) / vec2_norm(ab), vec2_dot(to, ab) / vec2_dot(ab, ab)};
@@ -136,7 +136,7 @@ static seen look(const motion *m, vec2 at, double t)
  * 1/s; rounding 1e-16/h for the first and 1e-16 x 10/h^2 = 1e-11 for the second. */
 static const double step = 0.01, difference_tolerance = 1e-9;
 
-static void differentiate(const motion *m, vec2 at, seen *first, seen *second)
+static void differentiate(const ode_problem *m, vec2 at, seen *first, seen *second)
 {
     static const double odd[4] = {0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
     static const double even[4] = {-49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0};
@@ -158,7 +158,7 @@ static double any(gsl_rng *rng)
 }
 
 /* An edge about 2 m long, and a point on it. */
-static void move_anyhow(gsl_rng *rng, motion *m, bench *b, dem_index edge, double place)
+static void move_anyhow(gsl_rng *rng, ode_problem *m, bench *b, dem_index edge, double place)
 {
     for (int k = 0; k < 4; k++) {
         m->a[k] = (vec2){any(rng), any(rng)};
@@ -184,7 +184,7 @@ static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void
     const dem_index edge = bench_edge(&b, 0, 1);
     bench_touch(&b, edge, 0, 0.5, 1);
     for (int k = 0; k < 2000; k++) {
-        motion m;
+        ode_problem m;
         seen first, second;
         move_anyhow(rng, &m, &b, edge, gsl_rng_uniform(rng));
         b.sites[edge].closed[0].sign = k % 2 == 0 ? 1 : -1; /* has no say in it */
@@ -216,7 +216,7 @@ static void a_sticking_contact_asks_for_no_acceleration(void **state)
     bench_touch(&b, edge, 0, 0.5, 0);
     for (int k = 0; k < 2000; k++) {
         const double place = 0.1 + 0.8 * gsl_rng_uniform(rng);
-        motion m;
+        ode_problem m;
         seen first, second;
         move_anyhow(rng, &m, &b, edge, place);
         for (int q = 1; q < 4; q++) m.b[q] = vec2_scale(-(1.0 - place) / place, m.a[q]); /* P does not move */
@@ -247,7 +247,7 @@ static void a_sticking_contact_keeps_its_place(void **state)
     const dem_index edge = bench_edge(&b, 0, 1);
     bench_touch(&b, edge, 0, 0.5, 0);
     for (int k = 0; k < 100; k++) {
-        motion m;
+        ode_problem m;
         move_anyhow(rng, &m, &b, edge, 0.375);
         b.vertices[b.sites[edge].closed[0].feature].at = (vec2){any(rng), any(rng)};
         const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
@@ -279,7 +279,7 @@ static void a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there(void
     assert_false(site_is_edge(&b.sites[0]));
     assert_true(site_is_edge(&b.sites[edge]));
     assert_close(scene_margin(&b.scene), 1e-5, 1e-20); /* ten skins, rounded */
-    b.scene.rule.n_books = 7;
+    b.scene.rule.n_quadratures = 7;
     assert_int_equal(scene_velocities(&b.scene), 2 * (2 + 7));
 }
 

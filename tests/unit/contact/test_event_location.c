@@ -27,14 +27,14 @@ static void open_node(scene *s, double x, double y, double u, double v)
     s->y[3] = v;
 }
 
-static double crossing(const scene *s, dem_index k, const path *p)
+static double crossing(const scene *s, dem_index k, const dense_output *p)
 {
     return search_crossing(&s->c.sites.scene, &s->c.sites.list[k], p, p->t0);
 }
 
 static void times_are_located_to_a_hundred_units_of_rounding(void **state)
 {
-    const path p = {.t0 = -3.0, .t1 = -2.5}, q = {.t0 = 6.0, .t1 = 8.0};
+    const dense_output p = {.t0 = -3.0, .t1 = -2.5}, q = {.t0 = 6.0, .t1 = 8.0};
     (void)state;
     assert_close(search_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
     assert_close(search_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
@@ -53,7 +53,7 @@ static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
     scene_fly(&s, (vec2){0.0, -g}, start, 0.3, &f);
     const double found = crossing(&s, 0, &f.path);
     assert_close(found, start + t, 200.0 * DBL_EPSILON * (start + 0.3));
-    assert_true(path_position(&f.path, found, 0).y <= -skin);
+    assert_true(dense_output_position(&f.path, found, 0).y <= -skin);
     f.path.end = start + 0.9 * t;
     assert_true(isinf(crossing(&s, 0, &f.path)) != 0);
     scene_close(&s);
@@ -251,7 +251,7 @@ static double first_due(scene *s, dem_index k, scene_flight *f)
     assert_ok(sites_regroup(&s->c.sites));
     const double found = search_due(r, &s->c.sites.list[k], &f->path, f->path.t0, f->scratch);
     for (int after = 0; after < 2; after++) { /* due there, and not a little before */
-        path_state(&f->path, found - (1 - after) * 4.0 * search_resolution(&f->path), y);
+        dense_output_state(&f->path, found - (1 - after) * 4.0 * search_resolution(&f->path), y);
         reactions_solve(r, r->group[k], y, v);
         assert_int_equal(site_due(&s->c.sites.scene, &s->c.sites.list[k], r->force[k], y, v), after);
     }
@@ -325,7 +325,7 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
     scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
     close_contact(&s, scene_edge(&s, 0, 1), 0, 1);
     assert_ok(sites_regroup(&s.c.sites));
-    path_state(&f.path, 0.3, y);
+    dense_output_state(&f.path, 0.3, y);
     for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
     search_state(&s.c.sites.reactions, 0, &f.path, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);

@@ -20,7 +20,7 @@ typedef struct rig {
     queue q;
     dem_index n, n_all;
     double y0[most_state], f0[most_state], y1[most_state], f1[most_state], state[most_state];
-    path path;
+    dense_output path;
 } rig;
 
 static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
@@ -33,7 +33,7 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
                                .max_step = 0.1,
                                .storm_time = 1.0,
                                .max_impacts = 40,
-                               .n_books = 4,
+                               .n_quadratures = 4,
                                .load = {.gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}}};
     *r = (rig){.n = lattice->n_nodes, .n_all = lattice->n_nodes + 4};
     assert_true(r->n <= most_nodes);
@@ -72,7 +72,7 @@ static void close_rig(rig *r)
 
 static void take_up(rig *r, double t0, double h)
 {
-    r->path = (path){r->n_all, t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
+    r->path = (dense_output){r->n_all, t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
     queue_start(&r->q, &r->path, r->y1, r->f1, r->state);
 }
 
@@ -119,7 +119,7 @@ static snapshot take_snapshot(rig *r, double t)
     memset(&s, 0, sizeof s);
     memcpy(s.y1, r->y1, sizeof s.y1);
     memcpy(s.f1, r->f1, sizeof s.f1);
-    path_state(&r->path, t, s.state);
+    dense_output_state(&r->path, t, s.state);
     memcpy(s.impulse, r->c.sites.books.impulse, sizeof s.impulse);
     memcpy(s.sites, r->c.sites.list, (size_t)r->n * sizeof s.sites[0]);
     memcpy(&s.books, &r->c.sites.books, sizeof s.books);
@@ -240,7 +240,7 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
     open_masses(&r, 2, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     show(&r, now);
-    path_state(&r.path, now, y);
+    dense_output_state(&r.path, now, y);
     assert_int_equal(r.q.n_events, 1);
     assert_int_equal(r.c.sites.books.counts.impacts, 1);
     assert_close(r.c.sites.books.impulse[1], mass * 1.5 * g * t, 1e-12);
@@ -249,14 +249,14 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
     assert_close(y[3], 0.04 - 0.5 * g * now * now, 1e-15);
     show(&r, r.q.events[0].t); /* at the instant itself it has happened */
     assert_int_equal(r.q.n_events, 1);
-    path_state(&r.path, r.q.events[0].t, y);
+    dense_output_state(&r.path, r.q.events[0].t, y);
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[2 * r.n_all + 1], v, 1e-13);
     show(&r, nextafter(r.q.events[0].t, 0.0));
     assert_int_equal(r.q.n_events, 0);
     assert_int_equal(r.c.sites.books.counts.impacts, 0);
     show(&r, 0.5 * t);
-    path_state(&r.path, 0.5 * t, y);
+    dense_output_state(&r.path, 0.5 * t, y);
     assert_close(y[1], 0.02 - 0.125 * g * t * t, 1e-15);
     close_rig(&r);
 }
@@ -330,10 +330,10 @@ static void an_event_at_the_very_start_happens_once(void **state)
     assert_close(r.q.events[0].t, 0.0, 0.0);
     assert_close(r.y1[1], 1.0 * h - 0.5 * g * h * h, 1e-15);
     assert_close(r.y1[2 * r.n_all + 1], 1.0 - g * h, 1e-15);
-    path_state(&r.path, 0.0, y);
+    dense_output_state(&r.path, 0.0, y);
     assert_close(y[1], 0.0, 0.0);
     assert_close(y[2 * r.n_all + 1], 1.0, 0.0);
-    const vec2 v = path_velocity(&r.path, 0.0, 0);
+    const vec2 v = dense_output_velocity(&r.path, 0.0, 0);
     assert_close(v.y, 1.0, 0.0);
     close_rig(&r);
 }

@@ -30,8 +30,8 @@ typedef struct step {
     dem_index n, n_all;
     double h;
     double *y0, *f0, *y1, *f1, *state, *first, *last;
-    path path;
-    trail trail;
+    dense_output path;
+    changed_motion changed;
     patch patch;
 } step;
 
@@ -67,7 +67,7 @@ static int of_the_change(double t, const double d[], double f[], void *context)
 {
     step *s = context;
     const dem_index n = 4 * s->n_all;
-    path_state(&s->path, t, s->first);
+    dense_output_state(&s->path, t, s->first);
     derive(s, &s->before, t, s->first, s->last);
     for (dem_index k = 0; k < n; k++) s->first[k] += d[k];
     derive(s, &s->c, t, s->first, f);
@@ -164,7 +164,7 @@ static void make_contacts(step *s)
                                .storm_time = 1.0,
                                .max_impacts = 100,
                                .vertices = true,
-                               .n_books = s->n_all - s->n,
+                               .n_quadratures = s->n_all - s->n,
                                .load = {.gravity = {0.0, -9.81},
                                         .mass_damping = s->kind.mass_damping,
                                         .boundaries = s->kind.drives ? &s->b : NULL,
@@ -200,13 +200,13 @@ static void open_step(step *s, kind k)
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
     assert_ok(patch_create(&s->patch, &s->c.sites, &(patch_rule){5, position_error, velocity_error, s->b.held}));
-    assert_ok(trail_create(&s->trail, s->n_all));
+    assert_ok(changed_motion_create(&s->changed, s->n_all));
 }
 
 static void close_step(step *s)
 {
     patch_destroy(&s->patch);
-    trail_destroy(&s->trail);
+    changed_motion_destroy(&s->changed);
     contact_destroy(&s->c);
     contact_destroy(&s->before);
     boundaries_free(&s->b);
@@ -224,17 +224,17 @@ static void go(step *s)
     s->y1[4 * s->n_all - 1] = start + s->h;
     derive(s, &s->before, start, s->y0, s->f0);
     derive(s, &s->before, start + s->h, s->y1, s->f1);
-    s->path = (path){.n_nodes = s->n_all,
-                     .t0 = start,
-                     .t1 = start + s->h,
-                     .end = start + s->h,
-                     .y0 = s->y0,
-                     .f0 = s->f0,
-                     .y1 = s->y1,
-                     .f1 = s->f1,
-                     .parabolic = s->kind.parabolic,
-                     .trail = &s->trail};
-    trail_start(&s->trail, s->path.t1, s->y1, s->f1);
+    s->path = (dense_output){.n_nodes = s->n_all,
+                             .t0 = start,
+                             .t1 = start + s->h,
+                             .end = start + s->h,
+                             .y0 = s->y0,
+                             .f0 = s->f0,
+                             .y1 = s->y1,
+                             .f1 = s->f1,
+                             .parabolic = s->kind.parabolic,
+                             .changed = &s->changed};
+    changed_motion_start(&s->changed, s->path.t1, s->y1, s->f1);
     contact_expect(&s->c, &s->path, s->state);
     free(error);
 }
@@ -296,7 +296,7 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
         assert_false(changes);
         assert_memory_equal(s->y1 + k, was + k, sizeof *was);
         assert_memory_equal(s->y1 + v, was + v, sizeof *was);
-        assert_int_equal(trail_has(&s->trail, i), turned[i] >= 0);
+        assert_int_equal(changed_motion_has(&s->changed, i), turned[i] >= 0);
         n_outside++;
     }
     assert_true(n_outside > 0);
@@ -325,10 +325,10 @@ static void finish(step *s, dem_index site, vec2 shift, vec2 jump)
     vec2_put(change, s->n_all + i, jump);
     vec2_put(s->state, i, vec2_add(vec2_at(s->state, i), shift));
     vec2_put(s->state, s->n_all + i, vec2_add(vec2_at(s->state, s->n_all + i), jump));
-    memcpy(turned, s->trail.place, (size_t)s->n * sizeof *turned);
+    memcpy(turned, s->changed.place, (size_t)s->n * sizeof *turned);
     memcpy(was, s->y1, size);
     apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->patch.t, s->path.t1 - s->patch.t, change, estimate);
-    assert_ok(patch_close(&s->patch, &s->path, &s->trail, s->state, &error));
+    assert_ok(patch_close(&s->patch, &s->path, &s->changed, s->state, &error));
     check_change(s, was, change, 1.0 + vec2_norm(jump));
     const int n_last = check_rings(s, ring, was, change, turned);
     assert_true(n_last > 0 || s->patch.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
@@ -522,25 +522,25 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
-    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_books = 4, .load = {.gravity = {0.0, -g}}};
+    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_quadratures = 4, .load = {.gravity = {0.0, -g}}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, error;
     dem_lattice lattice;
     dem_model *model;
     contact c;
     patch near;
-    trail tr;
+    changed_motion tr;
     (void)state;
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
     dem_lattice_free(&lattice);
     assert_ok(contact_create(&c, model, &rule));
     assert_ok(patch_create(&near, &c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
-    assert_ok(trail_create(&tr, 5));
+    assert_ok(changed_motion_create(&tr, 5));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
     y1[0] = v * h, y1[1] = y0[1] - 0.5 * g * h * h, y1[10] = v, y1[11] = -g * h;
-    const path p = {5, 0.0, h, h, y0, f0, y1, f1, false, &tr};
-    trail_start(&tr, h, y1, f1);
+    const dense_output p = {5, 0.0, h, h, y0, f0, y1, f1, false, &tr};
+    changed_motion_start(&tr, h, y1, f1);
     assert_ok(patch_open(&near, &p, 0, at, y));
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[11], -g * at, 1e-15);
@@ -557,11 +557,11 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     assert_close(y1[14], -mu * m * g * tau, 1e-14); /* that of friction */
     assert_close(y1[15], 0.0, 0.0);
     assert_close(y1[16], mu * m * g * (v * tau - 0.5 * mu * g * tau * tau), 1e-14); /* J */
-    assert_close(trail_velocity(&tr, at + 0.5 * tau, 0).x, v - 0.5 * mu * g * tau, 1e-14);
-    trail_undo(&tr);
+    assert_close(changed_motion_velocity(&tr, at + 0.5 * tau, 0).x, v - 0.5 * mu * g * tau, 1e-14);
+    changed_motion_undo(&tr);
     assert_close(y1[13], 0.0, 0.0);
     patch_destroy(&near);
-    trail_destroy(&tr);
+    changed_motion_destroy(&tr);
     contact_destroy(&c);
     dem_model_destroy(model);
 }
@@ -576,7 +576,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     const double points[4] = {-1.0, -0.5, 1.0, -0.5};
     const dem_obstacle ground = {.n_points = 2, .points = points};
-    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_books = 0};
+    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_quadratures = 0};
     dem_lattice l;
     step s = {.h = h};
     double error;
@@ -586,7 +586,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     s.n = s.n_all = l.n_nodes;
     assert_ok(contact_create(&s.c, s.model, &rule));
     assert_ok(patch_create(&s.patch, &s.c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
-    assert_ok(trail_create(&s.trail, s.n));
+    assert_ok(changed_motion_create(&s.changed, s.n));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);
     put_start(&s);
@@ -595,16 +595,16 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     triplets_reach(&l, h, s.y1);
     (void)triplets_derivative(0.0, s.y0, s.f0, &l);
     (void)triplets_derivative(h, s.y1, s.f1, &l);
-    s.path = (path){s.n, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.trail};
-    trail_start(&s.trail, h, s.y1, s.f1);
+    s.path = (dense_output){s.n, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
+    changed_motion_start(&s.changed, h, s.y1, s.f1);
     const dem_index struck = node_near(&s, 0.0, 0.0);
     assert_ok(patch_open(&s.patch, &s.path, s.c.sites.of_node[struck], at, s.state));
     s.state[2 * (s.n + struck) + 1] += 5.0;
-    assert_ok(patch_close(&s.patch, &s.path, &s.trail, s.state, &error));
+    assert_ok(patch_close(&s.patch, &s.path, &s.changed, s.state, &error));
     triplets_reach(&l, at, s.first);
     s.first[2 * (s.n + struck) + 1] += 5.0;
     triplets_reach(&l, at_inside - at, s.first);
-    path_state(&s.path, at_inside, s.last);
+    dense_output_state(&s.path, at_inside, s.last);
     *at_end = *inside = 0.0;
     for (dem_index k = 0; k < 2 * s.n; k++) *inside = fmax(*inside, fabs(s.last[k] - s.first[k]));
     triplets_reach(&l, h - at_inside, s.first);

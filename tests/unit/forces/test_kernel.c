@@ -77,7 +77,7 @@ static void check_kernel(scene *s, const forces *load, dem_kernel kind, int n_th
 }
 
 /* v' = v0 + h/2 a0, x1 = x0 + h v', v1 = (v' + h/2 a0) + h/2 (a1 - a0), number by number. */
-static void check_leap(scene *s, const forces *load, dem_kernel kind, int n_threads)
+static void check_fused_step(scene *s, const forces *load, dem_kernel kind, int n_threads)
 {
     const dem_index n = 2 * s->model->lattice.n_nodes;
     const double h = 0.1 * dem_model_spacing(s->model) / 10.0;
@@ -88,8 +88,8 @@ static void check_leap(scene *s, const forces *load, dem_kernel kind, int n_thre
         a0[c] = about_zero(s->random, 10.0 / h);
         x1[c] = v1[c] = s->a[c] = 1.0;
     }
-    const sweep_leap leap = {h, s->x, s->v, a0, x1, v1};
-    const kernel_state y = {.x = x1, .v = v1, .a = s->a, .leap = &leap};
+    const sweep_fused_step fused = {h, s->x, s->v, a0, x1, v1};
+    const kernel_state y = {.x = x1, .v = v1, .a = s->a, .fused_step = &fused};
     assert_true(isfinite(kernel_accelerate(&k, load, &y)));
     for (dem_index c = 0; c < n; c++) assert_close(x1[c], s->x[c] + h * (s->v[c] + 0.5 * h * a0[c]), 0.0);
     for (dem_index c = 0; c < n; c++) {
@@ -104,11 +104,11 @@ static void check_leap(scene *s, const forces *load, dem_kernel kind, int n_thre
     free(v1);
 }
 
-static bool may_leap(const scene *s, const forces *load)
+static bool can_fuse(const scene *s, const forces *load)
 {
     kernel k;
     assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
-    const bool may = kernel_may_leap(&k, load);
+    const bool may = kernel_can_fuse(&k, load);
     kernel_destroy(&k);
     return may;
 }
@@ -137,7 +137,7 @@ static void check_load(scene *s, const forces *load)
         for (int n_threads = 1; n_threads <= 3; n_threads++)
             if (dem_kernel_check(kind) == DEM_OK) {
                 check_kernel(s, load, kind, n_threads);
-                if (may_leap(s, load)) check_leap(s, load, kind, n_threads);
+                if (can_fuse(s, load)) check_fused_step(s, load, kind, n_threads);
                 check_stiffening(s, kind, n_threads);
             }
 }
@@ -397,14 +397,14 @@ static void triangles_may_reach_further_than_springs(void **state)
     lattice.n_springs = kept;
     scene s = make_scene(&lattice, 0.1);
     assert_int_equal(s.model->layout.reach, 1);
-    assert_true(may_leap(&s, &load));
+    assert_true(can_fuse(&s, &load));
     check_load(&s, &load);
     free_scene(&s);
     dem_lattice_free(&lattice);
 }
 
 /* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
-static void what_depends_on_more_than_positions_does_not_leap(void **state)
+static void what_depends_on_more_than_positions_is_not_fused(void **state)
 {
     const boundaries pushes = {0};
     const forces plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
@@ -416,9 +416,9 @@ static void what_depends_on_more_than_positions_does_not_leap(void **state)
         dem_index *number = shuffled(lattice.n_nodes);
         if (k == 2) swap_nodes(&lattice, number);
         scene s = make_scene(&lattice, 0.1);
-        assert_int_equal(may_leap(&s, &plain), k == 0);
-        assert_false(may_leap(&s, &drag));
-        assert_false(may_leap(&s, &pushed));
+        assert_int_equal(can_fuse(&s, &plain), k == 0);
+        assert_false(can_fuse(&s, &drag));
+        assert_false(can_fuse(&s, &pushed));
         free_scene(&s);
         dem_lattice_free(&lattice);
         free(number);
@@ -536,7 +536,7 @@ int main(void)
         cmocka_unit_test(a_hub_of_many_springs_agrees),
         cmocka_unit_test(fixed_and_pushed_nodes_agree),
         cmocka_unit_test(triangles_may_reach_further_than_springs),
-        cmocka_unit_test(what_depends_on_more_than_positions_does_not_leap),
+        cmocka_unit_test(what_depends_on_more_than_positions_is_not_fused),
         cmocka_unit_test(a_number_that_is_not_finite_shows_in_the_sum),
         cmocka_unit_test(the_guard_stiffens_what_it_squeezes),
         cmocka_unit_test(kernels_have_names),

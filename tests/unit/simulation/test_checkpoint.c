@@ -63,7 +63,7 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
     for (dem_index k = 0; k < c->n; k++) same_site(&c->list[k], &d->list[k]);
     assert_close(a->t, b->t, 0.0);
     assert_close(a->step, b->step, 0.0);
-    assert_close(engine_next_step(&a->engine), engine_next_step(&b->engine), 0.0);
+    assert_close(integrator_next_step(&a->integrator), integrator_next_step(&b->integrator), 0.0);
     assert_close(c->books.impact, d->books.impact, 0.0);
     assert_close(c->books.projection, d->books.projection, 0.0);
     assert_close(c->straightened, d->straightened, 0.0);
@@ -94,12 +94,12 @@ static void everything_comes_back(void **state)
     p.from->overlap.found = (dem_overlap){1, 2, 0.25, 3, 4, {5.0, 6.0}};
     c->list[0].storm = 7;
     c->list[0].storm_start = 0.125;
-    assert_ok(engine_restart(&p.from->engine, p.from->t, p.from->y));
-    assert_ok(engine_bound(&p.from->engine, 1e-9));
-    p.from->y = engine_state(&p.from->engine);
+    assert_ok(integrator_restart(&p.from->integrator, p.from->t, p.from->y));
+    assert_ok(integrator_bound(&p.from->integrator, 1e-9));
+    p.from->y = integrator_state(&p.from->integrator);
     assert_ok(recall_put(p.from, p.record));
     assert_ok(recall_get(p.to, p.record));
-    assert_close(engine_next_step(&p.to->engine), 1e-9, 0.0);
+    assert_close(integrator_next_step(&p.to->integrator), 1e-9, 0.0);
     same_memory(p.from, p.to);
     close_pair(&p);
 }
@@ -140,7 +140,7 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     assert_ok(dem_record_get(p.record, "numbers", numbers, sizeof numbers));
     memcpy(numbers, &before, sizeof before);
     (void)snprintf(text, sizeof text, "the record's time -1 s, step 0 s or next step %g s is impossible",
-                   engine_next_step(&p.from->engine));
+                   integrator_next_step(&p.from->integrator));
     refuse(&p, "numbers", numbers, sizeof numbers, text);
     double *y = malloc(2 * (size_t)run_unknowns(p.model) * sizeof *y);
     const void *stored = dem_record_find(p.record, "state", &n);

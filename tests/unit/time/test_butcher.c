@@ -27,13 +27,13 @@ static void every_method_has_a_name_by_which_it_is_found(void **state)
 static void what_is_not_there_is_refused_with_the_reason(void **state)
 {
     dem_method_traits traits;
-    method_table table;
+    butcher_table table;
     int number[2] = {0, 0};
     (void)state;
     assert_int_equal(dem_method_describe(&traits, (dem_method)20), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "unknown method 20");
-    assert_int_equal(method_load(&table, (dem_method)-1), DEM_ERROR_ARGUMENT);
-    assert_int_equal(method_load(&table, DEM_METHOD_VERLET), DEM_ERROR_ARGUMENT);
+    assert_int_equal(butcher_load(&table, (dem_method)-1), DEM_ERROR_ARGUMENT);
+    assert_int_equal(butcher_load(&table, DEM_METHOD_VERLET), DEM_ERROR_ARGUMENT);
     assert_int_equal(sscanf(dem_version_sundials(), "%d.%d", &number[0], &number[1]), 2);
     const bool old = 100 * number[0] + number[1] < 607;
     for (int k = DEM_METHOD_VERNER67; k <= DEM_METHOD_VERNER89; k++) {
@@ -49,9 +49,9 @@ static void a_last_stage_at_the_end_of_the_step_is_the_solution(void **state)
 {
     (void)state;
     for (int k = 0; k < DEM_METHOD_VERLET; k++) {
-        method_table t;
+        butcher_table t;
         double sum = 0.0, moment = 0.0;
-        if (method_load(&t, (dem_method)k) != DEM_OK) continue;
+        if (butcher_load(&t, (dem_method)k) != DEM_OK) continue;
         for (int i = 0; i < t.stages; i++) {
             double row = 0.0;
             for (int j = 0; j < t.stages; j++) row += t.a[i * t.stages + j];

@@ -9,16 +9,16 @@
 enum { n_nodes = 2, n_state = 4 * n_nodes };
 
 /* A motion of two nodes: value and derivatives of coordinate k. */
-typedef struct motion {
+typedef struct ode_problem {
     double (*x)(int k, double t), (*v)(int k, double t), (*a)(int k, double t);
-} motion;
+} ode_problem;
 
 typedef struct step {
     double y0[n_state], f0[n_state], y1[n_state], f1[n_state];
-    path path;
+    dense_output path;
 } step;
 
-static void sample(const motion *m, double t, double *y, double *f)
+static void sample(const ode_problem *m, double t, double *y, double *f)
 {
     for (int k = 0; k < 2 * n_nodes; k++) {
         y[k] = m->x(k, t);
@@ -27,11 +27,11 @@ static void sample(const motion *m, double t, double *y, double *f)
     }
 }
 
-static void make_step(step *s, const motion *m, double t0, double t1)
+static void make_step(step *s, const ode_problem *m, double t0, double t1)
 {
     sample(m, t0, s->y0, s->f0);
     sample(m, t1, s->y1, s->f1);
-    s->path = (path){n_nodes, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
+    s->path = (dense_output){n_nodes, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
 }
 
 /* Polynomials of degree 5 in t, other ones for each coordinate. */
@@ -53,7 +53,7 @@ static double quintic_a(int k, double t)
     return 6.0 - 6.0 * c * t + t * t * (6.0 * c - 30.0 * t);
 }
 
-static const motion quintic = {quintic_x, quintic_v, quintic_a};
+static const ode_problem quintic = {quintic_x, quintic_v, quintic_a};
 
 static double swing_x(int k, double t)
 {
@@ -70,7 +70,7 @@ static double swing_a(int k, double t)
     return -swing_x(k, t);
 }
 
-static const motion swing = {swing_x, swing_v, swing_a};
+static const ode_problem swing = {swing_x, swing_v, swing_a};
 
 /* ---- tests ---- */
 
@@ -83,13 +83,15 @@ static void the_ends_are_the_states_to_the_bit(void **state)
         double y[n_state];
         make_step(&s, &swing, 0.1 * q, 0.1 * q + 1.0 / (2.0 + q));
         for (int k = 0; k < n_state; k++) s.y1[k] += 1.0 / (3.0 + k);
-        path_state(&s.path, s.path.t0, y);
+        dense_output_state(&s.path, s.path.t0, y);
         assert_memory_equal(y, s.y0, sizeof y);
-        path_state(&s.path, s.path.t1, y);
+        dense_output_state(&s.path, s.path.t1, y);
         assert_memory_equal(y, s.y1, sizeof y);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 x0 = path_position(&s.path, s.path.t0, i), x1 = path_position(&s.path, s.path.t1, i);
-            const vec2 v0 = path_velocity(&s.path, s.path.t0, i), v1 = path_velocity(&s.path, s.path.t1, i);
+            const vec2 x0 = dense_output_position(&s.path, s.path.t0, i),
+                       x1 = dense_output_position(&s.path, s.path.t1, i);
+            const vec2 v0 = dense_output_velocity(&s.path, s.path.t0, i),
+                       v1 = dense_output_velocity(&s.path, s.path.t1, i);
             assert_memory_equal(&x0, &s.y0[2 * i], sizeof x0);
             assert_memory_equal(&x1, &s.y1[2 * i], sizeof x1);
             assert_memory_equal(&v0, &s.y0[2 * (n_nodes + i)], sizeof v0);
@@ -109,7 +111,7 @@ static void motions_of_degree_5_are_exact_with_their_velocities(void **state)
         for (double share = 0.05; share < 1.0; share += 0.1) {
             const double t = starts[q] + share * lengths[q];
             for (int i = 0; i < n_nodes; i++) {
-                const vec2 x = path_position(&s.path, t, i), v = path_velocity(&s.path, t, i);
+                const vec2 x = dense_output_position(&s.path, t, i), v = dense_output_velocity(&s.path, t, i);
                 assert_close(x.x, quintic_x(2 * i, t), 1e-14);
                 assert_close(x.y, quintic_x(2 * i + 1, t), 1e-14);
                 assert_close(v.x, quintic_v(2 * i, t), 1e-13);
@@ -127,8 +129,8 @@ static void errors_of_swing(double h, double *position, double *velocity)
     *position = *velocity = 0.0;
     for (double share = 0.01; share < 1.0; share += 0.01) {
         const double t = 0.4 + share * h;
-        *position = fmax(*position, fabs(path_position(&s.path, t, 1).y - swing_x(3, t)));
-        *velocity = fmax(*velocity, fabs(path_velocity(&s.path, t, 1).y - swing_v(3, t)));
+        *position = fmax(*position, fabs(dense_output_position(&s.path, t, 1).y - swing_x(3, t)));
+        *velocity = fmax(*velocity, fabs(dense_output_velocity(&s.path, t, 1).y - swing_v(3, t)));
     }
 }
 
@@ -151,9 +153,9 @@ static void the_whole_state_is_made_of_the_same_numbers_to_the_bit(void **state)
     (void)state;
     make_step(&s, &swing, 1.0, 1.37);
     for (double t = 1.01; t < 1.37; t += 0.1) {
-        path_state(&s.path, t, y);
+        dense_output_state(&s.path, t, y);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 x = path_position(&s.path, t, i), v = path_velocity(&s.path, t, i);
+            const vec2 x = dense_output_position(&s.path, t, i), v = dense_output_velocity(&s.path, t, i);
             assert_memory_equal(&x, &y[2 * i], sizeof x);
             assert_memory_equal(&v, &y[2 * (n_nodes + i)], sizeof v);
         }
@@ -168,8 +170,8 @@ static void it_is_continuous_at_its_ends(void **state)
     make_step(&s, &swing, 1.0, 1.5);
     const double first = nextafter(1.0, 2.0), last = nextafter(1.5, 1.0);
     for (int i = 0; i < n_nodes; i++) {
-        const vec2 x0 = path_position(&s.path, first, i), x1 = path_position(&s.path, last, i);
-        const vec2 v0 = path_velocity(&s.path, first, i), v1 = path_velocity(&s.path, last, i);
+        const vec2 x0 = dense_output_position(&s.path, first, i), x1 = dense_output_position(&s.path, last, i);
+        const vec2 v0 = dense_output_velocity(&s.path, first, i), v1 = dense_output_velocity(&s.path, last, i);
         assert_close(x0.x, s.y0[2 * i], 2e-15);
         assert_close(x1.x, s.y1[2 * i], 2e-15);
         assert_close(v0.y, s.y0[2 * (n_nodes + i) + 1], 2e-15);
@@ -188,8 +190,8 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
         for (double share = 0.1; share < 1.0; share += 0.2)
             for (int i = 0; i < n_nodes; i++) {
                 const double t = 0.7 + share * h;
-                assert_close(path_velocity(&s.path, t, i).x, swing_v(2 * i, 0.7), 4.0 * h + 1e-15);
-                assert_close(path_position(&s.path, t, i).x, swing_x(2 * i, 0.7), 4.0 * h + 1e-15);
+                assert_close(dense_output_velocity(&s.path, t, i).x, swing_v(2 * i, 0.7), 4.0 * h + 1e-15);
+                assert_close(dense_output_position(&s.path, t, i).x, swing_x(2 * i, 0.7), 4.0 * h + 1e-15);
             }
     }
 }
@@ -198,12 +200,12 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
 static void a_displacement_beyond_rounding_is_followed(void **state)
 {
     double y0[4] = {1.0, 2.0, 0.0, 0.0}, y1[4] = {1.1, 2.0, 0.0, 0.0}, f[4] = {0.0, 0.0, 0.0, 0.0};
-    const path p = {1, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
+    const dense_output p = {1, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
     (void)state;
-    assert_close(path_position(&p, 1.0, 0).x, 1.05, 1e-15);
-    assert_close(path_velocity(&p, 1.0, 0).x, 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
-    assert_close(path_position(&p, 1.0, 0).y, 2.0, 0.0);
-    assert_close(path_velocity(&p, 1.0, 0).y, 0.0, 0.0);
+    assert_close(dense_output_position(&p, 1.0, 0).x, 1.05, 1e-15);
+    assert_close(dense_output_velocity(&p, 1.0, 0).x, 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
+    assert_close(dense_output_position(&p, 1.0, 0).y, 2.0, 0.0);
+    assert_close(dense_output_velocity(&p, 1.0, 0).y, 0.0, 0.0);
 }
 
 /* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: accelerations at the end do not count. */
@@ -211,19 +213,19 @@ static void a_parabolic_path_matches_what_a_method_of_order_2_knows(void **state
 {
     double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};
     double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
-    const path p = {1, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
+    const dense_output p = {1, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
     (void)state;
-    assert_close(path_position(&p, 1.0, 0).x, 1.0 + 3.0 - 1.25, 1e-15);
-    assert_close(path_velocity(&p, 1.0, 0).x, 3.0 + 4.0 - 1.5, 1e-15);
-    assert_close((path_position(&p, 1e-6, 0).x - 1.0) / 1e-6, 3.0, 1e-5);
-    assert_close((path_velocity(&p, 1e-6, 0).x - 3.0) / 1e-6, 4.0, 1e-5);
+    assert_close(dense_output_position(&p, 1.0, 0).x, 1.0 + 3.0 - 1.25, 1e-15);
+    assert_close(dense_output_velocity(&p, 1.0, 0).x, 3.0 + 4.0 - 1.5, 1e-15);
+    assert_close((dense_output_position(&p, 1e-6, 0).x - 1.0) / 1e-6, 3.0, 1e-5);
+    assert_close((dense_output_velocity(&p, 1e-6, 0).x - 3.0) / 1e-6, 4.0, 1e-5);
     for (int end = 0; end < 2; end++) {
-        path_state(&p, 2.0 * end, y);
+        dense_output_state(&p, 2.0 * end, y);
         assert_memory_equal(y, end ? y1 : y0, sizeof y);
     }
-    path_state(&p, 0.5, y);
-    assert_close(y[0], path_position(&p, 0.5, 0).x, 0.0);
-    assert_close(y[2], path_velocity(&p, 0.5, 0).x, 0.0);
+    dense_output_state(&p, 0.5, y);
+    assert_close(y[0], dense_output_position(&p, 0.5, 0).x, 0.0);
+    assert_close(y[2], dense_output_velocity(&p, 0.5, 0).x, 0.0);
 }
 
 int main(void)

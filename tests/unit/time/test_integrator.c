@@ -32,37 +32,37 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
         dem_method_traits traits;
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
         int calls = 0, bounces = 0;
-        const motion problem = {.n_nodes = 1,
-                                .ops = &array_ops_portable,
-                                .n_threads = 1,
-                                .n_guards = 1,
-                                .derivative = fall,
-                                .guards = height,
-                                .context = &calls,
-                                .method = (dem_method)method,
-                                .position_error = 1.0,
-                                .velocity_error = 1.0,
-                                .max_step = 0.05,
-                                .fixed_step = traits.adaptive ? 0.0 : 0.05};
-        engine e;
-        path p = {0};
-        assert_ok(engine_create(&e, &problem, 0.0, y0));
+        const ode_problem problem = {.n_nodes = 1,
+                                     .ops = &array_ops_portable,
+                                     .n_threads = 1,
+                                     .n_roots = 1,
+                                     .derivative = fall,
+                                     .root_functions = height,
+                                     .context = &calls,
+                                     .method = (dem_method)method,
+                                     .position_error = 1.0,
+                                     .velocity_error = 1.0,
+                                     .max_step = 0.05,
+                                     .fixed_step = traits.adaptive ? 0.0 : 0.05};
+        integrator e;
+        dense_output p = {0};
+        assert_ok(integrator_create(&e, &problem, 0.0, y0));
         for (; bounces < 4;) {
             bool rooted;
             double y[4];
-            assert_ok(engine_step(&e, &p, &rooted));
+            assert_ok(integrator_step(&e, &p, &rooted));
             if (!rooted) continue;
             assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9); /* what the skin delays */
-            path_state(&p, p.end, y);
+            dense_output_state(&p, p.end, y);
             assert_close(y[0], p.end, 1e-12);
             y[1] = 0.0;
             y[3] = -y[3];
-            assert_ok(engine_restart(&e, p.end, y));
+            assert_ok(integrator_restart(&e, p.end, y));
         }
-        const dem_counts counts = engine_counts(&e);
+        const dem_counts counts = integrator_counts(&e);
         assert_int_equal(counts.evaluations, calls);
         assert_true(counts.steps >= (dem_index)(p.end / 0.05));
-        engine_destroy(&e);
+        integrator_destroy(&e);
     }
 }
 
@@ -74,67 +74,67 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
     (void)state;
     for (int m = 0; m < 2; m++) {
         int calls = 0, bounces = 0;
-        const motion problem = {.n_nodes = 1,
-                                .ops = &array_ops_portable,
-                                .n_threads = 1,
-                                .n_guards = 1,
-                                .derivative = fall,
-                                .guards = height,
-                                .context = &calls,
-                                .method = methods[m],
-                                .position_error = 1.0,
-                                .velocity_error = 1.0,
-                                .max_step = 0.05,
-                                .fixed_step = m == 0 ? 0.0 : 0.05};
-        engine e;
-        path p = {0};
+        const ode_problem problem = {.n_nodes = 1,
+                                     .ops = &array_ops_portable,
+                                     .n_threads = 1,
+                                     .n_roots = 1,
+                                     .derivative = fall,
+                                     .root_functions = height,
+                                     .context = &calls,
+                                     .method = methods[m],
+                                     .position_error = 1.0,
+                                     .velocity_error = 1.0,
+                                     .max_step = 0.05,
+                                     .fixed_step = m == 0 ? 0.0 : 0.05};
+        integrator e;
+        dense_output p = {0};
         double end[4];
-        assert_ok(engine_create(&e, &problem, 0.0, y0));
-        assert_memory_equal(engine_state(&e), y0, sizeof y0);
+        assert_ok(integrator_create(&e, &problem, 0.0, y0));
+        assert_memory_equal(integrator_state(&e), y0, sizeof y0);
         while (bounces < 4) {
             bool rooted;
-            assert_ok(engine_step(&e, &p, &rooted));
+            assert_ok(integrator_step(&e, &p, &rooted));
             if (bounces > 0 || rooted) assert_true(p.t0 < p.t1);
-            path_state(&p, p.end, end);
-            engine_settle(&e, &p);
-            double *y = engine_state(&e);
+            dense_output_state(&p, p.end, end);
+            integrator_settle(&e, &p);
+            double *y = integrator_state(&e);
             assert_memory_equal(y, end, sizeof end);
             if (!rooted) continue;
             assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9);
             y[1] = 0.0;
             y[3] = -y[3];
-            assert_ok(engine_restart(&e, p.end, y));
-            assert_memory_equal(engine_state(&e), ((double[4]){end[0], 0.0, end[2], -end[3]}), sizeof end);
+            assert_ok(integrator_restart(&e, p.end, y));
+            assert_memory_equal(integrator_state(&e), ((double[4]){end[0], 0.0, end[2], -end[3]}), sizeof end);
         }
-        assert_ok(engine_restart(&e, p.end, y0));
-        assert_memory_equal(engine_state(&e), y0, sizeof y0);
+        assert_ok(integrator_restart(&e, p.end, y0));
+        assert_memory_equal(integrator_state(&e), y0, sizeof y0);
         bool rooted = false;
         while (!rooted) {
-            assert_ok(engine_step(&e, &p, &rooted));
-            engine_settle(&e, &p);
+            assert_ok(integrator_step(&e, &p, &rooted));
+            integrator_settle(&e, &p);
         }
         const double root = p.end;
-        assert_ok(engine_step(&e, &p, &rooted)); /* goes on below the floor, from the root */
+        assert_ok(integrator_step(&e, &p, &rooted)); /* goes on below the floor, from the root */
         assert_false(rooted);
         assert_close(p.t0, root, 0.0);
         assert_true(p.y0[1] <= 0.0 && p.y1[1] < p.y0[1]);
-        engine_destroy(&e);
+        integrator_destroy(&e);
     }
 }
 
 static void what_cannot_be_made_is_told(void **state)
 {
-    const motion problem = {.n_nodes = 1,
-                            .ops = &array_ops_portable,
-                            .n_threads = 1,
-                            .derivative = fall,
-                            .max_step = 1.0,
-                            .method = (dem_method)99};
+    const ode_problem problem = {.n_nodes = 1,
+                                 .ops = &array_ops_portable,
+                                 .n_threads = 1,
+                                 .derivative = fall,
+                                 .max_step = 1.0,
+                                 .method = (dem_method)99};
     const double y0[4] = {0.0};
-    engine e;
+    integrator e;
     (void)state;
-    assert_int_equal(engine_create(&e, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
-    engine_destroy(&e);
+    assert_int_equal(integrator_create(&e, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
+    integrator_destroy(&e);
 }
 
 int main(void)

@@ -11,7 +11,7 @@ enum { n = 1003, n_vectors = 5 };
 
 typedef struct bench {
     SUNContext sundials;
-    vector_space *space;
+    nvector_space *space;
     N_Vector v[n_vectors];
 } bench;
 
@@ -28,12 +28,12 @@ static bench make_bench(int n_threads)
 #else
     assert_int_equal(SUNContext_Create(NULL, &b.sundials), 0);
 #endif
-    b.space = vector_space_create(n, &array_ops_portable, n_threads, n_vectors - 1);
+    b.space = nvector_space_create(n, &array_ops_portable, n_threads, n_vectors - 1);
     assert_non_null(b.space);
     for (int p = 0; p < n_vectors; p++) {
-        b.v[p] = p == 0 ? vector_create(b.space, b.sundials) : N_VClone(b.v[0]);
+        b.v[p] = p == 0 ? nvector_create(b.space, b.sundials) : N_VClone(b.v[0]);
         assert_non_null(b.v[p]);
-        double *to = vector_fresh(b.v[p]);
+        double *to = nvector_fresh(b.v[p]);
         for (dem_index k = 0; k < n; k++) to[k] = number(p, k);
     }
     return b;
@@ -42,13 +42,13 @@ static bench make_bench(int n_threads)
 static void free_bench(bench *b)
 {
     for (int p = 0; p < n_vectors; p++) N_VDestroy(b->v[p]);
-    vector_space_free(b->space);
+    nvector_space_free(b->space);
     (void)SUNContext_Free(&b->sundials);
 }
 
 static void assert_is(N_Vector v, int which)
 {
-    for (dem_index k = 0; k < n; k++) assert_close(vector_values(v)[k], number(which, k), 0.0);
+    for (dem_index k = 0; k < n; k++) assert_close(nvector_values(v)[k], number(which, k), 0.0);
 }
 
 static void a_copy_shares_numbers_until_one_is_given_others(void **state)
@@ -56,21 +56,21 @@ static void a_copy_shares_numbers_until_one_is_given_others(void **state)
     (void)state;
     bench b = make_bench(1);
     N_VScale(1.0, b.v[0], b.v[1]);
-    vector_share(b.v[0], b.v[2]);
-    assert_ptr_equal(vector_values(b.v[0]), vector_values(b.v[1]));
-    assert_ptr_equal(vector_values(b.v[0]), vector_values(b.v[2]));
-    double *fresh = vector_fresh(b.v[0]);
+    nvector_share(b.v[0], b.v[2]);
+    assert_ptr_equal(nvector_values(b.v[0]), nvector_values(b.v[1]));
+    assert_ptr_equal(nvector_values(b.v[0]), nvector_values(b.v[2]));
+    double *fresh = nvector_fresh(b.v[0]);
     for (dem_index k = 0; k < n; k++) fresh[k] = 5.0;
     assert_is(b.v[1], 0);
     assert_is(b.v[2], 0);
-    assert_close(vector_values(b.v[0])[n - 1], 5.0, 0.0);
+    assert_close(nvector_values(b.v[0])[n - 1], 5.0, 0.0);
     N_VScale(1.0, b.v[1], b.v[1]); /* onto itself */
     assert_is(b.v[1], 0);
     N_VScale(-2.0, b.v[1], b.v[1]);
-    for (dem_index k = 0; k < n; k++) assert_close(vector_values(b.v[1])[k], -2.0 * number(0, k), 0.0);
+    for (dem_index k = 0; k < n; k++) assert_close(nvector_values(b.v[1])[k], -2.0 * number(0, k), 0.0);
     assert_is(b.v[2], 0);
     N_VConst(0.25, b.v[2]);
-    assert_close(vector_values(b.v[2])[0], 0.25, 0.0);
+    assert_close(nvector_values(b.v[2])[0], 0.25, 0.0);
     free_bench(&b);
 }
 
@@ -81,11 +81,11 @@ static void buffers_go_round(void **state)
     bench b = make_bench(1);
     for (int round = 0; round < 1000; round++) {
         const int from = (7 * round) % n_vectors, to = (3 * round + round / n_vectors) % n_vectors;
-        vector_share(b.v[from], b.v[to]);
-        double *fresh = vector_fresh(b.v[(to + 1) % n_vectors]);
+        nvector_share(b.v[from], b.v[to]);
+        double *fresh = nvector_fresh(b.v[(to + 1) % n_vectors]);
         for (dem_index k = 0; k < n; k++) fresh[k] = round;
         for (int p = 0; p < n_vectors; p++)
-            if (p != (to + 1) % n_vectors) assert_ptr_not_equal(vector_values(b.v[p]), fresh);
+            if (p != (to + 1) % n_vectors) assert_ptr_not_equal(nvector_values(b.v[p]), fresh);
     }
     free_bench(&b);
 }
@@ -97,19 +97,19 @@ static void combinations_leave_out_zeros_and_may_go_where_an_operand_is(void **s
         bench b = make_bench(n_threads);
         double c[4] = {2.0, 0.0, -3.0, 1.0};
         N_Vector x[4] = {b.v[0], b.v[1], b.v[2], b.v[3]};
-        vector_fresh(b.v[1])[5] = (double)NAN; /* of no weight */
+        nvector_fresh(b.v[1])[5] = (double)NAN; /* of no weight */
         assert_int_equal(N_VLinearCombination(4, c, x, b.v[3]), 0);
         for (dem_index k = 0; k < n; k++)
-            assert_close(vector_values(b.v[3])[k], 2.0 * number(0, k) - 3.0 * number(2, k) + number(3, k), 0.0);
+            assert_close(nvector_values(b.v[3])[k], 2.0 * number(0, k) - 3.0 * number(2, k) + number(3, k), 0.0);
         N_VLinearSum(0.5, b.v[0], 0.5, b.v[0], b.v[0]);
         assert_is(b.v[0], 0);
         c[0] = c[2] = c[3] = 0.0;
         assert_int_equal(N_VLinearCombination(4, c, x, b.v[4]), 0);
-        for (dem_index k = 0; k < n; k++) assert_close(vector_values(b.v[4])[k], 0.0, 0.0);
+        for (dem_index k = 0; k < n; k++) assert_close(nvector_values(b.v[4])[k], 0.0, 0.0);
         c[1] = 1.0;
         x[1] = b.v[2];
         assert_int_equal(N_VLinearCombination(4, c, x, b.v[4]), 0);
-        assert_ptr_equal(vector_values(b.v[2]), vector_values(b.v[4]));
+        assert_ptr_equal(nvector_values(b.v[2]), nvector_values(b.v[4]));
         free_bench(&b);
     }
 }
@@ -125,7 +125,7 @@ static void norms_of_all_sizes_are_right(void **state)
             double first = 0.0;
             for (int n_threads = 1; n_threads <= 3; n_threads++) {
                 bench b = make_bench(n_threads);
-                double *x = vector_fresh(b.v[0]), sum = 0.0, largest = 0.0;
+                double *x = nvector_fresh(b.v[0]), sum = 0.0, largest = 0.0;
                 for (dem_index k = 0; k < n; k++) x[k] *= size;
                 if (peak) x[501] = 1e7 * size;
                 for (dem_index k = 0; k < n; k++) largest = fmax(largest, fabs(x[k] * number(1, k)));
@@ -146,9 +146,9 @@ static void the_norm_of_what_is_no_number_is_infinite(void **state)
 {
     (void)state;
     bench b = make_bench(2);
-    vector_fresh(b.v[0])[700] = (double)NAN;
+    nvector_fresh(b.v[0])[700] = (double)NAN;
     assert_true(N_VWrmsNorm(b.v[0], b.v[1]) > 1e300);
-    vector_fresh(b.v[0])[700] = -(double)INFINITY;
+    nvector_fresh(b.v[0])[700] = -(double)INFINITY;
     assert_true(N_VWrmsNorm(b.v[0], b.v[1]) > 1e300);
     N_VConst(0.0, b.v[0]);
     assert_close(N_VWrmsNorm(b.v[0], b.v[1]), 0.0, 0.0);
@@ -161,14 +161,14 @@ static void the_rest_goes_number_by_number(void **state)
     (void)state;
     bench b = make_bench(1);
     N_VDiv(b.v[0], b.v[1], b.v[2]);
-    assert_close(vector_values(b.v[2])[3], number(0, 3) / number(1, 3), 0.0);
+    assert_close(nvector_values(b.v[2])[3], number(0, 3) / number(1, 3), 0.0);
     N_VAbs(b.v[0], b.v[2]);
-    assert_close(vector_values(b.v[2])[10], fabs(number(0, 10)), 0.0);
+    assert_close(nvector_values(b.v[2])[10], fabs(number(0, 10)), 0.0);
     N_VInv(b.v[0], b.v[2]);
-    assert_close(vector_values(b.v[2])[3], 1.0 / number(0, 3), 0.0);
+    assert_close(nvector_values(b.v[2])[3], 1.0 / number(0, 3), 0.0);
     N_VAddConst(b.v[0], 2.0, b.v[0]);
-    assert_close(vector_values(b.v[0])[3], number(0, 3) + 2.0, 0.0);
-    vector_fresh(b.v[3])[99] = -7.0;
+    assert_close(nvector_values(b.v[0])[3], number(0, 3) + 2.0, 0.0);
+    nvector_fresh(b.v[3])[99] = -7.0;
     assert_close(N_VMaxNorm(b.v[3]), 7.0, 0.0);
     assert_int_equal(N_VGetVectorID(b.v[0]), SUNDIALS_NVEC_CUSTOM);
     free_bench(&b);

@@ -53,31 +53,31 @@ static double stiffening(const double *y, void *context)
     return y[0] < w->stiff_below ? 3.0 : 1.0;
 }
 
-static verlet *make(world *w, double h, dem_index n_guards, const double *y)
+static verlet_integrator *make(world *w, double h, dem_index n_roots, const double *y)
 {
-    const motion problem = {.n_nodes = 1,
-                            .ops = &array_ops_portable,
-                            .n_threads = 1,
-                            .n_guards = n_guards,
-                            .prescribes = !isnan(w->pulled),
-                            .derivative = move,
-                            .guards = heights,
-                            .stiffening = stiffening,
-                            .context = w,
-                            .method = DEM_METHOD_VERLET,
-                            .max_step = h,
-                            .fixed_step = h};
-    verlet *V;
-    assert_ok(verlet_create(&V, &problem, 0.0, y));
+    const ode_problem problem = {.n_nodes = 1,
+                                 .ops = &array_ops_portable,
+                                 .n_threads = 1,
+                                 .n_roots = n_roots,
+                                 .prescribes = !isnan(w->pulled),
+                                 .derivative = move,
+                                 .root_functions = heights,
+                                 .stiffening = stiffening,
+                                 .context = w,
+                                 .method = DEM_METHOD_VERLET,
+                                 .max_step = h,
+                                 .fixed_step = h};
+    verlet_integrator *V;
+    assert_ok(verlet_integrator_create(&V, &problem, 0.0, y));
     return V;
 }
 
-static path take(verlet *V, int n)
+static dense_output take(verlet_integrator *V, int n)
 {
-    path p = {0};
+    dense_output p = {0};
     for (int k = 0; k < n; k++) {
         bool rooted;
-        assert_ok(verlet_step(V, &p, &rooted));
+        assert_ok(verlet_integrator_step(V, &p, &rooted));
         assert_false(rooted);
     }
     return p;
@@ -86,14 +86,14 @@ static path take(verlet *V, int n)
 /* State after n steps of h. */
 static void run(world w, double h, int n, const double *y0, double *y)
 {
-    verlet *V = make(&w, h, 0, y0);
-    const path p = take(V, n);
+    verlet_integrator *V = make(&w, h, 0, y0);
+    const dense_output p = take(V, n);
     memcpy(y, p.y1, 4 * sizeof *y);
     assert_int_equal(w.calls, n + 1);
     assert_int_equal(w.n_guarded, 0);
-    assert_int_equal(verlet_counts(V).evaluations, n + 1);
-    assert_int_equal(verlet_counts(V).steps, n);
-    verlet_destroy(V);
+    assert_int_equal(verlet_integrator_counts(V).evaluations, n + 1);
+    assert_int_equal(verlet_integrator_counts(V).steps, n);
+    verlet_integrator_destroy(V);
 }
 
 /* ---- the step ---- */
@@ -123,7 +123,7 @@ static int move_with_book(double t, const double *y, double *u, double *a, void 
 }
 
 /* From every other state; `v1` and `f1` of the book are left to the engine and to the rates. */
-static int leap_from_above(const motion_leap *s, void *context)
+static int fused_from_above(const ode_fused_step *s, void *context)
 {
     const double h = s->h;
     double y1[4];
@@ -146,30 +146,31 @@ static void a_step_in_one_pass_is_that_in_parts(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         world worlds[2] = {plain, plain};
-        path p[2];
-        verlet *V[2];
+        dense_output p[2];
+        verlet_integrator *V[2];
         if (k == 1) worlds[0].fails_after = worlds[1].fails_after = 7.5 * h;
-        for (int leaps = 0; leaps < 2; leaps++) {
-            const motion problem = {.n_nodes = 2,
-                                    .n_books = 1,
-                                    .ops = &array_ops_portable,
-                                    .n_threads = 1,
-                                    .derivative = move_with_book,
-                                    .leap = leaps ? leap_from_above : NULL,
-                                    .context = &worlds[leaps],
-                                    .fixed_step = h};
-            assert_ok(verlet_create(&V[leaps], &problem, 0.0, start));
+        for (int fused = 0; fused < 2; fused++) {
+            const ode_problem problem = {.n_nodes = 2,
+                                         .n_quadratures = 1,
+                                         .ops = &array_ops_portable,
+                                         .n_threads = 1,
+                                         .derivative = move_with_book,
+                                         .fused_step = fused ? fused_from_above : NULL,
+                                         .context = &worlds[fused],
+                                         .fixed_step = h};
+            assert_ok(verlet_integrator_create(&V[fused], &problem, 0.0, start));
             bool rooted;
-            for (int step = 0; step < (k == 0 ? 40 : 7); step++) assert_ok(verlet_step(V[leaps], &p[leaps], &rooted));
-            if (k == 1) assert_int_equal(verlet_step(V[leaps], &p[leaps], &rooted), DEM_ERROR_INTEGRATOR);
+            for (int step = 0; step < (k == 0 ? 40 : 7); step++)
+                assert_ok(verlet_integrator_step(V[fused], &p[fused], &rooted));
+            if (k == 1) assert_int_equal(verlet_integrator_step(V[fused], &p[fused], &rooted), DEM_ERROR_INTEGRATOR);
         }
         if (k == 0) assert_memory_equal(p[0].y1, p[1].y1, sizeof start);
         if (k == 0) assert_true(p[0].y1[1] < 0.0); /* both ways have been gone */
         assert_int_equal(worlds[0].calls, worlds[1].calls);
-        const dem_counts a = verlet_counts(V[0]), b = verlet_counts(V[1]);
+        const dem_counts a = verlet_integrator_counts(V[0]), b = verlet_integrator_counts(V[1]);
         assert_memory_equal(&a, &b, sizeof a);
-        verlet_destroy(V[0]);
-        verlet_destroy(V[1]);
+        verlet_integrator_destroy(V[0]);
+        verlet_integrator_destroy(V[1]);
     }
 }
 
@@ -231,20 +232,20 @@ static void stiffening_halves_the_step(void **state)
 {
     const double y0[4] = {0.9, 0.0, -1.0, 0.0};
     world w = plain;
-    path p = {0};
+    dense_output p = {0};
     (void)state;
     w.stiff_below = 0.5;
     w.omega = 3.0;
-    verlet *V = make(&w, 0.1, 0, y0);
+    verlet_integrator *V = make(&w, 0.1, 0, y0);
     int n_short = 0, n_long = 0;
     for (int k = 0; k < 100; k++) {
         bool rooted;
-        assert_ok(verlet_step(V, &p, &rooted));
+        assert_ok(verlet_integrator_step(V, &p, &rooted));
         assert_close(p.t1 - p.t0, p.y0[0] < 0.5 ? 0.025 : 0.1, 1e-14);
         *(p.y0[0] < 0.5 ? &n_short : &n_long) += 1;
     }
     assert_true(n_short > 10 && n_long > 10);
-    verlet_destroy(V);
+    verlet_integrator_destroy(V);
 }
 
 static double endless(const double *y, void *context)
@@ -256,9 +257,9 @@ static double endless(const double *y, void *context)
 
 static void no_stiffening_stops_the_time(void **state)
 {
-    const motion problem = {.fixed_step = 0.1, .stiffening = endless};
+    const ode_problem problem = {.fixed_step = 0.1, .stiffening = endless};
     (void)state;
-    assert_true(motion_fixed_step(&problem, NULL) > 1e-12);
+    assert_true(ode_problem_fixed_step(&problem, NULL) > 1e-12);
 }
 
 /* What the derivative gives in place of a velocity is taken over, at rest or not. */
@@ -283,15 +284,15 @@ static void the_path_of_a_step_is_that_of_shorter_steps(void **state)
     const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
     world w = plain;
     (void)state;
-    verlet *V = make(&w, h, 0, y0);
-    const path p = take(V, 1);
+    verlet_integrator *V = make(&w, h, 0, y0);
+    const dense_output p = take(V, 1);
     for (int k = 0; k <= 10; k++) {
         double y[4], on_path[4];
         run(plain, fmax(h * k / 10.0, 1e-300), 1, y0, y);
-        path_state(&p, h * k / 10.0, on_path);
+        dense_output_state(&p, h * k / 10.0, on_path);
         for (int c = 0; c < 4; c++) assert_close(on_path[c], y[c], c == 2 ? 0.1 * h * h * h : 1e-15);
     }
-    verlet_destroy(V);
+    verlet_integrator_destroy(V);
 }
 
 static void a_path_starts_where_the_last_one_ended(void **state)
@@ -301,12 +302,12 @@ static void a_path_starts_where_the_last_one_ended(void **state)
     double t = 0.0, y[4], a[2];
     (void)state;
     memcpy(y, y0, sizeof y);
-    verlet *V = make(&w, 0.1, 2, y0);
+    verlet_integrator *V = make(&w, 0.1, 2, y0);
     w.floor = -1e3;
     for (int k = 0; k < 20; k++) {
-        path p;
+        dense_output p;
         bool rooted;
-        assert_ok(verlet_step(V, &p, &rooted));
+        assert_ok(verlet_integrator_step(V, &p, &rooted));
         assert_close(p.t0, t, 0.0);
         assert_memory_equal(p.y0, y, sizeof y);
         (void)move(p.t1, p.y1, NULL, a, &w);
@@ -314,16 +315,16 @@ static void a_path_starts_where_the_last_one_ended(void **state)
         t = p.t1;
         memcpy(y, p.y1, sizeof y);
     }
-    verlet_destroy(V);
+    verlet_integrator_destroy(V);
 }
 
 /* ---- roots ---- */
 
-static void step_to_root(verlet *V, path *p)
+static void step_to_root(verlet_integrator *V, dense_output *p)
 {
     bool rooted = false;
     for (int k = 0; k < 1000 && !rooted; k++) {
-        assert_ok(verlet_step(V, p, &rooted));
+        assert_ok(verlet_integrator_step(V, p, &rooted));
         if (!rooted) assert_true(p->end == p->t1);
     }
     assert_true(rooted);
@@ -335,16 +336,16 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 {
     const double y0[4] = {0.0, 0.9, 0.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
     world w = plain;
-    path p;
+    dense_output p;
     (void)state;
     w.floor = 0.2;
-    verlet *V = make(&w, 0.1, 2, y0);
+    verlet_integrator *V = make(&w, 0.1, 2, y0);
     step_to_root(V, &p);
     assert_close(p.end, t, 1e-13);
-    assert_close(path_position(&p, p.end, 0).y, 0.2, 1e-12);
-    assert_close(path_velocity(&p, p.end, 0).y, -g * t, 1e-12);
+    assert_close(dense_output_position(&p, p.end, 0).y, 0.2, 1e-12);
+    assert_close(dense_output_velocity(&p, p.end, 0).y, -g * t, 1e-12);
     assert_true(w.n_guarded < 30); /* 4 steps; secants do it in a few */
-    verlet_destroy(V);
+    verlet_integrator_destroy(V);
 }
 
 /* From below through the floor is none, the ceiling above it is. */
@@ -352,12 +353,12 @@ static void a_guard_is_looked_for_only_as_it_falls(void **state)
 {
     const double y0[4] = {0.0, -0.5, 0.0, 10.0};
     world w = plain;
-    path p;
+    dense_output p;
     (void)state;
-    verlet *V = make(&w, 0.04, 2, y0);
+    verlet_integrator *V = make(&w, 0.04, 2, y0);
     step_to_root(V, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-13);
-    verlet_destroy(V);
+    verlet_integrator_destroy(V);
 }
 
 /* Reflected a skin above the floor it comes back after the time of the throw. Without a restart it goes on through. */
@@ -368,26 +369,26 @@ static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
     (void)state;
     for (int restarted = 0; restarted < 2; restarted++) {
         world w = plain;
-        path p;
+        dense_output p;
         bool rooted;
         w.floor = -skin;
-        verlet *V = make(&w, 0.07, 2, y0);
+        verlet_integrator *V = make(&w, 0.07, 2, y0);
         step_to_root(V, &p);
         const double first = p.end, t1 = p.t1;
-        path_state(&p, p.end, reflected);
+        dense_output_state(&p, p.end, reflected);
         reflected[1] = 0.0;
         reflected[3] = u;
         if (restarted) {
-            verlet_restart(V, first, reflected);
+            verlet_integrator_restart(V, first, reflected);
             step_to_root(V, &p);
             assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * skin)) / g, 1e-12);
         } else {
-            assert_ok(verlet_step(V, &p, &rooted));
+            assert_ok(verlet_integrator_step(V, &p, &rooted));
             assert_false(rooted);
             assert_close(p.t0, t1, 0.0);
             assert_close(p.y1[1], 0.5 - 0.5 * g * p.t1 * p.t1, 1e-13);
         }
-        verlet_destroy(V);
+        verlet_integrator_destroy(V);
     }
 }
 
@@ -397,45 +398,45 @@ static void a_derivative_that_fails_leaves_the_last_state(void **state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
-    path p = {0};
+    dense_output p = {0};
     bool rooted;
     double y[4];
     (void)state;
     w.fails_after = 0.55;
-    verlet *V = make(&w, 0.1, 0, y0);
+    verlet_integrator *V = make(&w, 0.1, 0, y0);
     p = take(V, 5);
     memcpy(y, p.y1, sizeof y);
-    assert_int_equal(verlet_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_int_equal(verlet_integrator_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the test's force fails");
     w.fails_after = 1e9;
-    assert_ok(verlet_step(V, &p, &rooted));
+    assert_ok(verlet_integrator_step(V, &p, &rooted));
     assert_memory_equal(p.y0, y, sizeof y);
-    verlet_destroy(V);
-    verlet_destroy(NULL);
+    verlet_integrator_destroy(V);
+    verlet_integrator_destroy(NULL);
 }
 
 static void guards_that_are_no_numbers_are_an_error(void **state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
-    path p;
+    dense_output p;
     bool rooted;
     (void)state;
     w.floor = (double)NAN;
-    verlet *V = make(&w, 0.1, 2, y0);
-    assert_int_equal(verlet_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    verlet_integrator *V = make(&w, 0.1, 2, y0);
+    assert_int_equal(verlet_integrator_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "guard 0 is not finite at t = 0 s");
-    verlet_destroy(V);
+    verlet_integrator_destroy(V);
 }
 
 static void without_a_fixed_step_it_is_refused(void **state)
 {
-    const motion problem = {
+    const ode_problem problem = {
         .n_nodes = 1, .ops = &array_ops_portable, .n_threads = 1, .derivative = move, .max_step = 1.0};
     const double y0[4] = {0.0};
-    verlet *V = NULL;
+    verlet_integrator *V = NULL;
     (void)state;
-    assert_int_equal(verlet_create(&V, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(verlet_integrator_create(&V, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
     assert_null(V);
 }
 
