@@ -219,7 +219,7 @@ static void solve_all(contact_sites *c, const double *x, const double *v)
 /* A force without what should come from outside is none: the last known stays. */
 static void store_all(contact_sites *c)
 {
-    if (coupling_failed(c->scene.rule.load.coupling)) return;
+    if (external_force_failed(c->scene.rule.load.external)) return;
     for (dem_index m = 0; m < c->reactions.row[c->reactions.n_groups]; m++) sites_store(c, c->reactions.members[m]);
 }
 

@@ -116,7 +116,7 @@ static bool has_powers(const patch *p)
     const contact_scene *scene = &p->ball.sites->scene;
     const forces *load = &scene->rule.load;
     return p->rule.held != NULL || scene->model->springs.viscosity != NULL || load->mass_damping > 0.0 ||
-           load->coupling != NULL;
+           load->external != NULL;
 }
 
 /* What damping takes at node j of the ball, and what is put in from outside, W; of these what no event changes is left
@@ -131,9 +131,10 @@ static vec2 node_powers(const patch *p, dem_index j, const double *x, const doub
     vec2 power = {model->inverse_mass[i] > 0.0 ? load->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi) : 0.0,
                   0.0};
     if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
-    if (load->boundaries != NULL) power.y += vec2_dot(boundaries_force(load->boundaries, i, v[load->clock]), vi);
-    const vec2 push = load->coupling != NULL ? vec2_at(load->coupling->answer, j) : (vec2){0.0, 0.0};
-    if (load->coupling != NULL) power.y += vec2_dot(push, vi);
+    if (load->boundaries != NULL)
+        power.y += vec2_dot(boundary_conditions_force(load->boundaries, i, v[load->clock]), vi);
+    const vec2 push = load->external != NULL ? vec2_at(load->external->value, j) : (vec2){0.0, 0.0};
+    if (load->external != NULL) power.y += vec2_dot(push, vi);
     const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
     if (held != 0) {
         const vec2 a = vec2_along(forces_own_acceleration(model, load, i, x, v), model->inverse_mass[i], push);

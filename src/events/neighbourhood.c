@@ -231,10 +231,10 @@ static void accelerate_plain(const ball *b, int rings, const ball_state *s, doub
 
 void ball_push(const ball *b, int rings, double t, const double *x, const double *v)
 {
-    coupling *c = b->sites->scene.rule.load.coupling;
+    external_force *c = b->sites->scene.rule.load.external;
     if (c == NULL) return;
     for (dem_index j = 0; j < b->end[rings]; j++) c->some[j] = b->nodes[j].i;
-    coupling_ask(c, &(dem_force_query){t, b->end[rings], c->some, x, v});
+    external_force_evaluate(c, &(dem_force_query){t, b->end[rings], c->some, x, v});
 }
 
 void ball_accelerate(ball *b, int rings, const ball_state *s, double *a)
@@ -246,10 +246,10 @@ void ball_accelerate(ball *b, int rings, const ball_state *s, double *a)
     for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
         vec2_put(a, j, forces_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));
     ball_push(b, rings, v[load->clock], s->x, s->v);
-    for (dem_index j = 0; j < b->end[rings] && load->coupling != NULL; j++)
+    for (dem_index j = 0; j < b->end[rings] && load->external != NULL; j++)
         vec2_put(
             a, j,
-            vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(load->coupling->answer, j)));
+            vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(load->external->value, j)));
     for (dem_index g = 0; g < b->n_groups; g++)
         if (b->groups[g].ring <= rings) reactions_solve(&b->sites->reactions, b->groups[g].group, s->y, v);
     for (dem_index j = 0; j < b->end[rings] && b->n_groups > 0; j++)

@@ -13,13 +13,13 @@ enum { BOTH = DEM_COMPONENT_X | DEM_COMPONENT_Y };
 /* ---- the ramp ---- */
 
 /* t/ramp, where the ramp goes on; beyond it its derivatives are 0. */
-static bool within(const boundary *b, double t, double *s)
+static bool within(const boundary_condition *b, double t, double *s)
 {
     *s = b->ramp > 0.0 ? t / b->ramp : 1.0;
     return *s > 0.0 && *s < 1.0;
 }
 
-double boundary_ramp(const boundary *b, double t)
+double boundary_condition_ramp(const boundary_condition *b, double t)
 {
     double s;
     if (within(b, t, &s)) return s * s * s * (10.0 + s * (6.0 * s - 15.0));
@@ -27,60 +27,60 @@ double boundary_ramp(const boundary *b, double t)
 }
 
 /* 1/s */
-static double ramp_slope(const boundary *b, double t)
+static double ramp_slope(const boundary_condition *b, double t)
 {
     double s;
     return within(b, t, &s) ? 30.0 * s * s * (1.0 - s) * (1.0 - s) / b->ramp : 0.0;
 }
 
 /* 1/s^2 */
-static double ramp_curvature(const boundary *b, double t)
+static double ramp_curvature(const boundary_condition *b, double t)
 {
     double s;
     return within(b, t, &s) ? 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (b->ramp * b->ramp) : 0.0;
 }
 
 /* Integral of the ramp from 0 to t, s. */
-static double ramp_area(const boundary *b, double t)
+static double ramp_area(const boundary_condition *b, double t)
 {
     double s;
     if (within(b, t, &s)) return b->ramp * s * s * s * s * (2.5 + s * (s - 3.0));
     return s > 0.0 ? t - 0.5 * b->ramp : 0.0;
 }
 
-vec2 boundary_displacement(const boundary *b, double t)
+vec2 boundary_condition_displacement(const boundary_condition *b, double t)
 {
-    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_area(b, t) : boundary_ramp(b, t), b->value);
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_area(b, t) : boundary_condition_ramp(b, t), b->value);
 }
 
-vec2 boundary_velocity(const boundary *b, double t)
+vec2 boundary_condition_velocity(const boundary_condition *b, double t)
 {
-    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? boundary_ramp(b, t) : ramp_slope(b, t), b->value);
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? boundary_condition_ramp(b, t) : ramp_slope(b, t), b->value);
 }
 
-vec2 boundary_acceleration(const boundary *b, double t)
+vec2 boundary_condition_acceleration(const boundary_condition *b, double t)
 {
     return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_slope(b, t) : ramp_curvature(b, t), b->value);
 }
 
 /* ---- all of them, in a state ---- */
 
-vec2 boundaries_force(const boundaries *b, dem_index i, double t)
+vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = b->first != NULL ? b->first[i] : -1; p >= 0; p = b->pushes[p].next) {
-        const boundary *from = &b->list[b->pushes[p].boundary];
-        force = vec2_along(force, b->pushes[p].share * boundary_ramp(from, t), from->value);
+        const boundary_condition *from = &b->list[b->pushes[p].boundary];
+        force = vec2_along(force, b->pushes[p].share * boundary_condition_ramp(from, t), from->value);
     }
     return force;
 }
 
 /* Force times velocity, summed. */
-static double push_power(const boundary *b, double t, const double *v)
+static double push_power(const boundary_condition *b, double t, const double *v)
 {
     vec2 sum = {0.0, 0.0};
     for (dem_index k = 0; k < b->n_nodes; k++) sum = vec2_along(sum, b->share[k], vec2_at(v, b->nodes[k]));
-    return boundary_ramp(b, t) * vec2_dot(b->value, sum);
+    return boundary_condition_ramp(b, t) * vec2_dot(b->value, sum);
 }
 
 static void put_component(double *array, dem_index i, int c, vec2 value)
@@ -89,9 +89,9 @@ static void put_component(double *array, dem_index i, int c, vec2 value)
 }
 
 /* m (a - what a would be without), times velocity, summed. */
-static double prescribe(const boundary *b, const double *mass, double t, double *f, double *a)
+static double prescribe(const boundary_condition *b, const double *mass, double t, double *f, double *a)
 {
-    const vec2 velocity = boundary_velocity(b, t), acceleration = boundary_acceleration(b, t);
+    const vec2 velocity = boundary_condition_velocity(b, t), acceleration = boundary_condition_acceleration(b, t);
     double power = 0.0;
     for (dem_index k = 0; k < b->n_nodes; k++)
         for (int c = 0; c < 2; c++) {
@@ -105,7 +105,8 @@ static double prescribe(const boundary *b, const double *mass, double t, double 
     return power;
 }
 
-double boundaries_prescribe(const boundaries *b, const double *mass, double t, const double *v, double *f, double *a)
+double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
+                                     double *f, double *a)
 {
     double power = 0.0;
     for (dem_index k = 0; k < b->n; k++)
@@ -114,27 +115,27 @@ double boundaries_prescribe(const boundaries *b, const double *mass, double t, c
     return power;
 }
 
-void boundaries_begin(const boundaries *b, double *v)
+void boundary_conditions_begin(const boundary_conditions *b, double *v)
 {
     for (dem_index k = 0; k < b->n; k++)
         for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].kind != DEM_BOUNDARY_FORCE; p++)
             for (int c = 0; c < 2; c++)
                 if (b->list[k].components & (DEM_COMPONENT_X << c))
-                    put_component(v, b->list[k].nodes[p], c, boundary_velocity(&b->list[k], 0.0));
+                    put_component(v, b->list[k].nodes[p], c, boundary_condition_velocity(&b->list[k], 0.0));
 }
 
-bool boundaries_move(const boundaries *b)
+bool boundary_conditions_move(const boundary_conditions *b)
 {
     for (dem_index k = 0; k < b->n; k++)
         if (b->list[k].kind != DEM_BOUNDARY_FORCE) return true;
     return false;
 }
 
-double boundaries_speed(const boundaries *b)
+double boundary_conditions_speed(const boundary_conditions *b)
 {
     double fastest = 0.0;
     for (dem_index k = 0; k < b->n; k++) {
-        const boundary *one = &b->list[k];
+        const boundary_condition *one = &b->list[k];
         const double size = vec2_norm(one->value);
         if (one->kind == DEM_BOUNDARY_VELOCITY) fastest = fmax(fastest, size);
         if (one->kind == DEM_BOUNDARY_DISPLACEMENT) fastest = fmax(fastest, 1.875 * size / one->ramp); /* its middle */
@@ -142,7 +143,7 @@ double boundaries_speed(const boundaries *b)
     return fastest;
 }
 
-double boundaries_settled(const boundaries *b)
+double boundary_conditions_settled(const boundary_conditions *b)
 {
     double last = 0.0;
     for (dem_index k = 0; k < b->n; k++) last = fmax(last, b->list[k].ramp);
@@ -205,14 +206,14 @@ static dem_status check_all(const dem_boundary *list, dem_index n, const dem_lat
     return DEM_OK;
 }
 
-static dem_status copy(boundary *out, const dem_boundary *from)
+static dem_status copy(boundary_condition *out, const dem_boundary *from)
 {
     const size_t n = (size_t)from->n_nodes;
-    *out = (boundary){.kind = from->kind,
-                      .components = from->components,
-                      .value = vec2_at(from->value, 0),
-                      .ramp = from->ramp,
-                      .n_nodes = from->n_nodes};
+    *out = (boundary_condition){.kind = from->kind,
+                                .components = from->components,
+                                .value = vec2_at(from->value, 0),
+                                .ramp = from->ramp,
+                                .n_nodes = from->n_nodes};
     out->nodes = malloc(n * sizeof *out->nodes);
     CHECK_MEMORY(out->nodes);
     memcpy(out->nodes, from->nodes, n * sizeof *out->nodes);
@@ -223,7 +224,7 @@ static dem_status copy(boundary *out, const dem_boundary *from)
     return DEM_OK;
 }
 
-static dem_status list_pushes(boundaries *b, dem_index n_nodes)
+static dem_status list_pushes(boundary_conditions *b, dem_index n_nodes)
 {
     size_t n = 0;
     for (dem_index k = 0; k < b->n; k++) n += b->list[k].share != NULL ? (size_t)b->list[k].n_nodes : 0;
@@ -236,13 +237,13 @@ static dem_status list_pushes(boundaries *b, dem_index n_nodes)
     for (dem_index k = 0; k < b->n; k++)
         for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].share != NULL; p++, at++) {
             dem_index *first = &b->first[b->list[k].nodes[p]];
-            b->pushes[at] = (boundary_push){k, *first, b->list[k].share[p]};
+            b->pushes[at] = (boundary_condition_share){k, *first, b->list[k].share[p]};
             *first = at;
         }
     return DEM_OK;
 }
 
-static dem_status compile(boundaries *b, const dem_boundary *list, dem_index n, dem_index n_nodes)
+static dem_status compile(boundary_conditions *b, const dem_boundary *list, dem_index n, dem_index n_nodes)
 {
     b->list = calloc((size_t)n, sizeof *b->list);
     CHECK_MEMORY(b->list);
@@ -253,10 +254,10 @@ static dem_status compile(boundaries *b, const dem_boundary *list, dem_index n, 
     return list_pushes(b, n_nodes);
 }
 
-dem_status boundaries_compile(boundaries *out, const dem_boundary *list, dem_index n, const dem_lattice *lattice,
-                              dem_index n_obstacles)
+dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
+                                       const dem_lattice *lattice, dem_index n_obstacles)
 {
-    boundaries b = {0};
+    boundary_conditions b = {0};
     *out = b;
     CHECK(n >= 0 && (n == 0 || list != NULL), DEM_ERROR_ARGUMENT, "%lld boundaries, the list is %s", (long long)n,
           list != NULL ? "given" : "NULL");
@@ -268,11 +269,11 @@ dem_status boundaries_compile(boundaries *out, const dem_boundary *list, dem_ind
     if (status == DEM_OK)
         *out = b;
     else
-        boundaries_free(&b);
+        boundary_conditions_free(&b);
     return status;
 }
 
-void boundaries_free(boundaries *b)
+void boundary_conditions_free(boundary_conditions *b)
 {
     for (dem_index k = 0; b->list != NULL && k < b->n; k++) {
         free(b->list[k].nodes);
@@ -282,5 +283,5 @@ void boundaries_free(boundaries *b)
     free(b->first);
     free(b->pushes);
     free(b->held);
-    *b = (boundaries){0};
+    *b = (boundary_conditions){0};
 }

@@ -9,7 +9,7 @@
 #include "base/vec2.h"
 
 /** A boundary as the caller gave it, with arrays of its own. */
-typedef struct boundary {
+typedef struct boundary_condition {
     dem_boundary_kind kind;
     int32_t components;
     vec2 value;
@@ -17,56 +17,57 @@ typedef struct boundary {
     dem_index n_nodes;
     dem_index *nodes; /* [n_nodes] */
     double *share;    /* [n_nodes] of a force; else NULL */
-} boundary;
+} boundary_condition;
 
 /** A share of a force on a node; those on one node are a list. */
-typedef struct boundary_push {
+typedef struct boundary_condition_share {
     dem_index boundary, next; /* next: -1 at the end */
     double share;
-} boundary_push;
+} boundary_condition_share;
 
-typedef struct boundaries {
+typedef struct boundary_conditions {
     dem_index n;
-    boundary *list;        /* [n] */
-    dem_index *first;      /* [n_nodes] of the node's pushes, -1: none; NULL where there are no forces at all */
-    boundary_push *pushes; /* one for each node of each force */
-    unsigned char *held;   /* [n_nodes] components that are prescribed; NULL where there are no boundaries */
-} boundaries;
+    boundary_condition *list; /* [n] */
+    dem_index *first;         /* [n_nodes] of the node's pushes, -1: none; NULL where there are no forces at all */
+    boundary_condition_share *pushes; /* one for each node of each force */
+    unsigned char *held;              /* [n_nodes] components that are prescribed; NULL where there are no boundaries */
+} boundary_conditions;
 
 /** Validates and copies.  \return DEM_ERROR_ARGUMENT, or DEM_ERROR_MODEL for a node that is fixed, whose component is
- *  prescribed twice, or that may touch one of `n_obstacles`. Free with boundaries_free. */
-dem_status boundaries_compile(boundaries *out, const dem_boundary *list, dem_index n, const dem_lattice *lattice,
-                              dem_index n_obstacles);
-void boundaries_free(boundaries *b);
+ *  prescribed twice, or that may touch one of `n_obstacles`. Free with boundary_conditions_free. */
+dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
+                                       const dem_lattice *lattice, dem_index n_obstacles);
+void boundary_conditions_free(boundary_conditions *b);
 
 /** 10 s^3 - 15 s^4 + 6 s^5 with s = t/ramp, from 0 to 1 and twice continuously differentiable; 1 for ramp = 0.
  *  Degree 5, so that a method of order 5 integrates its derivatives to rounding. */
-double boundary_ramp(const boundary *b, double t);
+double boundary_condition_ramp(const boundary_condition *b, double t);
 
 /** Velocity, m/s, and acceleration, m/s^2, of prescribed components at t. */
-vec2 boundary_velocity(const boundary *b, double t);
-vec2 boundary_acceleration(const boundary *b, double t);
+vec2 boundary_condition_velocity(const boundary_condition *b, double t);
+vec2 boundary_condition_acceleration(const boundary_condition *b, double t);
 
 /** How far prescribed components have moved by t, m. */
-vec2 boundary_displacement(const boundary *b, double t);
+vec2 boundary_condition_displacement(const boundary_condition *b, double t);
 
 /** Force on node i at t, N. */
-vec2 boundaries_force(const boundaries *b, dem_index i, double t);
+vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t);
 
 /** Puts the prescribed components into the derivative of a state: velocities f, accelerations a, [n_nodes][2].
  *  \return the power that the boundaries put in, W: of the forces that this takes and of the forces given */
-double boundaries_prescribe(const boundaries *b, const double *mass, double t, const double *v, double *f, double *a);
+double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
+                                     double *f, double *a);
 
 /** Puts the prescribed components at t = 0 into the velocities v [n_nodes][2]. */
-void boundaries_begin(const boundaries *b, double *v);
+void boundary_conditions_begin(const boundary_conditions *b, double *v);
 
 /** Whether one of them prescribes motions. */
-bool boundaries_move(const boundaries *b);
+bool boundary_conditions_move(const boundary_conditions *b);
 
 /** The fastest that a boundary moves a component, m/s. */
-double boundaries_speed(const boundaries *b);
+double boundary_conditions_speed(const boundary_conditions *b);
 
 /** When the last ramp has ended, s. */
-double boundaries_settled(const boundaries *b);
+double boundary_conditions_settled(const boundary_conditions *b);
 
 #endif

@@ -111,16 +111,16 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
 }
 
 /* What a prescribed component of a node's motion takes, N. */
-static vec2 held_force(const dem_model *model, const forces *load, const boundary *b, dem_index i, const double *x,
-                       const double *v)
+static vec2 held_force(const dem_model *model, const forces *load, const boundary_condition *b, dem_index i,
+                       const double *x, const double *v)
 {
-    const vec2 wanted = boundary_acceleration(b, v[load->clock]);
+    const vec2 wanted = boundary_condition_acceleration(b, v[load->clock]);
     const vec2 force = vec2_scale(model->lattice.mass[i], vec2_sub(wanted, forces_acceleration(model, load, i, x, v)));
     return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
 }
 
-dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary *b, const double *x,
-                                       const double *v)
+dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary_condition *b,
+                                       const double *x, const double *v)
 {
     dem_boundary_load out;
     vec2 force = {0.0, 0.0}, way = {0.0, 0.0};
@@ -128,7 +128,7 @@ dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *loa
         const dem_index i = b->nodes[k];
         way = vec2_add(way, vec2_sub(vec2_at(x, i), vec2_at(model->lattice.position, i)));
         force = b->kind == DEM_BOUNDARY_FORCE
-                    ? vec2_along(force, b->share[k] * boundary_ramp(b, v[load->clock]), b->value)
+                    ? vec2_along(force, b->share[k] * boundary_condition_ramp(b, v[load->clock]), b->value)
                     : vec2_add(force, held_force(model, load, b, i, x, v));
     }
     vec2_put(out.force, 0, force);

@@ -19,8 +19,8 @@ dem_strain diagnostics_strain(const dem_model *model, const double *x);
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle);
 
 /** What a boundary does to its nodes in a state. */
-dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary *b, const double *x,
-                                       const double *v);
+dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary_condition *b,
+                                       const double *x, const double *v);
 
 /** Largest force without drag on a node that may move, from accelerations a and velocities v at positions x, over the
  *  largest force of a spring. */

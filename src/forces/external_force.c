@@ -7,19 +7,19 @@
 
 #include "base/status.h"
 
-dem_status coupling_create(coupling **out, const dem_options *options, dem_index n_nodes)
+dem_status external_force_create(external_force **out, const dem_options *options, dem_index n_nodes)
 {
     const size_t n = (size_t)n_nodes;
     *out = NULL;
     if (options->force == NULL) return DEM_OK;
-    coupling *c = calloc(1, sizeof *c);
+    external_force *c = calloc(1, sizeof *c);
     CHECK_MEMORY(c);
-    *c = (coupling){.force = options->force, .context = options->force_context, .n_nodes = n_nodes};
+    *c = (external_force){.force = options->force, .context = options->force_context, .n_nodes = n_nodes};
     c->all = malloc(n * sizeof *c->all);
     c->some = malloc(n * sizeof *c->some);
-    c->answer = malloc(2 * n * sizeof *c->answer);
-    if (!(c->all && c->some && c->answer)) {
-        coupling_destroy(c);
+    c->value = malloc(2 * n * sizeof *c->value);
+    if (!(c->all && c->some && c->value)) {
+        external_force_destroy(c);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for forces on %lld nodes", (long long)n_nodes);
     }
     for (dem_index i = 0; i < n_nodes; i++) c->all[i] = i;
@@ -27,30 +27,30 @@ dem_status coupling_create(coupling **out, const dem_options *options, dem_index
     return DEM_OK;
 }
 
-void coupling_destroy(coupling *c)
+void external_force_destroy(external_force *c)
 {
     if (c == NULL) return;
     free(c->all);
     free(c->some);
-    free(c->answer);
+    free(c->value);
     free(c);
 }
 
-static void fail(coupling *c, const dem_force_query *query, dem_status status, dem_index node)
+static void fail(external_force *c, const dem_force_query *query, dem_status status, dem_index node)
 {
     c->status = status;
     c->t = query->t;
     c->node = node;
 }
 
-static void check(coupling *c, const dem_force_query *query, const double *force)
+static void check(external_force *c, const dem_force_query *query, const double *force)
 {
     for (dem_index k = 0; k < query->n && c->status == DEM_OK; k++)
         if (!isfinite(force[2 * k]) || !isfinite(force[2 * k + 1]))
             fail(c, query, DEM_ERROR_INTEGRATOR, query->nodes[k]);
 }
 
-static void ask(coupling *c, const dem_force_query *query, double *force)
+static void ask(external_force *c, const dem_force_query *query, double *force)
 {
     const size_t size = 2 * (size_t)query->n * sizeof *force;
     memset(force, 0, size);
@@ -63,12 +63,12 @@ static void ask(coupling *c, const dem_force_query *query, double *force)
     if (c->status != DEM_OK) memset(force, 0, size);
 }
 
-void coupling_ask(coupling *c, const dem_force_query *query)
+void external_force_evaluate(external_force *c, const dem_force_query *query)
 {
-    ask(c, query, c->answer);
+    ask(c, query, c->value);
 }
 
-vec2 coupling_force(coupling *c, double t, dem_index node, vec2 x, vec2 v)
+vec2 external_force_of_node(external_force *c, double t, dem_index node, vec2 x, vec2 v)
 {
     const double at[2] = {x.x, x.y}, speed[2] = {v.x, v.y};
     double force[2];
@@ -76,14 +76,14 @@ vec2 coupling_force(coupling *c, double t, dem_index node, vec2 x, vec2 v)
     return vec2_at(force, 0);
 }
 
-double coupling_power(const coupling *c, const double *v)
+double external_force_power(const external_force *c, const double *v)
 {
     double power = 0.0;
-    for (dem_index i = 0; i < c->n_nodes; i++) power += vec2_dot(vec2_at(c->answer, i), vec2_at(v, i));
+    for (dem_index i = 0; i < c->n_nodes; i++) power += vec2_dot(vec2_at(c->value, i), vec2_at(v, i));
     return power;
 }
 
-dem_status coupling_report(coupling *c)
+dem_status external_force_failure(external_force *c)
 {
     const dem_status status = c->status;
     c->status = DEM_OK;

@@ -8,38 +8,38 @@
 
 #include "base/vec2.h"
 
-typedef struct coupling {
+typedef struct external_force {
     dem_force force;
     void *context;
     dem_index n_nodes;
     dem_index *all;    /* [n_nodes] 0, 1, 2 ... */
     dem_index *some;   /* [n_nodes] for who asks about some nodes only */
-    double *answer;    /* [n_nodes][2] N, to the last question about more than one */
+    double *value;     /* [n_nodes][2] N, to the last question about more than one */
     dem_status status; /* DEM_OK; else there is no answer any more, since */
     double t;          /* s, when */
     dem_index node;    /* the force on this node was not finite; -1: the status was returned */
-} coupling;
+} external_force;
 
-/** Free with coupling_destroy(). */
-dem_status coupling_create(coupling **out, const dem_options *options, dem_index n_nodes);
-void coupling_destroy(coupling *c);
+/** Free with external_force_destroy(). */
+dem_status external_force_create(external_force **out, const dem_options *options, dem_index n_nodes);
+void external_force_destroy(external_force *c);
 
 /** Puts the forces on the nodes that are asked about into `answer`. */
-void coupling_ask(coupling *c, const dem_force_query *query);
+void external_force_evaluate(external_force *c, const dem_force_query *query);
 
 /** Force on one node with place x and velocity v at t, N; leaves `answer` alone. */
-vec2 coupling_force(coupling *c, double t, dem_index node, vec2 x, vec2 v);
+vec2 external_force_of_node(external_force *c, double t, dem_index node, vec2 x, vec2 v);
 
 /** Power of the answer about all nodes, W, with velocities v [n_nodes][2]. */
-double coupling_power(const coupling *c, const double *v);
+double external_force_power(const external_force *c, const double *v);
 
 /** Whether a question had no answer; of no coupling none has been asked. */
-static inline bool coupling_failed(const coupling *c)
+static inline bool external_force_failed(const external_force *c)
 {
     return c != NULL && c->status != DEM_OK;
 }
 
 /** The status and message of the failure, after which the force is asked again. */
-dem_status coupling_report(coupling *c);
+dem_status external_force_failure(external_force *c);
 
 #endif

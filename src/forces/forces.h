@@ -10,17 +10,17 @@
 
 /** What acts on every node besides springs and triangles. */
 typedef struct forces {
-    double gravity[2];            /* m/s^2 */
-    double mass_damping;          /* 1/s */
-    const boundaries *boundaries; /* NULL: no forces on nodes */
-    coupling *coupling;           /* NULL: none from outside */
-    dem_index clock;              /* where the time stands among the velocities */
+    double gravity[2];                     /* m/s^2 */
+    double mass_damping;                   /* 1/s */
+    const boundary_conditions *boundaries; /* NULL: no forces on nodes */
+    external_force *external;              /* NULL: none from outside */
+    dem_index clock;                       /* where the time stands among the velocities */
 } forces;
 
 /** Whether any of it depends on time. */
 static inline bool forces_are_driven(const forces *load)
 {
-    return load->boundaries != NULL || load->coupling != NULL;
+    return load->boundaries != NULL || load->external != NULL;
 }
 
 /** Force of springs, area term and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
@@ -41,7 +41,8 @@ static inline vec2 forces_own_acceleration(const dem_model *model, const forces 
     if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
     const vec2 drag = vec2_scale(-load->mass_damping, vec2_at(v, i));
     vec2 force = forces_of_elements(model, i, x, v);
-    if (load->boundaries != NULL) force = vec2_add(force, boundaries_force(load->boundaries, i, v[load->clock]));
+    if (load->boundaries != NULL)
+        force = vec2_add(force, boundary_conditions_force(load->boundaries, i, v[load->clock]));
     const vec2 a = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, force);
     return vec2_add(a, drag);
 }
@@ -51,8 +52,8 @@ static inline vec2 forces_acceleration(const dem_model *model, const forces *loa
                                        const double *v)
 {
     const vec2 a = forces_own_acceleration(model, load, i, x, v);
-    if (load->coupling == NULL) return a;
-    const vec2 force = coupling_force(load->coupling, v[load->clock], i, vec2_at(x, i), vec2_at(v, i));
+    if (load->external == NULL) return a;
+    const vec2 force = external_force_of_node(load->external, v[load->clock], i, vec2_at(x, i), vec2_at(v, i));
     return vec2_along(a, model->inverse_mass[i], force);
 }
 

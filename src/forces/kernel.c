@@ -225,7 +225,7 @@ static double accelerate_rest(const kernel *k, const forces *load, const kernel_
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
     for (dem_index p = 0; load->boundaries != NULL && p < load->boundaries->n; p++) {
-        const boundary *push = &load->boundaries->list[p];
+        const boundary_condition *push = &load->boundaries->list[p];
         for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
             sum += accelerate_row(k, load, y, push->nodes[j]);
     }
@@ -235,11 +235,11 @@ static double accelerate_rest(const kernel *k, const forces *load, const kernel_
 /* What comes from outside is asked for all nodes at once. */
 static double push(const kernel *k, const forces *load, const kernel_state *y)
 {
-    coupling *c = load->coupling;
+    external_force *c = load->external;
     double sum = 0.0;
-    coupling_ask(c, &(dem_force_query){y->v[load->clock], c->n_nodes, c->all, y->x, y->v});
+    external_force_evaluate(c, &(dem_force_query){y->v[load->clock], c->n_nodes, c->all, y->x, y->v});
     for (dem_index i = 0; i < c->n_nodes; i++) {
-        const vec2 a = vec2_along(vec2_at(y->a, i), k->model->inverse_mass[i], vec2_at(c->answer, i));
+        const vec2 a = vec2_along(vec2_at(y->a, i), k->model->inverse_mass[i], vec2_at(c->value, i));
         vec2_put(y->a, i, a);
         sum += a.x + a.y;
     }
@@ -279,7 +279,7 @@ double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
     if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, load, y);
-    return load->coupling != NULL ? sum + push(k, load, y) : sum;
+    return load->external != NULL ? sum + push(k, load, y) : sum;
 }
 
 static double guard_bound(const kernel *k, const double *x, dem_index q)

@@ -34,11 +34,11 @@ dem_status options_check(const dem_options *o)
 
 /* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound,
  * which is omega_max a/2 in a chain of spacing a. */
-static double default_v_scale(const dem_options *o, const dem_model *model, const boundaries *b)
+static double default_v_scale(const dem_options *o, const dem_model *model, const boundary_conditions *b)
 {
     const dem_lattice *l = &model->lattice;
     double speed = 1e-3 * 0.5 * model->omega_max * o->spacing, drop = INFINITY;
-    speed = fmax(speed, boundaries_speed(b));
+    speed = fmax(speed, boundary_conditions_speed(b));
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
     for (dem_index k = 0; k < model->n_sites; k++)
         drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->sites[k]]));
@@ -52,7 +52,7 @@ static double damping_rate(const dem_options *o, const dem_model *m)
     return springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass) + o->mass_damping;
 }
 
-dem_status options_fill(dem_options *o, const dem_model *model, const boundaries *b)
+dem_status options_fill(dem_options *o, const dem_model *model, const boundary_conditions *b)
 {
     if (o->spacing == 0.0) o->spacing = model->spacing;
     CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");

@@ -11,6 +11,6 @@ dem_status options_check(const dem_options *o);
 
 /** Replaces every default by what it is for a model and its boundaries.  \return DEM_ERROR_ARGUMENT where there is none
  *  and a value is needed */
-dem_status options_fill(dem_options *o, const dem_model *model, const boundaries *b);
+dem_status options_fill(dem_options *o, const dem_model *model, const boundary_conditions *b);
 
 #endif

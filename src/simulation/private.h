@@ -21,8 +21,8 @@ typedef struct run_measures {
 struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
-    boundaries boundaries;
-    coupling *coupling; /* NULL: no force from outside */
+    boundary_conditions boundaries;
+    external_force *external; /* NULL: no force from outside */
     kernel kernel;
     overlap overlap;
     contact contact;
@@ -95,7 +95,7 @@ static inline forces run_load(const dem_simulation *s)
     return (forces){{o->gravity[0], o->gravity[1]},
                     o->mass_damping,
                     s->boundaries.first != NULL ? &s->boundaries : NULL,
-                    s->coupling,
+                    s->external,
                     2 * (s->model->lattice.n_nodes + run_books(s->model)) - 1};
 }
 

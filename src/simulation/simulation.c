@@ -58,9 +58,9 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const double sum = kernel_accelerate(&s->kernel, &s->contact.sites.scene.rule.load, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     contact_constrain(&s->contact, y, a);
-    const double work = boundaries_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
-    fill_rates(s, y, a + n_real, s->coupling != NULL ? work + coupling_power(s->coupling, v) : work);
-    if (coupling_failed(s->coupling)) return 2;
+    const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
+    fill_rates(s, y, a + n_real, s->external != NULL ? work + external_force_power(s->external, v) : work);
+    if (external_force_failed(s->external)) return 2;
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, a);
     return 1;
@@ -139,13 +139,13 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 /* Nothing goes on that a force from outside has not been there for. */
 static dem_status heed(const dem_simulation *s, dem_status status)
 {
-    return coupling_failed(s->coupling) ? DEM_STOPPED : status;
+    return external_force_failed(s->external) ? DEM_STOPPED : status;
 }
 
 /* Keeps the state with its contacts, which are about to change at once. */
 static dem_status take_refuge(dem_simulation *s)
 {
-    if (s->coupling == NULL) return DEM_OK;
+    if (s->external == NULL) return DEM_OK;
     if (s->refuge == NULL) TRY(dem_record_create(&s->refuge));
     TRY(recall_put(s, s->refuge));
     s->has_refuge = true;
@@ -164,7 +164,7 @@ static dem_status fall_back(dem_simulation *s)
         status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_refuge = false;
     view_at(s, s->t, s->y);
-    return status_first(status, coupling_report(s->coupling));
+    return status_first(status, external_force_failure(s->external));
 }
 
 /* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
@@ -289,7 +289,7 @@ static dem_status start(dem_simulation *s)
     const contact_listener listener = {hear_event, s};
     TRY(take_refuge(s));
     const dem_status status = go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
-    s->started = !coupling_failed(s->coupling);
+    s->started = !external_force_failed(s->external);
     return status;
 }
 
@@ -333,7 +333,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     s->advanced = s->advancing = true;
     const dem_status status = advance(s, t_end);
     s->advancing = false;
-    return coupling_failed(s->coupling) ? fall_back(s) : status;
+    return external_force_failed(s->external) ? fall_back(s) : status;
 }
 
 /* ---- set-up ---- */
@@ -372,14 +372,15 @@ static dem_status set_up(dem_simulation *s)
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
     const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
-    TRY(boundaries_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice, model->obstacles.n));
+    TRY(boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
+                                    model->obstacles.n));
     s->options.boundaries = NULL;
-    TRY(coupling_create(&s->coupling, o, model->lattice.n_nodes));
+    TRY(external_force_create(&s->external, o, model->lattice.n_nodes));
     TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + run_unknowns(model), model->lattice.velocity, block);
-    boundaries_begin(&s->boundaries, s->y + run_unknowns(model));
+    boundary_conditions_begin(&s->boundaries, s->y + run_unknowns(model));
     TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
@@ -394,7 +395,7 @@ static dem_status set_up(dem_simulation *s)
                                  .n_quadratures = run_books(model),
                                  .n_roots =
                                      model->obstacles.n > 0 && !run_is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
-                                 .prescribes = boundaries_move(&s->boundaries),
+                                 .prescribes = boundary_conditions_move(&s->boundaries),
                                  .derivative = derivative,
                                  .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
                                  .root_functions = root_functions,
@@ -421,7 +422,7 @@ static dem_status set_up(dem_simulation *s)
 static dem_status resume(dem_simulation *s, const dem_record *record)
 {
     TRY(recall_get(s, record));
-    if (coupling_failed(s->coupling)) return coupling_report(s->coupling);
+    if (external_force_failed(s->external)) return external_force_failure(s->external);
     s->started = s->has_record = true;
     view_at(s, s->t, s->y);
     return record_copy(s->record, record);
@@ -465,8 +466,8 @@ void dem_simulation_destroy(dem_simulation *s)
     kernel_destroy(&s->kernel);
     queue_destroy(&s->queue);
     contact_destroy(&s->contact);
-    boundaries_free(&s->boundaries);
-    coupling_destroy(s->coupling);
+    boundary_conditions_free(&s->boundaries);
+    external_force_destroy(s->external);
     overlap_destroy(&s->overlap);
     free(s->initial);
     free(s->frame);

@@ -41,9 +41,9 @@ static int sides_like(const dem_lattice *l, dem_index i, dem_index j)
     return n;
 }
 
-void judge_boundary(boundary *out, const dem_lattice *l)
+void judge_boundary(boundary_condition *out, const dem_lattice *l)
 {
-    *out = (boundary){0, malloc((6 * (size_t)l->n_triangles + 1) * sizeof(dem_index))};
+    *out = (boundary_condition){0, malloc((6 * (size_t)l->n_triangles + 1) * sizeof(dem_index))};
     assert_non_null(out->ends);
     for (dem_index t = 0; t < l->n_triangles; t++)
         for (int k = 0; k < 3; k++) {
@@ -89,7 +89,7 @@ static int is_convex(const solid *s, const dem_obstacle *o, dem_index k)
     return cross(before, here, after) < 0.0;
 }
 
-double judge_vertices(const scene *sc, const boundary *b, const double *x)
+double judge_vertices(const scene *sc, const boundary_condition *b, const double *x)
 {
     double deepest = 0.0;
     for (int o = 0; o < sc->n; o++)
@@ -104,7 +104,7 @@ double judge_vertices(const scene *sc, const boundary *b, const double *x)
     return deepest;
 }
 
-double judge_clearance(const scene *sc, const boundary *b, const double *x)
+double judge_clearance(const scene *sc, const boundary_condition *b, const double *x)
 {
     double nearest = INFINITY;
     for (int o = 0; o < sc->n; o++)

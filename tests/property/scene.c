@@ -205,7 +205,7 @@ static void random_body(gsl_rng *rng, scene *sc)
 }
 
 /* Moves the body until it is near something: nine tenths of the clearance at a time, which it can go any way. */
-static void bring_near(gsl_rng *rng, scene *sc, const boundary *b)
+static void bring_near(gsl_rng *rng, scene *sc, const boundary_condition *b)
 {
     const double way = sc->solids[0].is_room ? uniform(rng, 0.0, 6.28) : -0.5 * M_PI;
     for (int k = 0; k < 60; k++) {
@@ -226,7 +226,7 @@ static void random_options(gsl_rng *rng, scene *sc)
 /* Whether the body starts clear of everything. */
 static int starts_clear(gsl_rng *rng, scene *sc)
 {
-    boundary b;
+    boundary_condition b;
     judge_boundary(&b, &sc->body);
     int clear = judge_nodes(sc, sc->body.x) == 0.0 && judge_vertices(sc, &b, sc->body.x) == 0.0;
     if (clear) bring_near(rng, sc, &b);

@@ -54,7 +54,7 @@ static void close_stage(stage *s)
 
 typedef struct watch {
     const scene *scene;
-    boundary boundary;
+    boundary_condition boundary;
     double start, open, scale, depth; /* J, J, J, m */
     double last;                      /* s, of the last frame or event told */
     long n_frames, n_events;

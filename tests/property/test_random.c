@@ -20,7 +20,7 @@ typedef struct hit {
 
 typedef struct verdict {
     const scene *scene;
-    boundary boundary;
+    boundary_condition boundary;
     double node_depth, vertex_depth; /* m */
     double gained;                   /* largest energy that an impact gave, of what it is judged by */
     double fall;                     /* largest fall of what impacts have taken so far, J */

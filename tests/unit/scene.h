@@ -20,7 +20,7 @@ typedef struct scene {
     double y[4 * SCENE_NODES];
     dem_event events[SCENE_EVENTS], impacts[SCENE_EVENTS]; /* all, and the impacts among them */
     int n_events, n_impacts;
-    dem_status answer; /* what the listener returns */
+    dem_status value; /* what the listener returns */
 } scene;
 
 static inline dem_status scene_note(void *context, const dem_event *event)
@@ -29,7 +29,7 @@ static inline dem_status scene_note(void *context, const dem_event *event)
     assert_true(s->n_events < SCENE_EVENTS);
     s->events[s->n_events++] = *event;
     if (event->kind == DEM_EVENT_IMPACT) s->impacts[s->n_impacts++] = *event;
-    return s->answer;
+    return s->value;
 }
 
 static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n)

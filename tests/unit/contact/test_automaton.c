@@ -207,7 +207,7 @@ static void an_observer_that_stops_is_heard(void **state)
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    s.answer = DEM_STOPPED;
+    s.value = DEM_STOPPED;
     scene_put(&s, 0, 0.25, -skin, 3.0, -4.0);
     assert_int_equal(scene_resolve(&s, 0.0), DEM_STOPPED);
     scene_close(&s);

@@ -25,7 +25,7 @@ typedef struct kind {
 typedef struct step {
     kind kind;
     dem_model *model;
-    boundaries b;
+    boundary_conditions b;
     contact c, before; /* contacts as they are, and as they were */
     dem_index n, n_all;
     double h;
@@ -47,7 +47,7 @@ static void derive(const step *s, contact *c, double t, const double *y, double 
     memcpy(f, v, (size_t)n * sizeof *f);
     for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
     contact_constrain(c, y, a);
-    const double work = boundaries_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
+    const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 0; k < 4 * n_obstacles + 4; k++) rate[k] = 0.0;
     contact_account(c, y, rate);
     rate[4 * n_obstacles + 1] = diagnostics_damping_power(s->model, load, y, v);
@@ -152,7 +152,7 @@ static void make_boundaries(step *s)
     memcpy(flags, lattice.flags, (size_t)s->n);
     flags[driven] = 0;
     lattice.flags = flags;
-    assert_ok(boundaries_compile(&s->b, list, 2, &lattice, 1));
+    assert_ok(boundary_conditions_compile(&s->b, list, 2, &lattice, 1));
     free(flags);
 }
 
@@ -182,7 +182,7 @@ static void put_start(step *s)
         vec2_put(s->y0, i, (vec2){x.x * (1.0 + 0.4 * x.y) - 0.02 * x.y, x.y * (0.98 + 0.3 * x.x)});
         vec2_put(v, i, (vec2){1.0 + 20.0 * x.x * x.y + 3.0 * x.y, -4.0 + 10.0 * x.y - 15.0 * x.x * x.x});
         if (s->b.held == NULL || s->b.held[i] == 0) continue;
-        v[2 * i + 1] = boundary_velocity(&s->b.list[0], start).y;
+        v[2 * i + 1] = boundary_condition_velocity(&s->b.list[0], start).y;
     }
     v[2 * s->n_all - 1] = start;
 }
@@ -209,7 +209,7 @@ static void close_step(step *s)
     changed_motion_destroy(&s->changed);
     contact_destroy(&s->c);
     contact_destroy(&s->before);
-    boundaries_free(&s->b);
+    boundary_conditions_free(&s->b);
     dem_model_destroy(s->model);
     double *const arrays[] = {s->y0, s->f0, s->y1, s->f1, s->state, s->first, s->last};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) free(arrays[k]);

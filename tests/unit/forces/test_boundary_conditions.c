@@ -10,23 +10,23 @@ enum { n_nodes = 4 };
 static unsigned char flags[n_nodes] = {DEM_NODE_CONTACT, 0, 0, DEM_NODE_FIXED};
 static const dem_lattice lattice = {.dim = 2, .n_nodes = n_nodes, .flags = flags};
 
-static void compiled(boundaries *out, const dem_boundary *list, dem_index n)
+static void compiled(boundary_conditions *out, const dem_boundary *list, dem_index n)
 {
-    assert_int_equal(boundaries_compile(out, list, n, &lattice, 1), DEM_OK);
+    assert_int_equal(boundary_conditions_compile(out, list, n, &lattice, 1), DEM_OK);
 }
 
 /* The ramp rises from 0 to 1 as its symmetric polynomial does, and stays there. */
 static void a_ramp_rises_smoothly_from_0_to_1(void **unused)
 {
-    const boundary b = {.ramp = 2.0}, none = {.ramp = 0.0};
+    const boundary_condition b = {.ramp = 2.0}, none = {.ramp = 0.0};
     (void)unused;
-    assert_close(boundary_ramp(&b, 0.0), 0.0, 0.0);
-    assert_close(boundary_ramp(&b, 0.5), 53.0 / 512.0, 1e-16);
-    assert_close(boundary_ramp(&b, 1.0), 0.5, 1e-16);
-    assert_close(boundary_ramp(&b, 1.5), 1.0 - 53.0 / 512.0, 1e-15);
-    assert_close(boundary_ramp(&b, 2.0), 1.0, 0.0);
-    assert_close(boundary_ramp(&b, 9.0), 1.0, 0.0);
-    assert_close(boundary_ramp(&none, 0.0), 1.0, 0.0);
+    assert_close(boundary_condition_ramp(&b, 0.0), 0.0, 0.0);
+    assert_close(boundary_condition_ramp(&b, 0.5), 53.0 / 512.0, 1e-16);
+    assert_close(boundary_condition_ramp(&b, 1.0), 0.5, 1e-16);
+    assert_close(boundary_condition_ramp(&b, 1.5), 1.0 - 53.0 / 512.0, 1e-15);
+    assert_close(boundary_condition_ramp(&b, 2.0), 1.0, 0.0);
+    assert_close(boundary_condition_ramp(&b, 9.0), 1.0, 0.0);
+    assert_close(boundary_condition_ramp(&none, 0.0), 1.0, 0.0);
 }
 
 /* Central differences of the way give velocity and acceleration, before, on and beyond the ramp; their error is h^2/6
@@ -38,27 +38,28 @@ static void velocity_and_acceleration_are_derivatives_of_the_way(void **unused)
     (void)unused;
     for (int kind = DEM_BOUNDARY_VELOCITY; kind <= DEM_BOUNDARY_DISPLACEMENT; kind++)
         for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
-            const boundary b = {.kind = (dem_boundary_kind)kind, .value = {3.0, -2.0}, .ramp = 2.0};
+            const boundary_condition b = {.kind = (dem_boundary_kind)kind, .value = {3.0, -2.0}, .ramp = 2.0};
             const double t = times[k];
-            const vec2 before = boundary_displacement(&b, t - h), after = boundary_displacement(&b, t + h);
-            const vec2 slower = boundary_velocity(&b, t - h), faster = boundary_velocity(&b, t + h);
-            assert_close(boundary_velocity(&b, t).x, (after.x - before.x) / (2.0 * h), 1e-6);
-            assert_close(boundary_velocity(&b, t).y, (after.y - before.y) / (2.0 * h), 1e-6);
-            assert_close(boundary_acceleration(&b, t).x, (faster.x - slower.x) / (2.0 * h), 1e-6);
-            assert_close(boundary_acceleration(&b, t).y, (faster.y - slower.y) / (2.0 * h), 1e-6);
+            const vec2 before = boundary_condition_displacement(&b, t - h),
+                       after = boundary_condition_displacement(&b, t + h);
+            const vec2 slower = boundary_condition_velocity(&b, t - h), faster = boundary_condition_velocity(&b, t + h);
+            assert_close(boundary_condition_velocity(&b, t).x, (after.x - before.x) / (2.0 * h), 1e-6);
+            assert_close(boundary_condition_velocity(&b, t).y, (after.y - before.y) / (2.0 * h), 1e-6);
+            assert_close(boundary_condition_acceleration(&b, t).x, (faster.x - slower.x) / (2.0 * h), 1e-6);
+            assert_close(boundary_condition_acceleration(&b, t).y, (faster.y - slower.y) / (2.0 * h), 1e-6);
         }
 }
 
 static void a_constant_velocity_goes_on_from_half_its_ramp(void **unused)
 {
-    const boundary ramped = {.kind = DEM_BOUNDARY_VELOCITY, .value = {3.0, 0.0}, .ramp = 2.0};
-    const boundary sudden = {.kind = DEM_BOUNDARY_VELOCITY, .value = {3.0, 0.0}};
+    const boundary_condition ramped = {.kind = DEM_BOUNDARY_VELOCITY, .value = {3.0, 0.0}, .ramp = 2.0};
+    const boundary_condition sudden = {.kind = DEM_BOUNDARY_VELOCITY, .value = {3.0, 0.0}};
     (void)unused;
-    assert_close(boundary_displacement(&ramped, 2.0).x, 3.0, 1e-15);
-    assert_close(boundary_displacement(&ramped, 5.0).x, 12.0, 1e-15);
-    assert_close(boundary_displacement(&sudden, 5.0).x, 15.0, 1e-15);
-    assert_close(boundary_velocity(&sudden, 0.0).x, 3.0, 0.0);
-    assert_close(boundary_acceleration(&sudden, 0.0).x, 0.0, 0.0);
+    assert_close(boundary_condition_displacement(&ramped, 2.0).x, 3.0, 1e-15);
+    assert_close(boundary_condition_displacement(&ramped, 5.0).x, 12.0, 1e-15);
+    assert_close(boundary_condition_displacement(&sudden, 5.0).x, 15.0, 1e-15);
+    assert_close(boundary_condition_velocity(&sudden, 0.0).x, 3.0, 0.0);
+    assert_close(boundary_condition_acceleration(&sudden, 0.0).x, 0.0, 0.0);
 }
 
 static void forces_add_up_on_a_node_and_follow_their_ramps(void **unused)
@@ -68,19 +69,19 @@ static void forces_add_up_on_a_node_and_follow_their_ramps(void **unused)
     const dem_boundary list[] = {
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = nodes, .share = share, .value = {4.0, 8.0}, .ramp = 2.0},
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = one, .value = {0.0, 1.0}}};
-    boundaries b;
+    boundary_conditions b;
     (void)unused;
     compiled(&b, list, 2);
-    assert_close(boundaries_force(&b, 0, 1.0).x, 0.5, 1e-15);
-    assert_close(boundaries_force(&b, 1, 1.0).x, 0.0, 0.0);
-    assert_close(boundaries_force(&b, 2, 1.0).x, 6.0, 1e-14);
-    assert_close(boundaries_force(&b, 2, 1.0).y, 13.0, 1e-14);
+    assert_close(boundary_conditions_force(&b, 0, 1.0).x, 0.5, 1e-15);
+    assert_close(boundary_conditions_force(&b, 1, 1.0).x, 0.0, 0.0);
+    assert_close(boundary_conditions_force(&b, 2, 1.0).x, 6.0, 1e-14);
+    assert_close(boundary_conditions_force(&b, 2, 1.0).y, 13.0, 1e-14);
     const double v[2 * n_nodes] = {1.0, 0.0, 9.0, 9.0, 0.0, 2.0}, mass[n_nodes] = {1.0, 1.0, 1.0, 1.0};
     double f[2 * n_nodes] = {0.0}, a[2 * n_nodes] = {0.0};
-    assert_close(boundaries_prescribe(&b, mass, 1.0, v, f, a), 0.5 * 1.0 + 13.0 * 2.0, 1e-14); /* sum of F.v */
-    assert_close(boundaries_settled(&b), 2.0, 0.0);
-    assert_close(boundaries_speed(&b), 0.0, 0.0);
-    boundaries_free(&b);
+    assert_close(boundary_conditions_prescribe(&b, mass, 1.0, v, f, a), 0.5 * 1.0 + 13.0 * 2.0, 1e-14); /* sum of F.v */
+    assert_close(boundary_conditions_settled(&b), 2.0, 0.0);
+    assert_close(boundary_conditions_speed(&b), 0.0, 0.0);
+    boundary_conditions_free(&b);
 }
 
 /* Only the component named is prescribed; the power is what its force, m times the change of acceleration, does. */
@@ -94,20 +95,20 @@ static void a_prescribed_component_leaves_the_other_one_free(void **unused)
                                   .value = {7.0, 5.0}}};
     const double mass[n_nodes] = {1.0, 2.0, 1.0, 1.0};
     double v[2 * n_nodes] = {0.0}, f[2 * n_nodes] = {0.0}, a[2 * n_nodes] = {0.0};
-    boundaries b;
+    boundary_conditions b;
     (void)unused;
     compiled(&b, list, 1);
-    boundaries_begin(&b, v);
+    boundary_conditions_begin(&b, v);
     assert_close(v[2], 0.0, 0.0);
     assert_close(v[3], 5.0, 0.0);
     f[2] = 1.0, f[3] = 4.9, a[2] = 11.0, a[3] = -3.0;
-    assert_close(boundaries_prescribe(&b, mass, 1.0, v, f, a), 2.0 * 3.0 * 5.0, 1e-14);
+    assert_close(boundary_conditions_prescribe(&b, mass, 1.0, v, f, a), 2.0 * 3.0 * 5.0, 1e-14);
     assert_close(f[2], 1.0, 0.0);
     assert_close(f[3], 5.0, 0.0);
     assert_close(a[2], 11.0, 0.0);
     assert_close(a[3], 0.0, 0.0);
-    assert_close(boundaries_speed(&b), hypot(7.0, 5.0), 1e-15);
-    boundaries_free(&b);
+    assert_close(boundary_conditions_speed(&b), hypot(7.0, 5.0), 1e-15);
+    boundary_conditions_free(&b);
 }
 
 /* The fastest point of a displacement's ramp is its middle. */
@@ -120,17 +121,17 @@ static void the_speed_of_a_displacement_is_that_of_its_middle(void **unused)
                                   .nodes = nodes,
                                   .value = {-4.0, 0.0},
                                   .ramp = 2.0}};
-    boundaries b;
+    boundary_conditions b;
     (void)unused;
     compiled(&b, list, 1);
-    assert_close(boundaries_speed(&b), -boundary_velocity(&b.list[0], 1.0).x, 1e-15);
-    boundaries_free(&b);
+    assert_close(boundary_conditions_speed(&b), -boundary_condition_velocity(&b.list[0], 1.0).x, 1e-15);
+    boundary_conditions_free(&b);
 }
 
 static void refused(dem_boundary one, dem_status status, const char *message)
 {
-    boundaries b;
-    assert_int_equal(boundaries_compile(&b, &one, 1, &lattice, 1), status);
+    boundary_conditions b;
+    assert_int_equal(boundary_conditions_compile(&b, &one, 1, &lattice, 1), status);
     assert_string_equal(dem_status_message(), message);
     assert_null(b.list);
 }
@@ -172,12 +173,12 @@ static void a_component_is_prescribed_once(void **unused)
     dem_boundary list[] = {
         {.kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 2, .nodes = nodes},
         {.kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y, .n_nodes = 2, .nodes = nodes}};
-    boundaries b;
+    boundary_conditions b;
     (void)unused;
     compiled(&b, list, 2);
-    boundaries_free(&b);
+    boundary_conditions_free(&b);
     list[1].components = DEM_COMPONENT_X | DEM_COMPONENT_Y;
-    assert_int_equal(boundaries_compile(&b, list, 2, &lattice, 1), DEM_ERROR_MODEL);
+    assert_int_equal(boundary_conditions_compile(&b, list, 2, &lattice, 1), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "boundary 1: the motion of node 1 is prescribed by another one already");
 }
 

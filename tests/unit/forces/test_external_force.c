@@ -33,14 +33,14 @@ static dem_status answer(void *context, const dem_force_query *q, double *force)
     return s->status;
 }
 
-static coupling *make(source *s)
+static external_force *make(source *s)
 {
     dem_options options = dem_options_default();
-    coupling *c;
+    external_force *c;
     *s = (source){.bad = -1};
     options.force = answer;
     options.force_context = s;
-    assert_int_equal(coupling_create(&c, &options, n_nodes), DEM_OK);
+    assert_int_equal(external_force_create(&c, &options, n_nodes), DEM_OK);
     assert_non_null(c);
     return c;
 }
@@ -48,38 +48,38 @@ static coupling *make(source *s)
 static const double x[2 * n_nodes] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
 static const double v[2 * n_nodes] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
 
-static void ask_all(coupling *c, double t)
+static void ask_all(external_force *c, double t)
 {
-    coupling_ask(c, &(dem_force_query){t, n_nodes, c->all, x, v});
+    external_force_evaluate(c, &(dem_force_query){t, n_nodes, c->all, x, v});
 }
 
 static void without_a_force_there_is_no_coupling(void **state)
 {
     const dem_options options = dem_options_default();
-    coupling *c = (coupling *)1;
+    external_force *c = (external_force *)1;
     (void)state;
-    assert_int_equal(coupling_create(&c, &options, n_nodes), DEM_OK);
+    assert_int_equal(external_force_create(&c, &options, n_nodes), DEM_OK);
     assert_null(c);
-    assert_false(coupling_failed(NULL));
-    coupling_destroy(NULL);
+    assert_false(external_force_failed(NULL));
+    external_force_destroy(NULL);
 }
 
 static void one_node_has_the_same_answer_as_all(void **state)
 {
     source s;
     (void)state;
-    coupling *c = make(&s);
+    external_force *c = make(&s);
     ask_all(c, 0.25);
     assert_int_equal(s.calls, 1);
     for (dem_index i = 0; i < n_nodes; i++) {
         const vec2 wanted = right(i, 0.25, vec2_at(x, i), vec2_at(v, i));
-        const vec2 alone = coupling_force(c, 0.25, i, vec2_at(x, i), vec2_at(v, i));
-        assert_close(c->answer[2 * i], wanted.x, 0.0);
-        assert_close(c->answer[2 * i + 1], wanted.y, 0.0);
-        assert_memory_equal(&alone, &c->answer[2 * i], sizeof alone);
+        const vec2 alone = external_force_of_node(c, 0.25, i, vec2_at(x, i), vec2_at(v, i));
+        assert_close(c->value[2 * i], wanted.x, 0.0);
+        assert_close(c->value[2 * i + 1], wanted.y, 0.0);
+        assert_memory_equal(&alone, &c->value[2 * i], sizeof alone);
     }
     assert_int_equal(s.calls, 1 + n_nodes);
-    coupling_destroy(c);
+    external_force_destroy(c);
 }
 
 static void power_is_force_times_velocity(void **state)
@@ -87,33 +87,33 @@ static void power_is_force_times_velocity(void **state)
     source s;
     double power = 0.0;
     (void)state;
-    coupling *c = make(&s);
+    external_force *c = make(&s);
     ask_all(c, 2.0);
     for (dem_index i = 0; i < n_nodes; i++)
         power += vec2_dot(right(i, 2.0, vec2_at(x, i), vec2_at(v, i)), vec2_at(v, i));
-    assert_close(coupling_power(c, v), power, 1e-15 * power);
-    coupling_destroy(c);
+    assert_close(external_force_power(c, v), power, 1e-15 * power);
+    external_force_destroy(c);
 }
 
 /* Nobody is asked any more, and forces are 0, until the failure has been told. */
-static void fail_and_recover(coupling *c, source *s, dem_status status, const char *message)
+static void fail_and_recover(external_force *c, source *s, dem_status status, const char *message)
 {
     static const double nothing[2 * n_nodes];
     ask_all(c, 0.5);
-    assert_true(coupling_failed(c));
-    assert_memory_equal(c->answer, nothing, sizeof nothing);
+    assert_true(external_force_failed(c));
+    assert_memory_equal(c->value, nothing, sizeof nothing);
     const long calls = s->calls;
     ask_all(c, 0.75);
-    const vec2 alone = coupling_force(c, 0.75, 0, vec2_at(x, 0), vec2_at(v, 0));
-    assert_memory_equal(c->answer, nothing, sizeof nothing);
+    const vec2 alone = external_force_of_node(c, 0.75, 0, vec2_at(x, 0), vec2_at(v, 0));
+    assert_memory_equal(c->value, nothing, sizeof nothing);
     assert_memory_equal(&alone, nothing, sizeof alone);
     assert_int_equal(s->calls, calls);
-    assert_int_equal(coupling_report(c), status);
+    assert_int_equal(external_force_failure(c), status);
     assert_string_equal(dem_status_message(), message);
-    assert_false(coupling_failed(c));
+    assert_false(external_force_failed(c));
     *s = (source){.bad = -1};
     ask_all(c, 0.75);
-    assert_false(coupling_failed(c));
+    assert_false(external_force_failed(c));
     assert_int_equal(s->calls, 1);
 }
 
@@ -122,7 +122,7 @@ static void a_failure_lasts_until_it_is_told(void **state)
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     source s;
     (void)state;
-    coupling *c = make(&s);
+    external_force *c = make(&s);
     s.status = DEM_STOPPED;
     fail_and_recover(c, &s, DEM_STOPPED, "the external force was refused at t = 0.5 s");
     s.status = DEM_ERROR_IO;
@@ -132,7 +132,7 @@ static void a_failure_lasts_until_it_is_told(void **state)
         s.bad_value = bad[k];
         fail_and_recover(c, &s, DEM_ERROR_INTEGRATOR, "the external force on node 2 is not finite at t = 0.5 s");
     }
-    coupling_destroy(c);
+    external_force_destroy(c);
 }
 
 int main(void)

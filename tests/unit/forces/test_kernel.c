@@ -363,17 +363,17 @@ static void fixed_and_pushed_nodes_agree(void **state)
     const dem_index pushed[] = {3, 17, 40}, others[] = {17, 5};
     const dem_boundary list[] = {{.kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = pushed, .value = {1e3, -2e3}},
                                  {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = others, .value = {5.0, 1.0}}};
-    boundaries pushes;
+    boundary_conditions pushes;
     (void)state;
     lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
     assert_non_null(lattice.flags);
     for (dem_index i = 0; i < lattice.n_nodes; i += 7) lattice.flags[i] = DEM_NODE_FIXED;
     scene s = make_scene(&lattice, 0.1);
-    assert_ok(boundaries_compile(&pushes, list, 2, &s.model->lattice, 0));
+    assert_ok(boundary_conditions_compile(&pushes, list, 2, &s.model->lattice, 0));
     const forces load = {
         .gravity = {0.0, -9.81}, .mass_damping = 1.0, .boundaries = &pushes, .clock = lattice.n_nodes - 1};
     check_load(&s, &load);
-    boundaries_free(&pushes);
+    boundary_conditions_free(&pushes);
     free_scene(&s);
     dem_lattice_free(&lattice);
 }
@@ -406,7 +406,7 @@ static void triangles_may_reach_further_than_springs(void **state)
 /* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
 static void what_depends_on_more_than_positions_is_not_fused(void **state)
 {
-    const boundaries pushes = {0};
+    const boundary_conditions pushes = {0};
     const forces plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
     (void)state;
     for (int k = 0; k < 3; k++) {

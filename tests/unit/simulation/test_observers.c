@@ -9,7 +9,7 @@
 /* What several observers were told: the context of each is its letter in one diary. */
 typedef struct voice {
     char letter;
-    dem_status answer;
+    dem_status value;
 } voice;
 
 static char diary[64];
@@ -21,7 +21,7 @@ static dem_status note(void *context, char kind)
     assert_true(n + 2 < sizeof diary);
     diary[n] = kind;
     diary[n + 1] = v->letter;
-    return v->answer;
+    return v->value;
 }
 
 static dem_status on_frame(void *context, const dem_simulation *simulation)

@@ -8,7 +8,7 @@
 #include "simulation/options.h"
 
 static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
-static const boundaries no_boundaries = {0};
+static const boundary_conditions no_boundaries = {0};
 
 /* One node of 2 kg, 1 m above a floor. */
 static dem_model *make_point(const double v[2])
@@ -256,7 +256,7 @@ static void the_scale_of_speed_is_the_largest_at_hand(void **state)
     const dem_index first = 0;
     const dem_boundary driven = {
         .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &first, .value = {70.0}};
-    boundaries b;
+    boundary_conditions b;
     (void)state;
     dem_model *model = make_point(NULL);
     dem_options options = point_options();
@@ -273,10 +273,10 @@ static void the_scale_of_speed_is_the_largest_at_hand(void **state)
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.v_scale, 1e-3 * 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), 1e-15);
     options = dem_options_default();
-    assert_ok(boundaries_compile(&b, &driven, 1, dem_model_lattice(model), 0));
+    assert_ok(boundary_conditions_compile(&b, &driven, 1, dem_model_lattice(model), 0));
     assert_ok(options_fill(&options, model, &b));
     assert_close(options.v_scale, 70.0, 0.0);
-    boundaries_free(&b);
+    boundary_conditions_free(&b);
     dem_model_destroy(model);
 }
 
