@@ -9,94 +9,95 @@
 #include "contact/broad_phase.h"
 #include "contact/event_location.h"
 
-typedef struct contact {
-    contact_sites sites;
-    contact_watch watch;
+typedef struct automaton {
+    contact_set set;
+    broad_phase broad_phase;
     double solved;  /* s, time of the state for which the reactions' forces are known; NAN: none */
     bool quiet;     /* and all guards were > 0 in that state, so that nothing is due */
     double way;     /* m, no site goes further in the step that was checked last */
     bool all;       /* so that all sites are to be asked, not only those awake */
     dem_index idle; /* events in a row that changed nothing */
-} contact;
+} automaton;
 
 /** `out` must stay where it is. */
-dem_status contact_create(contact *out, const dem_model *model, const contact_rule *rule);
-void contact_destroy(contact *c);
+dem_status automaton_create(automaton *out, const dem_model *model, const contact_rule *rule);
+void automaton_destroy(automaton *c);
 
 /** Whether no site without contacts is deeper in an obstacle than the skin: else DEM_ERROR_MODEL names the node.
  *  \param x  [n][2] */
-dem_status contact_admissible(const contact *c, const double *x);
+dem_status automaton_check_start(const automaton *c, const double *x);
 
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
-dem_status contact_start(contact *c, double t, double *y, const contact_listener *listener);
+dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener);
 
-/** Opens all contacts without a word, for contact_start() to find those of another motion.
+/** Opens all contacts without a word, for automaton_start() to find those of another motion.
  *  \return DEM_ERROR_MEMORY */
-dem_status contact_forget(contact *c);
+dem_status automaton_open_all(automaton *c);
 
 /** Takes up the contacts that sites are said to have in the state y: what follows from them is worked out anew.
  *  \return DEM_ERROR_MEMORY */
-dem_status contact_renew(contact *c, const double *y);
+dem_status automaton_restore(automaton *c, const double *y);
 
-/** Values of all guards at a state at t, [n_sites][SITE_GUARDS]: see site_guards(). */
-void contact_guards(contact *c, double t, const double *y, double *g);
+/** Values of all guards at a state at t, [n_candidates][CANDIDATE_ROOTS]: see candidate_root_functions(). */
+void automaton_root_functions(automaton *c, double t, const double *y, double *g);
 
 /** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
-void contact_constrain(contact *c, const double *y, double *a);
+void automaton_constrain(automaton *c, const double *y, double *a);
 
 /** Looks how far sites go in an accepted step, and solves for the forces in closed contacts at its end.
  *  \param[out] state  [4 n] scratch */
-void contact_expect(contact *c, const dense_output *p, double *state);
+void automaton_begin_step(automaton *c, const dense_output *p, double *state);
 
 /** Solves for the forces of one group there. */
-void contact_weigh(contact *c, const dense_output *p, dem_index group, double *state);
+void automaton_solve_group(automaton *c, const dense_output *p, dem_index group, double *state);
 
 /** Sites for which something can happen in the step: their number, and the a-th of them. */
-static inline dem_index contact_watched(const contact *c)
+static inline dem_index automaton_n_active(const automaton *c)
 {
-    return c->all ? c->sites.n : c->watch.n;
+    return c->all ? c->set.n : c->broad_phase.n;
 }
 
-static inline dem_index contact_at_watch(const contact *c, dem_index a)
+static inline dem_index automaton_active_candidate(const automaton *c, dem_index a)
 {
-    return c->all ? a : c->watch.awake[a];
+    return c->all ? a : c->broad_phase.active[a];
 }
 
 /** When a site that has room for a contact touches, as it is known by now: changes nothing but the site, so that
  *  threads may ask for different ones at once. `from` for one that is inside already. */
-double contact_crossing(contact *c, const dense_output *p, dem_index k, double from);
+double automaton_crossing(automaton *c, const dense_output *p, dem_index k, double from);
 
-/** First time after `from` in the step at which something happens at a site, after contact_expect(): it is inside an
- *  obstacle, if only between entry and exit, or a closed contact of it has to change that still has to at the end.
- *  Infinity if nothing happens.  \param[out] state  [4 n] scratch */
-double contact_next(contact *c, const dense_output *p, dem_index k, double from, double *state);
+/** First time after `from` in the step at which something happens at a site, after automaton_begin_step(): it is
+ *  inside an obstacle, if only between entry and exit, or a closed contact of it has to change that still has to at
+ *  the end. Infinity if nothing happens.  \param[out] state  [4 n] scratch */
+double automaton_next_change(automaton *c, const dense_output *p, dem_index k, double from, double *state);
 
 /** Looks in an accepted step for what the root finder has not seen. If there is something, cuts path->end short to the
  *  first and returns true. `rooted`: the path ends at a root already. \param[out] state  [4 n] scratch */
-bool contact_check(contact *c, dense_output *p, bool rooted, double *state);
+bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *state);
 
 /** Puts closed vertex contacts that the integrator's error has opened back on their surfaces, and takes the velocity
  *  that they have across.  \return whether any was */
-bool contact_straighten(contact *c, double t, double *y);
+bool automaton_project(automaton *c, double t, double *y);
 
 /** Follows an accepted step that ends at y: refreshes the forces, and looks where the sites are. */
-void contact_follow(contact *c, const dense_output *p, const double *y);
+void automaton_end_step(automaton *c, const dense_output *p, const double *y);
 
-/** Adds to the rates [2 n_obstacles + 1][2], after contact_constrain() in the same state: the force of each obstacle's
- *  closed contacts, N; the part of it that is friction; and in the last place the power that friction takes, W. */
-void contact_account(const contact *c, const double *y, double *rate);
+/** Adds to the rates [2 n_obstacles + 1][2], after automaton_constrain() in the same state: the force of each
+ *  obstacle's closed contacts, N; the part of it that is friction; and in the last place the power that friction
+ *  takes, W. */
+void automaton_add_rates(const automaton *c, const double *y, double *rate);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.
  *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first
  *  status other than DEM_OK that the listener returned */
-dem_status contact_resolve(contact *c, double t, double *y, const contact_listener *listener);
+dem_status automaton_resolve(automaton *c, double t, double *y, const event_listener *listener);
 
 /** The same at one site and those that share nodes with it, where nothing else is known to be due: reads and changes
  *  only what is near them, and leaves the rest of what follows from a change to the caller. */
-dem_status contact_resolve_at(contact *c, dem_index k, double t, double *y, const contact_listener *listener);
+dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener);
 
-/** Closed contacts at positions x, in the order of sites, into list [2 n_sites]; returns their number. */
-dem_index contact_list(const contact *c, const double *x, dem_contact *list);
+/** Closed contacts at positions x, in the order of sites, into list [2 n_candidates]; returns their number. */
+dem_index automaton_list(const automaton *c, const double *x, dem_contact *list);
 
 #endif

@@ -6,24 +6,24 @@
 
 #include "base/status.h"
 
-dem_status watch_create(contact_watch *out, dem_index n_sites)
+dem_status broad_phase_create(broad_phase *out, dem_index n_candidates)
 {
-    contact_watch w = {.awake = malloc(((size_t)n_sites + 1) * sizeof *w.awake)};
-    CHECK(w.awake != NULL, DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_sites);
+    broad_phase w = {.active = malloc(((size_t)n_candidates + 1) * sizeof *w.active)};
+    CHECK(w.active != NULL, DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_candidates);
     *out = w;
     return DEM_OK;
 }
 
-void watch_destroy(contact_watch *w)
+void broad_phase_destroy(broad_phase *w)
 {
-    free(w->awake);
-    *w = (contact_watch){0};
+    free(w->active);
+    *w = (broad_phase){0};
 }
 
-double watch_speed(const contact_sites *c, const double *v)
+double broad_phase_speed(const contact_set *c, const double *v)
 {
     double square = 0.0;
-    for (dem_index k = 0; k < c->scene.model->n_sites; k++) {
+    for (dem_index k = 0; k < c->scene.model->n_contact_nodes; k++) {
         const vec2 vi = vec2_at(v, c->list[k].node);
         square = fmax(square, vec2_dot(vi, vi));
     }
@@ -31,55 +31,56 @@ double watch_speed(const contact_sites *c, const double *v)
 }
 
 /* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */
-static void come_back(contact_sites *c, dem_index k, vec2 x)
+static void come_back(contact_set *c, dem_index k, vec2 x)
 {
     const double margin = scene_margin(&c->scene);
     if (obstacles_gap_of(&c->scene.model->obstacles, x, margin, c->list[k].behind[0]).distance > 0.0)
-        sites_go_behind(c, k, -1);
+        contact_set_pass_behind(c, k, -1);
 }
 
 /* Looks how far a site is from everything else, and lets it sleep if that is further than `reach`. */
-static void look_at(contact_watch *w, contact_sites *c, dem_index k, const double *x, double reach)
+static void look_at(broad_phase *w, contact_set *c, dem_index k, const double *x, double reach)
 {
-    contact_site *site = &c->list[k];
-    const contact_spot spot = site_spot(site, x);
+    contact_candidate *candidate = &c->list[k];
+    const candidate_positions spot = candidate_place(candidate, x);
     dem_index nearest;
-    double clear = site_clearance(&c->scene, site, &spot, &nearest);
-    const bool untouched = site->asleep ? site->wake > w->travelled : site_moved(site, &spot) < site->clear;
-    if (clear < 0.0 && untouched && site->n_closed == 0 && !site_is_edge(site)) {
-        sites_go_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
-        clear = site_clearance(&c->scene, site, &spot, &nearest);
+    double clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
+    const bool untouched = candidate->inactive ? candidate->active_from > w->travelled
+                                               : candidate_moved(candidate, &spot) < candidate->clear;
+    if (clear < 0.0 && untouched && candidate->n_closed == 0 && !candidate_is_edge(candidate)) {
+        contact_set_pass_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
+        clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
     }
     clear -= 2.0 * scene_margin(&c->scene);
-    site->asleep = clear > reach;
-    site->wake = w->travelled + clear;
-    site->clear = fmax(0.0, clear);
-    site->clear_at[0] = spot.a;
-    site->clear_at[1] = spot.b;
+    candidate->inactive = clear > reach;
+    candidate->active_from = w->travelled + clear;
+    candidate->clear = fmax(0.0, clear);
+    candidate->clear_at[0] = spot.a;
+    candidate->clear_at[1] = spot.b;
 }
 
 /* What sleeps until it may wake, and what is awake until it has moved half as far as it was clear. */
-static bool worth_a_look(const contact_watch *w, const contact_site *site, const double *x, double reach)
+static bool worth_a_look(const broad_phase *w, const contact_candidate *candidate, const double *x, double reach)
 {
-    if (site->asleep) return site->wake <= w->travelled + reach;
-    const contact_spot spot = site_spot(site, x);
-    return site_moved(site, &spot) >= 0.5 * site->clear;
+    if (candidate->inactive) return candidate->active_from <= w->travelled + reach;
+    const candidate_positions spot = candidate_place(candidate, x);
+    return candidate_moved(candidate, &spot) >= 0.5 * candidate->clear;
 }
 
-void watch_look(contact_watch *w, contact_sites *c, const double *x, const double *v)
+void broad_phase_update(broad_phase *w, contact_set *c, const double *x, const double *v)
 {
-    w->speed = watch_speed(c, v);
+    w->speed = broad_phase_speed(c, v);
     const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* further is found after the step */
     w->n = 0;
     w->earliest = (double)INFINITY;
-    for (dem_index k = 0; k < c->scene.model->n_sites && c->books.counts.behind > 0; k++)
+    for (dem_index k = 0; k < c->scene.model->n_contact_nodes && c->ledger.counts.behind > 0; k++)
         if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(x, c->list[k].node));
     for (dem_index k = 0; k < c->n; k++) {
-        const contact_site *site = &c->list[k];
-        if (worth_a_look(w, site, x, reach)) look_at(w, c, k, x, reach);
-        if (site->n_closed > 0 || !site->asleep)
-            w->awake[w->n++] = k;
+        const contact_candidate *candidate = &c->list[k];
+        if (worth_a_look(w, candidate, x, reach)) look_at(w, c, k, x, reach);
+        if (candidate->n_closed > 0 || !candidate->inactive)
+            w->active[w->n++] = k;
         else
-            w->earliest = fmin(w->earliest, site->wake);
+            w->earliest = fmin(w->earliest, candidate->active_from);
     }
 }

@@ -6,35 +6,35 @@
 
 #include "contact/contact_set.h"
 
-typedef struct contact_watch {
+typedef struct broad_phase {
     double travelled; /* m, no site has gone further since the start */
-    double speed;     /* m/s, of watch_speed() at the last look */
+    double speed;     /* m/s, of broad_phase_speed() at the last look */
     dem_index n;
-    dem_index *awake; /* [n] sites that are closed, or may touch something in the next step */
+    dem_index *active; /* [n] sites that are closed, or may touch something in the next step */
     double
         earliest; /* m, what `travelled` has to reach for the first of the others to wake; infinity: there are none */
-} contact_watch;
+} broad_phase;
 
-dem_status watch_create(contact_watch *out, dem_index n_sites);
-void watch_destroy(contact_watch *w);
+dem_status broad_phase_create(broad_phase *out, dem_index n_candidates);
+void broad_phase_destroy(broad_phase *w);
 
 /** Fastest of the nodes that may touch, m/s. */
-double watch_speed(const contact_sites *c, const double *v);
+double broad_phase_speed(const contact_set *c, const double *v);
 
 /** Looks again at what has woken, before a step from (x, v). A node found inside an obstacle that it cannot have
  *  touched has come round its free end, and is behind it; one that is behind may have come back. */
-void watch_look(contact_watch *w, contact_sites *c, const double *x, const double *v);
+void broad_phase_update(broad_phase *w, contact_set *c, const double *x, const double *v);
 
 /** Whether all sites have to be asked after `way` (m) more: else none wakes that was not awake at the last look. */
-static inline bool watch_asks_all(const contact_watch *w, double way)
+static inline bool broad_phase_covers_all(const broad_phase *w, double way)
 {
     return w->earliest <= w->travelled + way;
 }
 
 /** Whether a site may have touched something after `way` (m) more. */
-static inline bool watch_wakes(const contact_watch *w, const contact_site *site, double way)
+static inline bool broad_phase_may_touch(const broad_phase *w, const contact_candidate *candidate, double way)
 {
-    return !site->asleep || site->wake <= w->travelled + way;
+    return !candidate->inactive || candidate->active_from <= w->travelled + way;
 }
 
 #endif

@@ -8,7 +8,7 @@
 #include "time/dense_output.h"
 
 /** Guard functions per site; each is > 0 while nothing happens and falls through 0 when something does. */
-enum { SITE_GUARDS = 4 };
+enum { CANDIDATE_ROOTS = 4 };
 
 /** Distance to what a site is not in contact with. */
 typedef struct contact_gap {
@@ -19,48 +19,52 @@ typedef struct contact_gap {
 } contact_gap;
 
 /** Where the nodes of a site are: a, an edge's second b, and an edge's neighbours on the boundary. */
-typedef struct contact_spot {
+typedef struct candidate_positions {
     vec2 a, b, previous, next;
-} contact_spot;
+} candidate_positions;
 
-contact_spot site_spot(const contact_site *site, const double *x);
-contact_spot site_spot_on(const contact_site *site, const dense_output *p, double t);
+candidate_positions candidate_place(const contact_candidate *candidate, const double *x);
+candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t);
 
 /** How far a site has moved since it was seen to be clear, m. */
-double site_moved(const contact_site *site, const contact_spot *spot);
+double candidate_moved(const contact_candidate *candidate, const candidate_positions *spot);
 
 /** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it
  *  is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
  *  themselves; of an edge its vertex. */
-contact_gap site_gap(const contact_scene *scene, const contact_site *site, const contact_spot *spot);
+contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
+                          const candidate_positions *spot);
 
 /** The nearest vertex within reach (m) of an edge, in front of it, behind it or beside it. */
-contact_gap site_around(const contact_scene *scene, const contact_site *site, const contact_spot *spot, double reach);
+contact_gap candidate_around(const contact_scene *scene, const contact_candidate *candidate,
+                             const candidate_positions *spot, double reach);
 
 /** How far at least a site is from everything else that it can touch, m; < 0 inside.
  *  \param[out] nearest  of a node, the nearest segment */
-double site_clearance(const contact_scene *scene, const contact_site *site, const contact_spot *spot,
-                      dem_index *nearest);
+double candidate_clearance(const contact_scene *scene, const contact_candidate *candidate,
+                           const candidate_positions *spot, dem_index *nearest);
 
 /** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */
-int site_end_passed(const contact_scene *scene, const contact_site *site, int q, const double *x, const double *v);
+int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
+                         const double *v);
 
 /** Whether sliding contact q has turned back: it slides against its sign. Without friction that does not matter. */
-bool site_turns(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f, const double *v);
+bool candidate_turns(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
+                     const double *v);
 
 /** How far the friction of contact q is below what the normal force and rounding allow, N; infinity unless it sticks by
  *  friction. */
-double site_grip(const contact_scene *scene, const contact_site *site, int q, const touch_frame *f,
-                 const reaction *force, const double *x);
+double candidate_grip(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
+                      const contact_force *force, const double *x);
 
-/** Values of the guards in a state, [SITE_GUARDS]: gap + skin; smallest normal force; distance to the nearer end +
+/** Values of the guards in a state, [CANDIDATE_ROOTS]: gap + skin; smallest normal force; distance to the nearer end +
  *  skin of what slides, grip of what sticks; speed of sliding. What does not apply is 1.
  *  \param force  of its closed contacts in that state */
-void site_guards(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
-                 const double *v, double *g);
+void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
+                              const contact_force force[2], const double *x, const double *v, double *g);
 
 /** Whether a closed site's contacts have to change in a state. */
-bool site_due(const contact_scene *scene, const contact_site *site, const reaction force[2], const double *x,
-              const double *v);
+bool candidate_due(const contact_scene *scene, const contact_candidate *candidate, const contact_force force[2],
+                   const double *x, const double *v);
 
 #endif

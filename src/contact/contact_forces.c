@@ -15,13 +15,13 @@ typedef enum aim { FORCE, IMPULSE, SHIFT } aim;
 /* ---- groups ---- */
 
 /* Halves the way for the next one. */
-static dem_index root_of(reactions *r, dem_index node)
+static dem_index root_of(contact_forces *r, dem_index node)
 {
     for (; r->root[node] != node; node = r->root[node]) r->root[node] = r->root[r->root[node]];
     return node;
 }
 
-static void join(reactions *r, dem_index a, dem_index b)
+static void join(contact_forces *r, dem_index a, dem_index b)
 {
     const dem_index ra = root_of(r, a), rb = root_of(r, b);
     if (ra < rb)
@@ -31,48 +31,48 @@ static void join(reactions *r, dem_index a, dem_index b)
 }
 
 /* Every site in the order of the boundaries: a node before the edge that starts there. */
-static void sort_sites(reactions *r)
+static void sort_sites(contact_forces *r)
 {
     const dem_model *model = r->scene->model;
-    const dem_index n_nodes = model->n_sites;
+    const dem_index n_nodes = model->n_contact_nodes;
     dem_index n = 0;
     dem_index *site_of = r->root; /* of a node, -1: none or done */
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) site_of[i] = -1;
-    for (dem_index k = 0; k < n_nodes; k++) site_of[r->sites[k].node] = k;
-    for (dem_index k = n_nodes; k < r->n_sites; k++) {
-        const dem_index a = r->sites[k].node;
+    for (dem_index k = 0; k < n_nodes; k++) site_of[r->candidates[k].node] = k;
+    for (dem_index k = n_nodes; k < r->n_candidates; k++) {
+        const dem_index a = r->candidates[k].node;
         if (site_of[a] >= 0) r->order[n++] = site_of[a];
         site_of[a] = -1;
         r->order[n++] = k;
     }
     for (dem_index k = 0; k < n_nodes; k++)
-        if (site_of[r->sites[k].node] >= 0) r->order[n++] = k;
+        if (site_of[r->candidates[k].node] >= 0) r->order[n++] = k;
 }
 
 /* Joins the nodes of closed edges; a group has one root. */
-static void join_nodes(reactions *r)
+static void join_nodes(contact_forces *r)
 {
-    for (dem_index k = 0; k < r->n_sites; k++) {
-        const contact_site *s = &r->sites[k];
+    for (dem_index k = 0; k < r->n_candidates; k++) {
+        const contact_candidate *s = &r->candidates[k];
         if (s->n_closed == 0) continue;
         r->root[s->node] = s->node;
-        if (site_is_edge(s)) r->root[s->other] = s->other;
+        if (candidate_is_edge(s)) r->root[s->other] = s->other;
     }
-    for (dem_index k = r->scene->model->n_sites; k < r->n_sites; k++)
-        if (r->sites[k].n_closed > 0) join(r, r->sites[k].node, r->sites[k].other);
+    for (dem_index k = r->scene->model->n_contact_nodes; k < r->n_candidates; k++)
+        if (r->candidates[k].n_closed > 0) join(r, r->candidates[k].node, r->candidates[k].other);
 }
 
 /* Numbers the groups in the order in which their first members come; returns how many sites are closed. */
-static dem_index number_groups(reactions *r)
+static dem_index number_groups(contact_forces *r)
 {
     dem_index n_closed = 0;
     r->n_groups = 0;
-    for (dem_index k = 0; k < r->n_sites; k++)
-        if (r->sites[k].n_closed > 0) r->first[root_of(r, r->sites[k].node)] = -1;
-    for (dem_index p = 0; p < r->n_sites; p++) {
+    for (dem_index k = 0; k < r->n_candidates; k++)
+        if (r->candidates[k].n_closed > 0) r->first[root_of(r, r->candidates[k].node)] = -1;
+    for (dem_index p = 0; p < r->n_candidates; p++) {
         const dem_index k = r->order[p];
-        if (r->sites[k].n_closed == 0) continue;
-        dem_index *number = &r->first[root_of(r, r->sites[k].node)];
+        if (r->candidates[k].n_closed == 0) continue;
+        dem_index *number = &r->first[root_of(r, r->candidates[k].node)];
         if (*number < 0) {
             *number = r->n_groups;
             r->row[r->n_groups++] = 0;
@@ -85,14 +85,14 @@ static dem_index number_groups(reactions *r)
 }
 
 /* How far from the diagonal rows share nodes, the rows being those of a group if all its contacts stuck. */
-static dem_index group_width(reactions *r, dem_index group, dem_index *n_rows)
+static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_rows)
 {
     dem_index width = 0;
     *n_rows = 0;
     for (int pass = 0; pass < 2; pass++)
         for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-            const contact_site *s = &r->sites[r->members[p]];
-            const dem_index nodes[2] = {s->node, site_is_edge(s) ? s->other : s->node};
+            const contact_candidate *s = &r->candidates[r->members[p]];
+            const dem_index nodes[2] = {s->node, candidate_is_edge(s) ? s->other : s->node};
             if (pass == 1) *n_rows += 2 * s->n_closed;
             for (int e = 0; e < 2; e++) {
                 dem_index *first = &r->first[nodes[e]];
@@ -107,7 +107,7 @@ static dem_index group_width(reactions *r, dem_index group, dem_index *n_rows)
 }
 
 /* Makes room for the largest band. */
-static dem_status reserve(reactions *r)
+static dem_status reserve(contact_forces *r)
 {
     size_t most = 0;
     for (dem_index g = 0; g < r->n_groups; g++) {
@@ -124,14 +124,14 @@ static dem_status reserve(reactions *r)
     return DEM_OK;
 }
 
-dem_status reactions_regroup(reactions *r)
+dem_status contact_forces_regroup(contact_forces *r)
 {
     join_nodes(r);
     const dem_index n_closed = number_groups(r);
     for (dem_index g = 1; g < r->n_groups; g++) r->row[g] += r->row[g - 1];
-    for (dem_index p = r->n_sites - 1; p >= 0; p--) {
+    for (dem_index p = r->n_candidates - 1; p >= 0; p--) {
         const dem_index k = r->order[p];
-        if (r->sites[k].n_closed > 0) r->members[--r->row[r->group[k]]] = k;
+        if (r->candidates[k].n_closed > 0) r->members[--r->row[r->group[k]]] = k;
     }
     r->row[r->n_groups] = n_closed;
     return reserve(r);
@@ -140,54 +140,54 @@ dem_status reactions_regroup(reactions *r)
 /* ---- one contact by itself ---- */
 
 /* Whether a contact resists sliding with a force of its own. */
-static bool resists(const contact_site *site, int q)
+static bool resists(const contact_candidate *candidate, int q)
 {
-    return site->closed[q].sign == 0 && !site->closed[q].held;
+    return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
 }
 
-static double sliding_friction(const reactions *r, const contact_site *site, int q)
+static double sliding_friction(const contact_forces *r, const contact_candidate *candidate, int q)
 {
-    if (site->closed[q].held) return 0.0;
-    return site->closed[q].sign * touch_friction(r->scene, site, site->closed[q].feature);
+    if (candidate->closed[q].held) return 0.0;
+    return candidate->closed[q].slide * contact_point_friction(r->scene, candidate, candidate->closed[q].feature);
 }
 
 /* A node on one segment: what holds it is minus the force towards the segment, and friction on that. */
-static void hold_node(reactions *r, dem_index k, double *a)
+static void hold_node(contact_forces *r, dem_index k, double *a)
 {
-    const contact_site *site = &r->sites[k];
-    const segment *s = scene_segment(r->scene, site->closed[0].feature);
-    const double m = r->scene->model->lattice.mass[site->node];
-    const vec2 free_a = vec2_at(a, site->node);
-    reaction *f = &r->force[k][0];
+    const contact_candidate *candidate = &r->candidates[k];
+    const segment *s = scene_segment(r->scene, candidate->closed[0].feature);
+    const double m = r->scene->model->lattice.mass[candidate->node];
+    const vec2 free_a = vec2_at(a, candidate->node);
+    contact_force *f = &r->force[k][0];
     f->normal = -m * vec2_dot(free_a, s->normal);
-    if (site->closed[0].sign == 0) {
+    if (candidate->closed[0].slide == 0) {
         f->tangent = -m * vec2_dot(free_a, s->tangent);
-        vec2_put(a, site->node, (vec2){0.0, 0.0});
+        vec2_put(a, candidate->node, (vec2){0.0, 0.0});
         return;
     }
-    f->tangent = -sliding_friction(r, site, 0) * f->normal;
+    f->tangent = -sliding_friction(r, candidate, 0) * f->normal;
     const vec2 along = vec2_along(free_a, -vec2_dot(free_a, s->normal), s->normal);
-    vec2_put(a, site->node, vec2_along(along, f->tangent / m, s->tangent));
+    vec2_put(a, candidate->node, vec2_along(along, f->tangent / m, s->tangent));
 }
 
 /* A node in a corner of two segments: at rest. */
-static void hold_corner(reactions *r, dem_index k, double *a)
+static void hold_corner(contact_forces *r, dem_index k, double *a)
 {
-    const contact_site *site = &r->sites[k];
+    const contact_candidate *candidate = &r->candidates[k];
     double part[2];
-    const vec2 f = vec2_scale(-r->scene->model->lattice.mass[site->node], vec2_at(a, site->node));
-    vec2_parts(f, scene_segment(r->scene, site->closed[0].feature)->normal,
-               scene_segment(r->scene, site->closed[1].feature)->normal, part);
-    for (int q = 0; q < 2; q++) r->force[k][q] = (reaction){part[q], 0.0};
-    vec2_put(a, site->node, (vec2){0.0, 0.0});
+    const vec2 f = vec2_scale(-r->scene->model->lattice.mass[candidate->node], vec2_at(a, candidate->node));
+    vec2_parts(f, scene_segment(r->scene, candidate->closed[0].feature)->normal,
+               scene_segment(r->scene, candidate->closed[1].feature)->normal, part);
+    for (int q = 0; q < 2; q++) r->force[k][q] = (contact_force){part[q], 0.0};
+    vec2_put(a, candidate->node, (vec2){0.0, 0.0});
 }
 
 /* ---- the banded system of a group ---- */
 
-static void add_row(reactions *r, dem_index *n, dem_index k, int q, const touch_frame *f, bool tangential)
+static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const contact_frame *f, bool tangential)
 {
-    reaction_row *row = &r->rows[(*n)++];
-    *row = (reaction_row){.site = k, .q = q, .tangential = tangential, .n = f->n};
+    contact_equation *row = &r->rows[(*n)++];
+    *row = (contact_equation){.candidate = k, .q = q, .tangential = tangential, .n = f->n};
     for (int p = 0; p < f->n; p++) {
         row->node[p] = f->node[p];
         row->weight[p] = f->weight[p];
@@ -196,19 +196,19 @@ static void add_row(reactions *r, dem_index *n, dem_index k, int q, const touch_
 }
 
 /* The unknowns of a group and what they are asked for; u [n][2]: accelerations or velocities as they are. */
-static dem_index set_rows(reactions *r, dem_index group, aim to, const double *x, const double *v, const double *u)
+static dem_index set_rows(contact_forces *r, dem_index group, aim to, const double *x, const double *v, const double *u)
 {
     dem_index n = 0;
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
         const dem_index k = r->members[p];
-        const contact_site *site = &r->sites[k];
-        for (int q = 0; q < site->n_closed; q++) {
-            const touch_frame f = touch_frame_at(r->scene, site, q, x, v);
+        const contact_candidate *candidate = &r->candidates[k];
+        for (int q = 0; q < candidate->n_closed; q++) {
+            const contact_frame f = contact_frame_at(r->scene, candidate, q, x, v);
             add_row(r, &n, k, q, &f, false);
             r->rows[n - 1].wanted = to == FORCE ? f.keep[0] : (to == SHIFT ? -f.gap : 0.0);
             if (to == SHIFT) continue;
-            if (to == FORCE) r->rows[n - 1].push = vec2_along(f.normal, -sliding_friction(r, site, q), f.tangent);
-            if (!resists(site, q)) continue;
+            if (to == FORCE) r->rows[n - 1].push = vec2_along(f.normal, -sliding_friction(r, candidate, q), f.tangent);
+            if (!resists(candidate, q)) continue;
             add_row(r, &n, k, q, &f, true);
             r->rows[n - 1].wanted = to == FORCE ? f.keep[1] : 0.0;
         }
@@ -220,7 +220,7 @@ static dem_index set_rows(reactions *r, dem_index group, aim to, const double *x
 }
 
 /* How far from the diagonal rows share nodes. */
-static dem_index band_width(reactions *r, dem_index n)
+static dem_index band_width(contact_forces *r, dem_index n)
 {
     dem_index width = 0;
     for (dem_index j = 0; j < n; j++)
@@ -235,7 +235,7 @@ static dem_index band_width(reactions *r, dem_index n)
 }
 
 /* Motion along the direction of row j per unit of the force of row k. */
-static double entry(const reactions *r, const reaction_row *j, const reaction_row *k)
+static double entry(const contact_forces *r, const contact_equation *j, const contact_equation *k)
 {
     double mobility = 0.0;
     for (int p = 0; p < j->n; p++)
@@ -247,7 +247,7 @@ static double entry(const reactions *r, const reaction_row *j, const reaction_ro
 
 /* Elimination without exchange of rows, after which `wanted` holds the unknowns; one that the rest determine already
  * is 0. */
-static void eliminate(reactions *r, dem_index n, dem_index width)
+static void eliminate(contact_forces *r, dem_index n, dem_index width)
 {
     const dem_index line = 2 * width + 1;
     double *band = r->band;
@@ -274,40 +274,41 @@ static void eliminate(reactions *r, dem_index n, dem_index width)
 }
 
 /* Solves for the unknowns of a group and adds what they do to u. */
-static void solve(reactions *r, dem_index group, aim to, const double *x, const double *v, double *u)
+static void solve(contact_forces *r, dem_index group, aim to, const double *x, const double *v, double *u)
 {
     const dem_index n = set_rows(r, group, to, x, v, u), width = band_width(r, n);
     eliminate(r, n, width);
     for (dem_index j = 0; j < n; j++) {
-        const reaction_row *row = &r->rows[j];
+        const contact_equation *row = &r->rows[j];
         for (int p = 0; p < row->n; p++) {
             const double step = row->weight[p] * r->scene->model->inverse_mass[row->node[p]] * row->wanted;
             vec2_put(u, row->node[p], vec2_along(vec2_at(u, row->node[p]), step, row->push));
         }
     }
     for (dem_index j = 0; j < n && to != SHIFT; j++) {
-        const reaction_row *row = &r->rows[j];
-        reaction *f = &r->force[row->site][row->q];
+        const contact_equation *row = &r->rows[j];
+        contact_force *f = &r->force[row->candidate][row->q];
         if (row->tangential)
             f->tangent = row->wanted;
         else
-            *f = (reaction){row->wanted,
-                            to == FORCE ? -sliding_friction(r, &r->sites[row->site], row->q) * row->wanted : 0.0};
+            *f = (contact_force){
+                row->wanted,
+                to == FORCE ? -sliding_friction(r, &r->candidates[row->candidate], row->q) * row->wanted : 0.0};
     }
 }
 
 /* Whether a group is one node. */
-static bool alone(const reactions *r, dem_index group)
+static bool alone(const contact_forces *r, dem_index group)
 {
-    return r->row[group + 1] - r->row[group] == 1 && !site_is_edge(&r->sites[r->members[r->row[group]]]);
+    return r->row[group + 1] - r->row[group] == 1 && !candidate_is_edge(&r->candidates[r->members[r->row[group]]]);
 }
 
-static void hold(reactions *r, dem_index group, const double *x, const double *v, double *a)
+static void hold(contact_forces *r, dem_index group, const double *x, const double *v, double *a)
 {
     const dem_index k = r->members[r->row[group]];
     if (!alone(r, group))
         solve(r, group, FORCE, x, v, a);
-    else if (r->sites[k].n_closed == 2)
+    else if (r->candidates[k].n_closed == 2)
         hold_corner(r, k, a);
     else
         hold_node(r, k, a);
@@ -315,49 +316,49 @@ static void hold(reactions *r, dem_index group, const double *x, const double *v
 
 /* ---- public ---- */
 
-void reactions_hold(reactions *r, const double *x, const double *v, double *a)
+void contact_forces_hold(contact_forces *r, const double *x, const double *v, double *a)
 {
     for (dem_index g = 0; g < r->n_groups; g++) hold(r, g, x, v, a);
 }
 
 /* The free acceleration of a node, once for all contacts that share it. */
-static void set_free(reactions *r, dem_index node, const double *x, const double *v)
+static void set_free(contact_forces *r, dem_index node, const double *x, const double *v)
 {
     if (r->first[node] == 0) return;
     r->first[node] = 0;
     vec2_put(r->a, node, forces_acceleration(r->scene->model, &r->scene->rule.load, node, x, v));
 }
 
-void reactions_solve(reactions *r, dem_index group, const double *x, const double *v)
+void contact_forces_solve(contact_forces *r, dem_index group, const double *x, const double *v)
 {
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_site *site = &r->sites[r->members[p]];
-        r->first[site->node] = -1;
-        if (site_is_edge(site)) r->first[site->other] = -1;
+        const contact_candidate *candidate = &r->candidates[r->members[p]];
+        r->first[candidate->node] = -1;
+        if (candidate_is_edge(candidate)) r->first[candidate->other] = -1;
     }
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_site *site = &r->sites[r->members[p]];
-        set_free(r, site->node, x, v);
-        if (site_is_edge(site)) set_free(r, site->other, x, v);
+        const contact_candidate *candidate = &r->candidates[r->members[p]];
+        set_free(r, candidate->node, x, v);
+        if (candidate_is_edge(candidate)) set_free(r, candidate->other, x, v);
     }
     hold(r, group, x, v, r->a);
 }
 
 /* A node by itself stops exactly. */
-static void stop_node(reactions *r, dem_index k, double *v)
+static void stop_node(contact_forces *r, dem_index k, double *v)
 {
-    const contact_site *site = &r->sites[k];
-    const segment *s = scene_segment(r->scene, site->closed[0].feature);
-    const vec2 vi = vec2_at(v, site->node);
-    const bool rests = site->n_closed == 2 || site->closed[0].sign == 0;
+    const contact_candidate *candidate = &r->candidates[k];
+    const segment *s = scene_segment(r->scene, candidate->closed[0].feature);
+    const vec2 vi = vec2_at(v, candidate->node);
+    const bool rests = candidate->n_closed == 2 || candidate->closed[0].slide == 0;
     const vec2 after = rests ? (vec2){0.0, 0.0} : vec2_along(vi, -vec2_dot(vi, s->normal), s->normal);
-    const vec2 impulse = vec2_scale(r->scene->model->lattice.mass[site->node], vec2_sub(after, vi));
-    r->force[k][0] = (reaction){vec2_dot(impulse, s->normal), vec2_dot(impulse, s->tangent)};
-    r->force[k][1] = (reaction){0.0, 0.0};
-    vec2_put(v, site->node, after);
+    const vec2 impulse = vec2_scale(r->scene->model->lattice.mass[candidate->node], vec2_sub(after, vi));
+    r->force[k][0] = (contact_force){vec2_dot(impulse, s->normal), vec2_dot(impulse, s->tangent)};
+    r->force[k][1] = (contact_force){0.0, 0.0};
+    vec2_put(v, candidate->node, after);
 }
 
-void reactions_stop(reactions *r, dem_index group, const double *x, double *v)
+void contact_forces_stop(contact_forces *r, dem_index group, const double *x, double *v)
 {
     if (alone(r, group))
         stop_node(r, r->members[r->row[group]], v);
@@ -365,21 +366,22 @@ void reactions_stop(reactions *r, dem_index group, const double *x, double *v)
         solve(r, group, IMPULSE, x, v, v);
 }
 
-const double *reactions_shift(reactions *r, dem_index group, const double *x, const double *v)
+const double *contact_forces_shift(contact_forces *r, dem_index group, const double *x, const double *v)
 {
     for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_site *site = &r->sites[r->members[p]];
-        vec2_put(r->a, site->node, (vec2){0.0, 0.0});
-        if (site_is_edge(site)) vec2_put(r->a, site->other, (vec2){0.0, 0.0});
+        const contact_candidate *candidate = &r->candidates[r->members[p]];
+        vec2_put(r->a, candidate->node, (vec2){0.0, 0.0});
+        if (candidate_is_edge(candidate)) vec2_put(r->a, candidate->other, (vec2){0.0, 0.0});
     }
     solve(r, group, SHIFT, x, v, r->a);
     return r->a;
 }
 
-dem_status reactions_create(reactions *out, const contact_scene *scene, const contact_site *sites, dem_index n_sites)
+dem_status contact_forces_create(contact_forces *out, const contact_scene *scene, const contact_candidate *candidates,
+                                 dem_index n_candidates)
 {
-    const size_t n = (size_t)n_sites + 1, n_nodes = (size_t)scene->model->lattice.n_nodes;
-    reactions r = {.scene = scene, .sites = sites, .n_sites = n_sites};
+    const size_t n = (size_t)n_candidates + 1, n_nodes = (size_t)scene->model->lattice.n_nodes;
+    contact_forces r = {.scene = scene, .candidates = candidates, .n_candidates = n_candidates};
     r.order = malloc(n * sizeof *r.order);
     r.row = calloc(n + 1, sizeof *r.row);
     r.members = malloc(n * sizeof *r.members);
@@ -390,15 +392,15 @@ dem_status reactions_create(reactions *out, const contact_scene *scene, const co
     r.a = calloc(2 * n_nodes, sizeof *r.a);
     r.rows = malloc(4 * n * sizeof *r.rows);
     if (!(r.order && r.row && r.members && r.group && r.force && r.root && r.first && r.a && r.rows)) {
-        reactions_destroy(&r);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_sites);
+        contact_forces_destroy(&r);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_candidates);
     }
     sort_sites(&r);
     *out = r;
     return DEM_OK;
 }
 
-void reactions_destroy(reactions *r)
+void contact_forces_destroy(contact_forces *r)
 {
     free(r->order);
     free(r->row);
@@ -410,5 +412,5 @@ void reactions_destroy(reactions *r)
     free(r->a);
     free(r->rows);
     free(r->band);
-    *r = (reactions){0};
+    *r = (contact_forces){0};
 }

@@ -7,103 +7,109 @@
 /* How fast a closed vertex contact that the integrator's error has opened is drawn back, in units of 1/max_step. */
 static const double draw_back = 0.1;
 
-dem_index touch_segment(const contact_scene *scene, const contact_site *site, dem_index feature)
+dem_index contact_point_segment(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
 {
-    return site_is_edge(site) ? scene->model->obstacles.vertices[feature].before : feature;
+    return candidate_is_edge(candidate) ? scene->model->obstacles.vertices[feature].before : feature;
 }
 
-const dem_obstacle *touch_obstacle(const contact_scene *scene, const contact_site *site, dem_index feature)
+const dem_obstacle *contact_point_obstacle(const contact_scene *scene, const contact_candidate *candidate,
+                                           dem_index feature)
 {
-    return &scene->model->obstacles.list[scene_segment(scene, touch_segment(scene, site, feature))->obstacle];
+    return &scene->model->obstacles
+                .list[scene_segment(scene, contact_point_segment(scene, candidate, feature))->obstacle];
 }
 
-double touch_friction(const contact_scene *scene, const contact_site *site, dem_index feature)
+double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
 {
-    const dem_obstacle *obstacle = touch_obstacle(scene, site, feature);
+    const dem_obstacle *obstacle = contact_point_obstacle(scene, candidate, feature);
     return obstacle->friction_law == DEM_FRICTION_COULOMB ? obstacle->friction : 0.0;
 }
 
-static touch_frame node_frame(const contact_scene *scene, const contact_site *site, dem_index feature, const double *x,
-                              const double *v)
+static contact_frame node_frame(const contact_scene *scene, const contact_candidate *candidate, dem_index feature,
+                                const double *x, const double *v)
 {
     const segment *s = scene_segment(scene, feature);
-    const vec2 at = vec2_at(x, site->node);
-    return (touch_frame){.n = 1,
-                         .node = {site->node, -1},
-                         .weight = {1.0, 0.0},
-                         .normal = s->normal,
-                         .tangent = s->tangent,
-                         .velocity = vec2_at(v, site->node),
-                         .gap = segment_height(s, at),
-                         .place = segment_place(s, at),
-                         .mobility = scene->model->inverse_mass[site->node]};
+    const vec2 at = vec2_at(x, candidate->node);
+    return (contact_frame){.n = 1,
+                           .node = {candidate->node, -1},
+                           .weight = {1.0, 0.0},
+                           .normal = s->normal,
+                           .tangent = s->tangent,
+                           .velocity = vec2_at(v, candidate->node),
+                           .gap = segment_height(s, at),
+                           .place = segment_place(s, at),
+                           .mobility = scene->model->inverse_mass[candidate->node]};
 }
 
 /* Vertex V on the edge from a to b, P = (1 - s) a + s b the point of the edge nearest to it, N normal and t tangent of
  * the edge, gap g = (P - V).N. With v_P the velocity of the point of the body at P and omega = (v_b - v_a).N/L,
  *   g' = v_P.N,  s' = -v_P.t/L,  g'' = a_P.N - 2 omega v_P.t  (at g = 0):  a_P.N = 2 omega v_P.t keeps it closed. */
-static touch_frame edge_frame(const contact_scene *scene, const contact_site *site, const contact_touch *touch,
-                              const double *x, const double *v)
+static contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
+                                const contact_point *point, const double *x, const double *v)
 {
     const double *inverse_mass = scene->model->inverse_mass;
-    const vec2 at = scene->model->obstacles.vertices[touch->feature].at;
-    const vec2 a = vec2_at(x, site->node), b = vec2_at(x, site->other), ab = vec2_sub(b, a);
-    const vec2 va = vec2_at(v, site->node), vb = vec2_at(v, site->other);
+    const vec2 at = scene->model->obstacles.vertices[point->feature].at;
+    const vec2 a = vec2_at(x, candidate->node), b = vec2_at(x, candidate->other), ab = vec2_sub(b, a);
+    const vec2 va = vec2_at(v, candidate->node), vb = vec2_at(v, candidate->other);
     const double length = vec2_norm(ab);
     const vec2 t = vec2_scale(1.0 / length, ab), n = {-t.y, t.x};
-    const double place = touch->sign == 0 ? touch->place : vec2_dot(vec2_sub(at, a), t) / length;
+    const double place = point->slide == 0 ? point->place : vec2_dot(vec2_sub(at, a), t) / length;
     const double wa = 1.0 - place, wb = place, turn = vec2_dot(vec2_sub(vb, va), n) / length;
-    touch_frame f = {.n = 2, .node = {site->node, site->other}, .weight = {wa, wb}, .normal = n, .tangent = t};
+    contact_frame f = {
+        .n = 2, .node = {candidate->node, candidate->other}, .weight = {wa, wb}, .normal = n, .tangent = t};
     const double beta = draw_back / scene->rule.max_step;
     const vec2 off = vec2_sub(vec2_along(a, place, ab), at);
     f.velocity = vec2_add(vec2_scale(wa, va), vec2_scale(wb, vb));
     f.gap = vec2_dot(off, n);
     f.place = place;
     const double vn = vec2_dot(f.velocity, n), vt = vec2_dot(f.velocity, t);
-    f.turning = touch->sign == 0 ? 0.0 : 2.0 * turn * vt;
+    f.turning = point->slide == 0 ? 0.0 : 2.0 * turn * vt;
     f.keep[0] = f.turning - beta * (2.0 * vn + beta * f.gap);
     f.keep[1] = -beta * (2.0 * vt + beta * vec2_dot(off, t));
-    f.mobility = wa * wa * inverse_mass[site->node] + wb * wb * inverse_mass[site->other];
+    f.mobility = wa * wa * inverse_mass[candidate->node] + wb * wb * inverse_mass[candidate->other];
     return f;
 }
 
 /* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2; here it is the rounding of the
  * coordinates of the node and its neighbours, 64 units. */
-double touch_slack(const contact_scene *scene, const touch_frame *f, const double *x)
+double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x)
 {
     const double omega = scene->model->omega_max,
                  extent = vec2_norm(vec2_at(x, f->node[0])) + 2.0 * scene->model->spacing;
     return 32.0 * DBL_EPSILON * extent * omega * omega / f->mobility;
 }
 
-double touch_noise(const touch_frame *f, const double *v)
+double contact_point_noise(const contact_frame *f, const double *v)
 {
     double speed = 0.0;
     for (int p = 0; p < f->n && f->n > 1; p++) speed += fabs(f->weight[p]) * vec2_norm(vec2_at(v, f->node[p]));
     return 64.0 * DBL_EPSILON * speed;
 }
 
-touch_frame touch_frame_at(const contact_scene *scene, const contact_site *site, int q, const double *x,
-                           const double *v)
+contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
+                               const double *v)
 {
-    const contact_touch *touch = &site->closed[q];
-    return site_is_edge(site) ? edge_frame(scene, site, touch, x, v) : node_frame(scene, site, touch->feature, x, v);
+    const contact_point *point = &candidate->closed[q];
+    return candidate_is_edge(candidate) ? edge_frame(scene, candidate, point, x, v)
+                                        : node_frame(scene, candidate, point->feature, x, v);
 }
 
-dem_contact touch_describe(const contact_scene *scene, const contact_site *site, int q, const double *x)
+dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q,
+                                   const double *x)
 {
-    const contact_touch *touch = &site->closed[q];
-    const touch_frame f = touch_frame_at(scene, site, q, x, x);
-    const segment *s = scene_segment(scene, touch_segment(scene, site, touch->feature));
-    const vec2 at = site_is_edge(site) ? scene->model->obstacles.vertices[touch->feature].at : vec2_at(x, site->node);
+    const contact_point *point = &candidate->closed[q];
+    const contact_frame f = contact_frame_at(scene, candidate, q, x, x);
+    const segment *s = scene_segment(scene, contact_point_segment(scene, candidate, point->feature));
+    const vec2 at = candidate_is_edge(candidate) ? scene->model->obstacles.vertices[point->feature].at
+                                                 : vec2_at(x, candidate->node);
     return (dem_contact){.n_nodes = f.n,
-                         .state = touch->held || touch->sign == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
+                         .state = point->held || point->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
                          .nodes = {f.node[0], f.n > 1 ? f.node[1] : 0},
                          .weights = {f.weight[0], f.weight[1]},
                          .obstacle = s->obstacle,
                          .segment = s->index,
                          .x = {at.x, at.y},
                          .normal = {f.normal.x, f.normal.y},
-                         .force = touch->force,
-                         .friction = touch->friction};
+                         .force = point->force,
+                         .friction = point->friction};
 }

@@ -7,9 +7,9 @@
 #include "forces/forces.h"
 
 /** A closed contact of a site. */
-typedef struct contact_touch {
+typedef struct contact_point {
     dem_index feature;      /* the segment on which a node is, or the vertex on which an edge is */
-    int sign;               /* the body slides along the tangent: 1, against it: -1; sticks: 0 */
+    int slide;              /* the body slides along the tangent: 1, against it: -1; sticks: 0 */
     bool held;              /* one of two that hold a node at rest in a corner; there is no friction then */
     double place;           /* of a vertex on the edge where it sticks or may come to: 0 at its start, 1 at its end */
     double force, friction; /* N, along normal and tangent, at the last accepted step */
@@ -23,24 +23,24 @@ typedef struct contact_touch {
     vec2 impulse;  /* N s, given to the body */
     vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
     double energy; /* J, taken by it */
-} contact_touch;
+} contact_point;
 
 /** A node, or an edge from node to other, that may touch. */
-typedef struct contact_site {
+typedef struct contact_candidate {
     dem_index node, other;    /* other: -1 for a node */
     dem_index previous, next; /* of an edge, the nodes before and after it on the boundary, or -1 */
     dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
     int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
-    bool asleep;              /* it is far from all that it could touch besides, */
-    double wake;              /* m, until the bodies may have gone this far since the start */
+    bool inactive;            /* it is far from all that it could touch besides, */
+    double active_from;       /* m, until the bodies may have gone this far since the start */
     vec2 clear_at[2];         /* m, where its nodes were when all that it could touch besides */
     double clear;             /* m, was this far away */
-    contact_touch closed[2];
-    bool stirred;       /* it takes part in the impact under way */
-    int n_struck;       /* contacts that do: behind the closed ones are those that have opened */
+    contact_point closed[2];
+    bool involved;      /* it takes part in the impact under way */
+    int n_involved;     /* contacts that do: behind the closed ones are those that have opened */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
-} contact_site;
+} contact_candidate;
 
 typedef struct contact_rule {
     double skin;             /* m, depth at which an impact is taken */
@@ -63,7 +63,7 @@ typedef struct contact_scene {
 } contact_scene;
 
 /** A closed contact in a state: the point of the body that touches, and how it moves. */
-typedef struct touch_frame {
+typedef struct contact_frame {
     int n; /* nodes that carry the point: 1, or 2 */
     dem_index node[2];
     double weight[2];     /* sum 1 */
@@ -75,7 +75,7 @@ typedef struct touch_frame {
     double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
                              what the integrator's error has opened */
     double mobility;      /* 1/kg, sum of weight^2/m */
-} touch_frame;
+} contact_frame;
 
 static inline const segment *scene_segment(const contact_scene *scene, dem_index s)
 {
@@ -88,9 +88,9 @@ static inline double scene_margin(const contact_scene *scene)
     return 10.0 * scene->rule.skin;
 }
 
-static inline bool site_is_edge(const contact_site *site)
+static inline bool candidate_is_edge(const contact_candidate *candidate)
 {
-    return site->other >= 0;
+    return candidate->other >= 0;
 }
 
 /** Where the velocities begin in a state y = (x, v). */
@@ -107,25 +107,27 @@ static inline dem_index scene_books(const contact_scene *scene)
 }
 
 /** The segment that a contact is on, or that ends in the vertex it is on. */
-dem_index touch_segment(const contact_scene *scene, const contact_site *site, dem_index feature);
+dem_index contact_point_segment(const contact_scene *scene, const contact_candidate *candidate, dem_index feature);
 
 /** The obstacle that it is on. */
-const dem_obstacle *touch_obstacle(const contact_scene *scene, const contact_site *site, dem_index feature);
+const dem_obstacle *contact_point_obstacle(const contact_scene *scene, const contact_candidate *candidate,
+                                           dem_index feature);
 
 /** Coefficient of the sustained friction of Coulomb's law; 0 where there is none. */
-double touch_friction(const contact_scene *scene, const contact_site *site, dem_index feature);
+double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature);
 
 /** Frame of closed contact q of a site at positions x and velocities v [n][2]. */
-touch_frame touch_frame_at(const contact_scene *scene, const contact_site *site, int q, const double *x,
-                           const double *v);
+contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
+                               const double *v);
 
 /** What rounding of the coordinates may make of the force of a contact, N. */
-double touch_slack(const contact_scene *scene, const touch_frame *f, const double *x);
+double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
 
 /** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node, whose velocity is set. */
-double touch_noise(const touch_frame *f, const double *v);
+double contact_point_noise(const contact_frame *f, const double *v);
 
 /** What the library tells of it. */
-dem_contact touch_describe(const contact_scene *scene, const contact_site *site, int q, const double *x);
+dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q,
+                                   const double *x);
 
 #endif

@@ -6,93 +6,94 @@
 
 #include "base/status.h"
 
-static void list_edges(contact_sites *c)
+static void list_edges(contact_set *c)
 {
     const surface *s = &c->scene.model->surface;
-    for (dem_index e = 0; e < c->n - c->scene.model->n_sites; e++) {
-        contact_site site = {.node = s->ends[2 * e], .other = s->ends[2 * e + 1], .behind = {-1, -1}};
-        site.previous = s->previous[e] >= 0 ? s->ends[2 * s->previous[e]] : -1;
-        site.next = s->next[e] >= 0 ? s->ends[2 * s->next[e] + 1] : -1;
-        c->list[sites_of_edge(c, e)] = site;
+    for (dem_index e = 0; e < c->n - c->scene.model->n_contact_nodes; e++) {
+        contact_candidate candidate = {.node = s->ends[2 * e], .other = s->ends[2 * e + 1], .behind = {-1, -1}};
+        candidate.previous = s->previous[e] >= 0 ? s->ends[2 * s->previous[e]] : -1;
+        candidate.next = s->next[e] >= 0 ? s->ends[2 * s->next[e] + 1] : -1;
+        c->list[contact_set_of_edge(c, e)] = candidate;
     }
 }
 
-dem_status sites_create(contact_sites *c, const dem_model *model, const contact_rule *rule)
+dem_status contact_set_create(contact_set *c, const dem_model *model, const contact_rule *rule)
 {
     const bool vertices = rule->vertices && model->obstacles.n_vertices > 0;
-    *c = (contact_sites){.scene = {model, *rule}};
-    c->n = model->n_sites + (vertices ? model->surface.n_edges : 0);
+    *c = (contact_set){.scene = {model, *rule}};
+    c->n = model->n_contact_nodes + (vertices ? model->surface.n_edges : 0);
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
     c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
     if (c->list == NULL || c->of_node == NULL) {
-        sites_destroy(c);
+        contact_set_destroy(c);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)c->n);
     }
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) c->of_node[i] = -1;
-    for (dem_index k = 0; k < model->n_sites; k++) {
-        c->list[k] =
-            (contact_site){.node = model->sites[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
-        c->of_node[model->sites[k]] = k;
+    for (dem_index k = 0; k < model->n_contact_nodes; k++) {
+        c->list[k] = (contact_candidate){
+            .node = model->contact_nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+        c->of_node[model->contact_nodes[k]] = k;
     }
     list_edges(c);
-    dem_status status = books_create(&c->books, model->obstacles.n);
-    if (status == DEM_OK) status = reactions_create(&c->reactions, &c->scene, c->list, c->n);
-    if (status != DEM_OK) sites_destroy(c);
+    dem_status status = ledger_create(&c->ledger, model->obstacles.n);
+    if (status == DEM_OK) status = contact_forces_create(&c->forces, &c->scene, c->list, c->n);
+    if (status != DEM_OK) contact_set_destroy(c);
     return status;
 }
 
-void sites_destroy(contact_sites *c)
+void contact_set_destroy(contact_set *c)
 {
     free(c->list);
     free(c->of_node);
-    books_destroy(&c->books);
-    reactions_destroy(&c->reactions);
-    *c = (contact_sites){0};
+    ledger_destroy(&c->ledger);
+    contact_forces_destroy(&c->forces);
+    *c = (contact_set){0};
 }
 
 /* Whether an edge at the node, other than site k, has closed contacts. */
-static bool edge_closed(const contact_sites *c, dem_index node, dem_index k)
+static bool edge_closed(const contact_set *c, dem_index node, dem_index k)
 {
     const surface *s = &c->scene.model->surface;
-    if (c->n == c->scene.model->n_sites) return false;
+    if (c->n == c->scene.model->n_contact_nodes) return false;
     for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
-        if (sites_of_edge(c, s->at[p]) != k && c->list[sites_of_edge(c, s->at[p])].n_closed > 0) return true;
+        if (contact_set_of_edge(c, s->at[p]) != k && c->list[contact_set_of_edge(c, s->at[p])].n_closed > 0)
+            return true;
     return false;
 }
 
-static bool node_closed(const contact_sites *c, dem_index node)
+static bool node_closed(const contact_set *c, dem_index node)
 {
     return c->of_node[node] >= 0 && c->list[c->of_node[node]].n_closed > 0;
 }
 
-bool sites_coupled(const contact_sites *c, dem_index k)
+bool contact_set_coupled(const contact_set *c, dem_index k)
 {
-    const contact_site *s = &c->list[k];
-    if (!site_is_edge(s)) return edge_closed(c, s->node, k);
+    const contact_candidate *s = &c->list[k];
+    if (!candidate_is_edge(s)) return edge_closed(c, s->node, k);
     return edge_closed(c, s->node, k) || edge_closed(c, s->other, k) || node_closed(c, s->node) ||
            node_closed(c, s->other);
 }
 
-void sites_go_behind(contact_sites *c, dem_index k, dem_index obstacle)
+void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle)
 {
     const surface *s = &c->scene.model->surface;
     const dem_index node = c->list[k].node;
-    c->books.counts.behind += obstacle >= 0 ? 1 : -1;
+    c->ledger.counts.behind += obstacle >= 0 ? 1 : -1;
     c->list[k].behind[0] = obstacle;
-    sites_disturb(&c->list[k]);
-    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_sites; p++) {
-        contact_site *edge = &c->list[sites_of_edge(c, s->at[p])];
+    candidate_forget_clearance(&c->list[k]);
+    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+        contact_candidate *edge = &c->list[contact_set_of_edge(c, s->at[p])];
         edge->behind[edge->node == node ? 0 : 1] = obstacle;
-        sites_disturb(edge);
+        candidate_forget_clearance(edge);
     }
 }
 
 /* Whether an edge at the node, other than site k, has closed a contact with the vertex. */
-static bool shared(const contact_sites *c, dem_index node, dem_index k, dem_index feature)
+static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index feature)
 {
     const surface *s = &c->scene.model->surface;
     for (dem_index p = s->row[node]; p < s->row[node + 1]; p++) {
-        const dem_index e = sites_of_edge(c, s->at[p]);
+        const dem_index e = contact_set_of_edge(c, s->at[p]);
         for (int q = 0; e != k && q < c->list[e].n_closed; q++)
             if (c->list[e].closed[q].feature == feature) return true;
     }
@@ -101,133 +102,139 @@ static bool shared(const contact_sites *c, dem_index node, dem_index k, dem_inde
 
 /* Which contacts are of a corner: both of a node on two segments, and a vertex on two edges that meet in it. One that
  * is not any more is at rest. */
-static void mark_corners(contact_sites *c)
+static void mark_corners(contact_set *c)
 {
     for (dem_index k = 0; k < c->n; k++) {
-        contact_site *site = &c->list[k];
-        for (int q = 0; q < site->n_closed; q++) {
-            contact_touch *touch = &site->closed[q];
-            const bool held = site_is_edge(site) ? shared(c, site->node, k, touch->feature) ||
-                                                       shared(c, site->other, k, touch->feature)
-                                                 : site->n_closed == 2;
-            if (touch->held && !held) touch->sign = touch_friction(&c->scene, site, touch->feature) > 0.0 ? 0 : 1;
-            if (held) touch->sign = 1;
-            touch->held = held;
+        contact_candidate *candidate = &c->list[k];
+        for (int q = 0; q < candidate->n_closed; q++) {
+            contact_point *point = &candidate->closed[q];
+            const bool held = candidate_is_edge(candidate) ? shared(c, candidate->node, k, point->feature) ||
+                                                                 shared(c, candidate->other, k, point->feature)
+                                                           : candidate->n_closed == 2;
+            if (point->held && !held)
+                point->slide = contact_point_friction(&c->scene, candidate, point->feature) > 0.0 ? 0 : 1;
+            if (held) point->slide = 1;
+            point->held = held;
         }
     }
 }
 
-dem_status sites_regroup(contact_sites *c)
+dem_status contact_set_regroup(contact_set *c)
 {
     mark_corners(c);
-    return reactions_regroup(&c->reactions);
+    return contact_forces_regroup(&c->forces);
 }
 
-dem_status sites_close(contact_sites *c, dem_index k, contact_touch touch)
+dem_status contact_set_close(contact_set *c, dem_index k, contact_point point)
 {
-    contact_site *site = &c->list[k];
-    site->closed[site->n_closed++] = touch;
-    sites_disturb(site);
-    return sites_regroup(c);
+    contact_candidate *candidate = &c->list[k];
+    candidate->closed[candidate->n_closed++] = point;
+    candidate_forget_clearance(candidate);
+    return contact_set_regroup(c);
 }
 
-dem_status sites_open(contact_sites *c, dem_index k, int q)
+dem_status contact_set_open(contact_set *c, dem_index k, int q)
 {
-    contact_site *site = &c->list[k];
-    if (q == 0) site->closed[0] = site->closed[1];
-    site->n_closed--;
-    sites_disturb(site);
-    return sites_regroup(c);
+    contact_candidate *candidate = &c->list[k];
+    if (q == 0) candidate->closed[0] = candidate->closed[1];
+    candidate->n_closed--;
+    candidate_forget_clearance(candidate);
+    return contact_set_regroup(c);
 }
 
-void sites_move(contact_sites *c, dem_index i, vec2 shift, double *x)
+void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x)
 {
     const double *gravity = c->scene.rule.load.gravity;
     const double before = forces_node_energy(c->scene.model, gravity, i, x);
     vec2_put(x, i, vec2_add(vec2_at(x, i), shift));
-    c->books.projection += forces_node_energy(c->scene.model, gravity, i, x) - before;
+    c->ledger.projection += forces_node_energy(c->scene.model, gravity, i, x) - before;
 }
 
-void sites_store(contact_sites *c, dem_index k)
+void contact_set_store_forces(contact_set *c, dem_index k)
 {
     for (int q = 0; q < c->list[k].n_closed; q++) {
-        c->list[k].closed[q].force = c->reactions.force[k][q].normal;
-        c->list[k].closed[q].friction = c->reactions.force[k][q].tangent;
+        c->list[k].closed[q].force = c->forces.force[k][q].normal;
+        c->list[k].closed[q].friction = c->forces.force[k][q].tangent;
     }
 }
 
-void sites_weigh(contact_sites *c, dem_index k, const double *x, const double *v)
+void contact_set_solve_forces(contact_set *c, dem_index k, const double *x, const double *v)
 {
-    reactions_solve(&c->reactions, c->reactions.group[k], x, v);
-    sites_store(c, k);
+    contact_forces_solve(&c->forces, c->forces.group[k], x, v);
+    contact_set_store_forces(c, k);
 }
 
-double sites_stop(contact_sites *c, dem_index group, const double *x, double *v)
+double contact_set_stop(contact_set *c, dem_index group, const double *x, double *v)
 {
-    reactions *r = &c->reactions;
+    contact_forces *r = &c->forces;
     double energy = 0.0;
     for (int after = 0; after < 2; after++) { /* impulses at points take -J.(v + v')/2 */
         for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-            contact_site *site = &c->list[r->members[p]];
-            for (int q = 0; q < site->n_closed; q++) {
-                const touch_frame f = touch_frame_at(&c->scene, site, q, x, v);
-                const reaction got = r->force[r->members[p]][q];
+            contact_candidate *candidate = &c->list[r->members[p]];
+            for (int q = 0; q < candidate->n_closed; q++) {
+                const contact_frame f = contact_frame_at(&c->scene, candidate, q, x, v);
+                const contact_force got = r->force[r->members[p]][q];
                 const vec2 impulse = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
-                if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(site->closed[q].stop, f.velocity));
-                site->closed[q].stop = after ? impulse : f.velocity;
+                if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(candidate->closed[q].stop, f.velocity));
+                candidate->closed[q].stop = after ? impulse : f.velocity;
             }
         }
-        if (!after) reactions_stop(r, group, x, v);
+        if (!after) contact_forces_stop(r, group, x, v);
     }
     return energy;
 }
 
-sites_share sites_share_of(const contact_sites *c, dem_index k, int q, const double *x, const double *v)
+contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, const double *x,
+                                              const double *v)
 {
-    const contact_site *site = &c->list[k];
-    const reaction *force = &c->reactions.force[k][q];
-    const touch_frame f = touch_frame_at(&c->scene, site, q, x, v);
+    const contact_candidate *candidate = &c->list[k];
+    const contact_force *force = &c->forces.force[k][q];
+    const contact_frame f = contact_frame_at(&c->scene, candidate, q, x, v);
     const vec2 along = vec2_scale(force->tangent, f.tangent);
-    const bool slides = site->closed[q].sign != 0;
-    return (sites_share){.obstacle =
-                             touch_obstacle(&c->scene, site, site->closed[q].feature) - c->scene.model->obstacles.list,
-                         .force = vec2_along(along, force->normal, f.normal),
-                         .friction = along,
-                         .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
+    const bool slides = candidate->closed[q].slide != 0;
+    return (contact_contribution){.obstacle =
+                                      contact_point_obstacle(&c->scene, candidate, candidate->closed[q].feature) -
+                                      c->scene.model->obstacles.list,
+                                  .force = vec2_along(along, force->normal, f.normal),
+                                  .friction = along,
+                                  .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
 }
 
-dem_index sites_group_at(const contact_sites *c, dem_index node)
+dem_index contact_set_group_at(const contact_set *c, dem_index node)
 {
     const surface *s = &c->scene.model->surface;
-    if (node_closed(c, node)) return c->reactions.group[c->of_node[node]];
-    if (c->n == c->scene.model->n_sites) return -1;
+    if (node_closed(c, node)) return c->forces.group[c->of_node[node]];
+    if (c->n == c->scene.model->n_contact_nodes) return -1;
     for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
-        if (c->list[sites_of_edge(c, s->at[p])].n_closed > 0) return c->reactions.group[sites_of_edge(c, s->at[p])];
+        if (c->list[contact_set_of_edge(c, s->at[p])].n_closed > 0)
+            return c->forces.group[contact_set_of_edge(c, s->at[p])];
     return -1;
 }
 
-dem_event sites_event(const contact_sites *c, dem_index k, dem_index feature, dem_event_kind kind,
-                      const contact_moment *now)
+dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
+                            const contact_instant *now)
 {
-    const contact_site *site = &c->list[k];
-    contact_site alone = *site;
-    alone.closed[0] = (contact_touch){.feature = feature, .sign = 1};
-    const touch_frame f = touch_frame_at(&c->scene, &alone, 0, now->x, now->v);
-    const segment *s = scene_segment(&c->scene, touch_segment(&c->scene, site, feature));
-    const vec2 at = site_is_edge(site) ? c->scene.model->obstacles.vertices[feature].at : vec2_at(now->x, site->node);
+    const contact_candidate *candidate = &c->list[k];
+    contact_candidate alone = *candidate;
+    alone.closed[0] = (contact_point){.feature = feature, .slide = 1};
+    const contact_frame f = contact_frame_at(&c->scene, &alone, 0, now->x, now->v);
+    const segment *s = scene_segment(&c->scene, contact_point_segment(&c->scene, candidate, feature));
+    const vec2 at = candidate_is_edge(candidate) ? c->scene.model->obstacles.vertices[feature].at
+                                                 : vec2_at(now->x, candidate->node);
     dem_event event = {.t = now->t,
                        .kind = kind,
-                       .node = site->node,
-                       .other = site->other,
-                       .weight = site_is_edge(site) ? f.place : 0.0,
+                       .node = candidate->node,
+                       .other = candidate->other,
+                       .weight = candidate_is_edge(candidate) ? f.place : 0.0,
                        .obstacle = s->obstacle,
                        .segment = s->index,
                        .x = {at.x, at.y},
                        .normal = {f.normal.x, f.normal.y},
                        .before = {f.velocity.x, f.velocity.y},
                        .after = {f.velocity.x, f.velocity.y}};
-    for (int q = 0; q < site->n_closed; q++)
-        if (site->closed[q].feature == feature)
-            event.state = site->closed[q].sign == 0 || site->closed[q].held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
+    for (int q = 0; q < candidate->n_closed; q++)
+        if (candidate->closed[q].feature == feature)
+            event.state =
+                candidate->closed[q].slide == 0 || candidate->closed[q].held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
     return event;
 }

@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-double search_resolution(const dense_output *p)
+double event_location_resolution(const dense_output *p)
 {
     return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
 }
@@ -47,20 +47,21 @@ typedef struct sample {
     double t, guard, slope;
 } sample;
 
-static sample sample_at(const contact_scene *scene, const contact_site *site, const dense_output *p, double t)
+static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
-    const contact_spot spot = site_spot_on(site, p, t);
-    const contact_gap gap = site_gap(scene, site, &spot);
-    vec2 v = dense_output_velocity(p, t, site->node);
-    if (site_is_edge(site))
-        v = vec2_add(vec2_scale(1.0 - gap.place, v), vec2_scale(gap.place, dense_output_velocity(p, t, site->other)));
+    const candidate_positions spot = candidate_place_at(candidate, p, t);
+    const contact_gap gap = candidate_gap(scene, candidate, &spot);
+    vec2 v = dense_output_velocity(p, t, candidate->node);
+    if (candidate_is_edge(candidate))
+        v = vec2_add(vec2_scale(1.0 - gap.place, v),
+                     vec2_scale(gap.place, dense_output_velocity(p, t, candidate->other)));
     return (sample){t, fmin(gap.distance, 1.0) + scene->rule.skin, vec2_dot(gap.normal, v)};
 }
 
-static double guard_at(const contact_scene *scene, const contact_site *site, const dense_output *p, double t)
+static double guard_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
-    const contact_spot spot = site_spot_on(site, p, t);
-    return fmin(site_gap(scene, site, &spot).distance, 1.0) + scene->rule.skin;
+    const candidate_positions spot = candidate_place_at(candidate, p, t);
+    return fmin(candidate_gap(scene, candidate, &spot).distance, 1.0) + scene->rule.skin;
 }
 
 /* Whether the guard is lower somewhere between two samples than at both; a vertex may be beside the edge at one. */
@@ -71,116 +72,119 @@ static bool dips(const sample *s, const sample *next)
 
 /* A time between two samples at which the guard is as low as it gets, by golden section; the first found at or below 0
  * will do. Where nothing is near an edge its guard is level, and lower towards the lower sample. */
-static double lowest(const contact_scene *scene, const contact_site *site, const dense_output *p, const sample *s,
-                     const sample *next)
+static double lowest(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                     const sample *s, const sample *next)
 {
     const double ratio = 0.6180339887498949;
     double lo = s->t, hi = next->t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
-    double ga = guard_at(scene, site, p, a), gb = guard_at(scene, site, p, b);
+    double ga = guard_at(scene, candidate, p, a), gb = guard_at(scene, candidate, p, b);
     for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
         if (ga < gb || (ga == gb && s->guard < next->guard)) {
             hi = b;
             b = a;
             gb = ga;
             a = hi - ratio * (hi - lo);
-            ga = guard_at(scene, site, p, a);
+            ga = guard_at(scene, candidate, p, a);
         } else {
             lo = a;
             a = b;
             ga = gb;
             b = lo + ratio * (hi - lo);
-            gb = guard_at(scene, site, p, b);
+            gb = guard_at(scene, candidate, p, b);
         }
     }
     return ga < gb ? a : b;
 }
 
 /* The zero of the guard between a time when it is above and one when it is not. */
-static double crossing(const contact_scene *scene, const contact_site *site, const dense_output *p, sample clear,
-                       sample deep)
+static double crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                       sample clear, sample deep)
 {
-    const double width = search_resolution(p);
+    const double width = event_location_resolution(p);
     bracket b = {clear.t, deep.t, clear.guard, deep.guard, 0, 0};
     while (b.after - b.before > width) {
-        const double t = bracket_trial(&b, width), guard = guard_at(scene, site, p, t);
+        const double t = bracket_trial(&b, width), guard = guard_at(scene, candidate, p, t);
         bracket_close(&b, t, guard, guard <= 0.0);
     }
     return b.after;
 }
 
-static double fastest(const dense_output *p, double t, const contact_site *site)
+static double fastest(const dense_output *p, double t, const contact_candidate *candidate)
 {
-    const double v = vec2_norm(dense_output_velocity(p, t, site->node));
-    return site_is_edge(site) ? fmax(v, vec2_norm(dense_output_velocity(p, t, site->other))) : v;
+    const double v = vec2_norm(dense_output_velocity(p, t, candidate->node));
+    return candidate_is_edge(candidate) ? fmax(v, vec2_norm(dense_output_velocity(p, t, candidate->other))) : v;
 }
 
 /* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
  * its nodes there, four times what a constant one does, and its turn. */
-static double bend(const contact_site *site, const dense_output *p)
+static double bend(const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
-    const dem_index a0 = p->n_nodes + site->node, b0 = p->n_nodes + site->other;
+    const dem_index a0 = p->n_nodes + candidate->node, b0 = p->n_nodes + candidate->other;
     const double a = fmax(fmax(vec2_norm(vec2_at(p->f0, a0)), vec2_norm(vec2_at(p->f1, a0))),
                           fmax(vec2_norm(vec2_at(p->f0, b0)), vec2_norm(vec2_at(p->f1, b0))));
-    const vec2 va = dense_output_velocity(p, p->end, site->node), vb = dense_output_velocity(p, p->end, site->other);
-    const double length = vec2_norm(
-        vec2_sub(dense_output_position(p, p->end, site->other), dense_output_position(p, p->end, site->node)));
+    const vec2 va = dense_output_velocity(p, p->end, candidate->node),
+               vb = dense_output_velocity(p, p->end, candidate->other);
+    const double length = vec2_norm(vec2_sub(dense_output_position(p, p->end, candidate->other),
+                                             dense_output_position(p, p->end, candidate->node)));
     const double turn = 2.0 * vec2_norm(vec2_sub(vb, va)) / length * fmax(vec2_norm(va), vec2_norm(vb));
     return 0.5 * h * h * (a + turn);
 }
 
 /* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the
  * nearest is further in front than the edge can have come from there. */
-static bool edge_is_clear(const contact_scene *scene, const contact_site *site, const dense_output *p, double from,
-                          double reach)
+static bool edge_is_clear(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                          double from, double reach)
 {
-    const contact_spot spot = site_spot_on(site, p, p->end);
-    const contact_gap around = site_around(scene, site, &spot, reach + scene->rule.skin);
+    const candidate_positions spot = candidate_place_at(candidate, p, p->end);
+    const contact_gap around = candidate_around(scene, candidate, &spot, reach + scene->rule.skin);
     if (around.feature < 0) return true;
-    const double va = vec2_dot(dense_output_velocity(p, p->end, site->node), around.normal),
-                 vb = vec2_dot(dense_output_velocity(p, p->end, site->other), around.normal);
+    const double va = vec2_dot(dense_output_velocity(p, p->end, candidate->node), around.normal),
+                 vb = vec2_dot(dense_output_velocity(p, p->end, candidate->other), around.normal);
     const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
-    return around.distance + scene->rule.skin > way + bend(site, p);
+    return around.distance + scene->rule.skin > way + bend(candidate, p);
 }
 
 /* Whether a site ends the step so near to where it was clear that it was so all the way. */
-static bool stays_clear(const contact_site *site, const dense_output *p, double reach)
+static bool stays_clear(const contact_candidate *candidate, const dense_output *p, double reach)
 {
-    const contact_spot spot = site_spot_on(site, p, p->end);
-    return site_moved(site, &spot) + reach < site->clear;
+    const candidate_positions spot = candidate_place_at(candidate, p, p->end);
+    return candidate_moved(candidate, &spot) + reach < candidate->clear;
 }
 
 /* The first crossing of a site whose gap is the true one. */
-static double crossing_within(const contact_scene *scene, const contact_site *site, const dense_output *p, double from,
-                              double reach)
+static double crossing_within(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                              double from, double reach)
 {
     enum { n = 8 };
     const double h = p->end - from;
-    if (site_is_edge(site) && edge_is_clear(scene, site, p, from, reach)) return INFINITY;
-    const sample last = sample_at(scene, site, p, p->end);
-    sample s = sample_at(scene, site, p, from);
+    if (candidate_is_edge(candidate) && edge_is_clear(scene, candidate, p, from, reach)) return INFINITY;
+    const sample last = sample_at(scene, candidate, p, p->end);
+    sample s = sample_at(scene, candidate, p, from);
     if (s.guard <= 0.0) return from;
     const bool on_its_way = s.guard + last.guard <= reach; /* no gap of a node changes faster than that moves */
-    if (!site_is_edge(site) && !on_its_way) return INFINITY;
+    if (!candidate_is_edge(candidate) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
-        const sample next = k == n ? last : sample_at(scene, site, p, from + h * k / n);
-        if (next.guard <= 0.0) return crossing(scene, site, p, s, next);
+        const sample next = k == n ? last : sample_at(scene, candidate, p, from + h * k / n);
+        if (next.guard <= 0.0) return crossing(scene, candidate, p, s, next);
         if (dips(&s, &next) && fmin(s.guard, next.guard) < reach / n) {
-            const sample low = {.t = lowest(scene, site, p, &s, &next)};
-            const double guard = guard_at(scene, site, p, low.t);
-            if (guard <= 0.0) return crossing(scene, site, p, s, (sample){low.t, guard, 0.0});
+            const sample low = {.t = lowest(scene, candidate, p, &s, &next)};
+            const double guard = guard_at(scene, candidate, p, low.t);
+            if (guard <= 0.0) return crossing(scene, candidate, p, s, (sample){low.t, guard, 0.0});
         }
         s = next;
     }
     return INFINITY;
 }
 
-double search_crossing(const contact_scene *scene, const contact_site *site, const dense_output *p, double from)
+double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                               double from)
 {
     const double h = p->end - from;
-    const double reach = 2.0 * h * fmax(fastest(p, from, site), fastest(p, p->end, site)); /* no site goes further */
-    if (stays_clear(site, p, reach)) return INFINITY;
-    contact_site near = *site;
+    const double reach =
+        2.0 * h * fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)); /* no site goes further */
+    if (stays_clear(candidate, p, reach)) return INFINITY;
+    contact_candidate near = *candidate;
     near.clear = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
     return crossing_within(scene, &near, p, from, reach);
 }
@@ -206,48 +210,51 @@ static void put_around(const dem_model *model, const dense_output *p, double t, 
     }
 }
 
-void search_state(const reactions *r, dem_index group, const dense_output *p, double t, double *state)
+void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
 {
     for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
-        const contact_site *site = &r->sites[r->members[m]];
-        put_around(r->scene->model, p, t, site->node, state);
-        if (!site_is_edge(site)) continue;
-        put_around(r->scene->model, p, t, site->other, state);
-        if (site->previous >= 0) put_node(p, t, site->previous, state);
-        if (site->next >= 0) put_node(p, t, site->next, state);
+        const contact_candidate *candidate = &r->candidates[r->members[m]];
+        put_around(r->scene->model, p, t, candidate->node, state);
+        if (!candidate_is_edge(candidate)) continue;
+        put_around(r->scene->model, p, t, candidate->other, state);
+        if (candidate->previous >= 0) put_node(p, t, candidate->previous, state);
+        if (candidate->next >= 0) put_node(p, t, candidate->next, state);
     }
     if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, p->n_nodes - 1, state); /* the time */
 }
 
 /* Forces and guards of a site in the state at t: the lowest of the guards, each in units of what it was at first. */
-static double lowest_guard(reactions *r, dem_index k, const double *state, const double *scale)
+static double lowest_guard(contact_forces *r, dem_index k, const double *state, const double *scale)
 {
-    double guard[SITE_GUARDS], low = INFINITY;
-    site_guards(r->scene, &r->sites[k], r->force[k], state, state + scene_velocities(r->scene), guard);
-    for (int q = 0; q < SITE_GUARDS; q++)
+    double guard[CANDIDATE_ROOTS], low = INFINITY;
+    candidate_root_functions(r->scene, &r->candidates[k], r->force[k], state, state + scene_velocities(r->scene),
+                             guard);
+    for (int q = 0; q < CANDIDATE_ROOTS; q++)
         if (scale[q] > 0.0) low = fmin(low, guard[q] / scale[q]);
     return low;
 }
 
-double search_due(reactions *r, const contact_site *site, const dense_output *p, double from, double *state)
+double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,
+                             double *state)
 {
-    const dem_index k = site - r->sites, group = r->group[k];
+    const dem_index k = candidate - r->candidates, group = r->group[k];
     const double *v = state + scene_velocities(r->scene);
-    const double width = search_resolution(p);
-    double scale[SITE_GUARDS];
-    search_state(r, group, p, from, state);
-    reactions_solve(r, group, state, v);
-    if (site_due(r->scene, site, r->force[k], state, v)) return from;
-    site_guards(r->scene, site, r->force[k], state, v, scale);
+    const double width = event_location_resolution(p);
+    double scale[CANDIDATE_ROOTS];
+    event_location_state(r, group, p, from, state);
+    contact_forces_solve(r, group, state, v);
+    if (candidate_due(r->scene, candidate, r->force[k], state, v)) return from;
+    candidate_root_functions(r->scene, candidate, r->force[k], state, v, scale);
     bracket b = {from, p->end, lowest_guard(r, k, state, scale), 0.0, 0, 0};
-    search_state(r, group, p, p->end, state);
-    reactions_solve(r, group, state, v);
+    event_location_state(r, group, p, p->end, state);
+    contact_forces_solve(r, group, state, v);
     b.below = lowest_guard(r, k, state, scale);
     while (b.after - b.before > width) {
         const double t = bracket_trial(&b, width);
-        search_state(r, group, p, t, state);
-        reactions_solve(r, group, state, v);
-        bracket_close(&b, t, lowest_guard(r, k, state, scale), site_due(r->scene, site, r->force[k], state, v));
+        event_location_state(r, group, p, t, state);
+        contact_forces_solve(r, group, state, v);
+        bracket_close(&b, t, lowest_guard(r, k, state, scale),
+                      candidate_due(r->scene, candidate, r->force[k], state, v));
     }
     return b.after;
 }

@@ -6,17 +6,19 @@
 #include "contact/candidate.h"
 
 /** Width to which a time in the step is located, s: what ARKODE's root finder uses. */
-double search_resolution(const dense_output *p);
+double event_location_resolution(const dense_output *p);
 
 /** First time in the step, after `from`, at which a free site is as deep as the skin; infinity if never. The rest of
  *  the step is sampled eight times, and every dip between samples followed to its bottom. */
-double search_crossing(const contact_scene *scene, const contact_site *site, const dense_output *p, double from);
+double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                               double from);
 
 /** First time in the step, after `from`, at which a site of a group, due at its end, is due. It stays the only one
  *  looked at.  \param[out] state  [4 n] scratch */
-double search_due(reactions *r, const contact_site *site, const dense_output *p, double from, double *state);
+double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,
+                             double *state);
 
 /** The positions and velocities at t that the forces on a group's nodes depend on, into state [4 n]. */
-void search_state(const reactions *r, dem_index group, const dense_output *p, double t, double *state);
+void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state);
 
 #endif

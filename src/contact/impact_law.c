@@ -41,7 +41,7 @@ static vec2 rub(const impact_surface *s, vec2 v, double kick)
     return vec2_along(v, after - vt, t);
 }
 
-vec2 impact_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
+vec2 impact_law_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
 {
     double p[2], eta[2];
     inward_parts(surface, n, v, p);
@@ -59,13 +59,13 @@ vec2 impact_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
     return after;
 }
 
-double impact_kept_up(const impact_surface *surface)
+double impact_law_kept_up(const impact_surface *surface)
 {
     const double square = surface->restitution * surface->restitution;
     return square < 1.0 ? fmin(square / (1.0 - square), 50.0) : 0.0;
 }
 
-int impact_holding(const impact_surface *surface, int n, vec2 force, double *reaction)
+int impact_law_holding(const impact_surface *surface, int n, vec2 force, double *reaction)
 {
     double p[2];
     int holding = 0;

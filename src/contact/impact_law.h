@@ -20,15 +20,15 @@ typedef struct impact_surface {
  *  Where exactly one acts, friction changes the tangential velocity: by Coulomb's law by at most mu (1 + eta) |v_n|,
  *  not beyond 0; by (10) to mu v_t.
  *  \param[out] kick  [n] what each surface adds to the velocity */
-vec2 impact_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick);
+vec2 impact_law_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick);
 
 /** Height of the hop that impacts keep up which are taken at a depth of 1 and put back on the surface, under a constant
  *  push: v'^2 = eta^2 (v^2 + 2 a) tends to 2 a eta^2/(1 - eta^2). At most 50, and 0 for eta = 1, where there is no
  *  limit. */
-double impact_kept_up(const impact_surface *surface);
+double impact_law_kept_up(const impact_surface *surface);
 
 /** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls
  *  and nothing accelerates inwards. Bit s is set if surface s holds; reaction[s] is then its force, N, else 0. */
-int impact_holding(const impact_surface *surface, int n, vec2 force, double *reaction);
+int impact_law_holding(const impact_surface *surface, int n, vec2 force, double *reaction);
 
 #endif

@@ -6,40 +6,40 @@
 #include "contact/contact_set.h"
 
 /** The one or two features that a site strikes: segments, the one approached faster first, or a vertex. */
-typedef struct contact_hit {
+typedef struct impact_target {
     int n;
     dem_index feature[2];
-} contact_hit;
+} impact_target;
 
 /** How deep a site can be at an impact, m: twice the skin, how far it moves in ten times the time to which events are
  *  located, and how far it may have been moved to straighten a contact beside it. */
-double strike_depth(const contact_sites *c, dem_index k, const contact_moment *now);
+double impact_depth(const contact_set *c, dem_index k, const contact_instant *now);
 
 /** Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:
  *  neighbours, which bend up here, form one at their vertex. */
-bool strike_corner(const contact_sites *c, dem_index s, dem_index other, vec2 x, double tolerance);
+bool impact_is_corner(const contact_set *c, dem_index s, dem_index other, vec2 x, double tolerance);
 
 /** What a touching node meets: the segment approached fastest, and a second one that forms a corner with it. */
-contact_hit strike_met(const contact_sites *c, dem_index k, const contact_moment *now);
+impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now);
 
 /** The edge at a node whose side a vertex meets where the node is, and the vertex: when a flat side comes down with a
  *  node right on an apex, the side's normal counts. Returns -1 where there is none. */
-dem_index strike_side(const contact_sites *c, dem_index k, const contact_moment *now, dem_index *vertex);
+dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex);
 
 /** Puts a group of contacts on their surfaces, and books what that puts in.  \return how far nodes have moved, m */
-double strike_straighten(contact_sites *c, dem_index group, contact_moment *now);
+double impact_project(contact_set *c, dem_index group, contact_instant *now);
 
 /** Stops a group of contacts, and books what that takes. */
-void strike_stop(contact_sites *c, dem_index group, contact_moment *now);
+void impact_stop(contact_set *c, dem_index group, contact_instant *now);
 
 /** A site strikes: it is put back on the surface, rebounds, and the contacts that last are closed. A node on a segment
  *  that it does not strike again leaves it. */
-dem_status strike(contact_sites *c, dem_index k, contact_hit hit, contact_moment *now);
+dem_status impact_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now);
 
 /** Whether the node between two edges, on a vertex, comes to rest in the notch that they form there. */
-bool strike_notch(const contact_sites *c, dem_index edge, dem_index next, const contact_moment *now);
+bool impact_rests_in_notch(const contact_set *c, dem_index edge, dem_index next, const contact_instant *now);
 
 /** A free site that nears a surface with this unit normal is reflected where it is: no contact closes. */
-void strike_early(contact_sites *c, dem_index k, const contact_gap *gap, contact_moment *now);
+void impact_early(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now);
 
 #endif

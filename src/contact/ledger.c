@@ -6,9 +6,9 @@
 
 #include "base/status.h"
 
-dem_status books_create(contact_books *out, dem_index n_obstacles)
+dem_status ledger_create(contact_ledger *out, dem_index n_obstacles)
 {
-    contact_books b = {0};
+    contact_ledger b = {0};
     b.impulse = calloc(4 * (size_t)n_obstacles + 1, sizeof *b.impulse);
     CHECK(b.impulse != NULL, DEM_ERROR_MEMORY, "out of memory for the impulses of %lld obstacles",
           (long long)n_obstacles);
@@ -17,13 +17,13 @@ dem_status books_create(contact_books *out, dem_index n_obstacles)
     return DEM_OK;
 }
 
-void books_destroy(contact_books *b)
+void ledger_destroy(contact_ledger *b)
 {
     free(b->impulse);
-    *b = (contact_books){0};
+    *b = (contact_ledger){0};
 }
 
-void books_add_impulse(contact_books *b, dem_index obstacle, vec2 impulse, vec2 tangential)
+void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential)
 {
     vec2_put(b->impulse, obstacle, vec2_add(vec2_at(b->impulse, obstacle), impulse));
     vec2_put(b->friction_impulse, obstacle, vec2_add(vec2_at(b->friction_impulse, obstacle), tangential));
@@ -53,7 +53,7 @@ static void count(dem_counts *n, const dem_event *event)
     }
 }
 
-void books_enter(contact_books *b, const dem_event *event, contact_moment *now)
+void ledger_enter(contact_ledger *b, const dem_event *event, contact_instant *now)
 {
     count(&b->counts, event);
     if (now->listener->event == NULL) return;

@@ -5,33 +5,33 @@
 
 #include "contact/contact_point.h"
 
-typedef struct contact_books {
+typedef struct contact_ledger {
     double impact, projection;          /* J, taken by impacts, put in by projection */
     double *impulse, *friction_impulse; /* [n_obstacles][2] N s, given to the bodies by impacts */
     dem_counts counts;                  /* those of contacts */
-} contact_books;
+} contact_ledger;
 
 /** Who is told of events. */
-typedef struct contact_listener {
+typedef struct event_listener {
     dem_status (*event)(void *context, const dem_event *event);
     void *context;
-} contact_listener;
+} event_listener;
 
 /** The state being changed: views into y = (x, v), and who is told. */
-typedef struct contact_moment {
+typedef struct contact_instant {
     double t;
     double *x, *v;
-    const contact_listener *listener;
+    const event_listener *listener;
     dem_status told; /* the first status other than DEM_OK that the listener returned */
-} contact_moment;
+} contact_instant;
 
-dem_status books_create(contact_books *out, dem_index n_obstacles);
-void books_destroy(contact_books *b);
+dem_status ledger_create(contact_ledger *out, dem_index n_obstacles);
+void ledger_destroy(contact_ledger *b);
 
 /** Adds an impulse (N s) to an obstacle's: `tangential` is the part of it along the surface. */
-void books_add_impulse(contact_books *b, dem_index obstacle, vec2 impulse, vec2 tangential);
+void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential);
 
 /** Counts the event and tells the listener. */
-void books_enter(contact_books *b, const dem_event *event, contact_moment *now);
+void ledger_enter(contact_ledger *b, const dem_event *event, contact_instant *now);
 
 #endif

@@ -12,49 +12,49 @@
 
 /* ---- set-up ---- */
 
-static dem_status allocate(queue *q, const dem_model *model)
+static dem_status allocate(event_queue *q, const dem_model *model)
 {
-    const size_t n = (size_t)q->contact->sites.n + 1;
+    const size_t n = (size_t)q->automaton->set.n + 1;
     q->due = malloc(n * sizeof *q->due);
     q->waiting = malloc(n * sizeof *q->waiting);
     q->waits = calloc(n, sizeof *q->waits);
     q->kept = calloc(n, sizeof *q->kept);
-    q->sites = malloc(n * sizeof *q->sites);
-    CHECK(q->due && q->waiting && q->waits && q->kept && q->sites, DEM_ERROR_MEMORY,
-          "out of memory for %lld contact sites", (long long)q->contact->sites.n);
-    TRY(changed_motion_create(&q->changed, model->lattice.n_nodes + q->contact->sites.scene.rule.n_quadratures));
-    return books_create(&q->books, model->obstacles.n);
+    q->saved = malloc(n * sizeof *q->saved);
+    CHECK(q->due && q->waiting && q->waits && q->kept && q->saved, DEM_ERROR_MEMORY,
+          "out of memory for %lld contact sites", (long long)q->automaton->set.n);
+    TRY(changed_motion_create(&q->changed, model->lattice.n_nodes + q->automaton->set.scene.rule.n_quadratures));
+    return ledger_create(&q->ledger, model->obstacles.n);
 }
 
-dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool controlled)
+dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled)
 {
-    queue q = {.contact = c, .most = controlled ? 1.0 : (double)INFINITY};
-    dem_status status = allocate(&q, c->sites.scene.model);
-    if (status == DEM_OK) status = patch_create(&q.patch, &c->sites, rule);
+    event_queue q = {.automaton = c, .most = controlled ? 1.0 : (double)INFINITY};
+    dem_status status = allocate(&q, c->set.scene.model);
+    if (status == DEM_OK) status = local_correction_create(&q.correction, &c->set, rule);
     if (status == DEM_OK)
         *out = q;
     else
-        queue_destroy(&q);
+        event_queue_destroy(&q);
     return status;
 }
 
-void queue_destroy(queue *q)
+void event_queue_destroy(event_queue *q)
 {
-    patch_destroy(&q->patch);
+    local_correction_destroy(&q->correction);
     changed_motion_destroy(&q->changed);
-    books_destroy(&q->books);
+    ledger_destroy(&q->ledger);
     free(q->due);
     free(q->waiting);
     free(q->waits);
     free(q->kept);
-    free(q->sites);
+    free(q->saved);
     free(q->events);
-    *q = (queue){0};
+    *q = (event_queue){0};
 }
 
 /* ---- who is next ---- */
 
-static void wait_until(queue *q, dem_index k, double due)
+static void wait_until(event_queue *q, dem_index k, double due)
 {
     q->due[k] = due;
     if (q->waits[k] || !isfinite(due)) return;
@@ -63,7 +63,7 @@ static void wait_until(queue *q, dem_index k, double due)
 }
 
 /* The site that is due first, of those due at the same time that of the lowest number; -1: none. */
-static dem_index next_of(queue *q)
+static dem_index next_of(event_queue *q)
 {
     dem_index next = -1, n = 0;
     for (dem_index w = 0; w < q->n_waiting; w++) {
@@ -79,60 +79,60 @@ static dem_index next_of(queue *q)
 
 enum { least_share = 32 }; /* free sites for which a thread is worth its while */
 
-static bool is_free(const queue *q, dem_index k)
+static bool is_free(const event_queue *q, dem_index k)
 {
-    return q->contact->sites.list[k].n_closed == 0;
+    return q->automaton->set.list[k].n_closed == 0;
 }
 
 /* When the free ones of a share of the sites touch. */
-static void look_at_free(queue *q, int n_shares, int share)
+static void look_at_free(event_queue *q, int n_shares, int share)
 {
-    contact *c = q->contact;
-    const dem_index n = contact_watched(c), end = threads_share(n, n_shares, share + 1);
+    automaton *c = q->automaton;
+    const dem_index n = automaton_n_active(c), end = threads_share(n, n_shares, share + 1);
     for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
-        const dem_index k = contact_at_watch(c, a);
-        if (is_free(q, k)) q->due[k] = contact_crossing(c, q->step, k, q->step->t0);
+        const dem_index k = automaton_active_candidate(c, a);
+        if (is_free(q, k)) q->due[k] = automaton_crossing(c, q->step, k, q->step->t0);
     }
 }
 
-static void look_ahead(queue *q)
+static void look_ahead(event_queue *q)
 {
-    contact *c = q->contact;
+    automaton *c = q->automaton;
     const dense_output *step = q->step;
     for (dem_index w = 0; w < q->n_waiting; w++) q->waits[q->waiting[w]] = false;
     q->n_waiting = 0;
     q->now = step->t0;
     q->error = q->ahead = 0.0;
     q->settled = false;
-    contact_expect(c, step, q->state);
-    const int most = c->sites.scene.rule.n_threads,
-              n_threads = contact_watched(c) >= least_share * most && most > 1 ? most : 1;
+    automaton_begin_step(c, step, q->state);
+    const int most = c->set.scene.rule.n_threads,
+              n_threads = automaton_n_active(c) >= least_share * most && most > 1 ? most : 1;
     THREADS_RUN(n_threads, t, look_at_free(q, n_threads, t));
-    const dem_index *behind = &c->sites.books.counts.behind, were_behind = *behind;
-    for (dem_index a = 0; a < contact_watched(c); a++) {
-        const dem_index k = contact_at_watch(c, a);
+    const dem_index *behind = &c->set.ledger.counts.behind, were_behind = *behind;
+    for (dem_index a = 0; a < automaton_n_active(c); a++) {
+        const dem_index k = automaton_active_candidate(c, a);
         const bool known =
             is_free(q, k) && q->due[k] > step->t0 && *behind == were_behind; /* else others may know more */
-        wait_until(q, k, known ? q->due[k] : contact_next(c, step, k, step->t0, q->state));
+        wait_until(q, k, known ? q->due[k] : automaton_next_change(c, step, k, step->t0, q->state));
     }
 }
 
-void queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state)
+void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
-    for (dem_index s = 0; s < q->n_sites; s++) q->kept[q->sites[s].k] = false;
-    q->n_sites = q->n_events = q->n_stops = 0;
+    for (dem_index s = 0; s < q->n_saved; s++) q->kept[q->saved[s].k] = false;
+    q->n_saved = q->n_events = q->n_stops = 0;
     changed_motion_start(&q->changed, step->t1, y1, f1);
     step->changed = &q->changed;
     q->step = step;
     q->state = state;
-    q->idle = q->contact->idle;
+    q->idle = q->automaton->idle;
     q->quiet = false;
     look_ahead(q);
 }
 
 /* ---- what has changed ---- */
 
-static void copy_books(const contact_books *from, contact_books *to, dem_index n_obstacles)
+static void copy_books(const contact_ledger *from, contact_ledger *to, dem_index n_obstacles)
 {
     double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
     memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
@@ -141,78 +141,78 @@ static void copy_books(const contact_books *from, contact_books *to, dem_index n
     to->friction_impulse = friction_impulse;
 }
 
-static void keep_site(queue *q, dem_index k)
+static void keep_site(event_queue *q, dem_index k)
 {
     if (q->kept[k]) return;
     q->kept[k] = true;
-    q->sites[q->n_sites++] = (queue_site){k, q->contact->sites.list[k]};
+    q->saved[q->n_saved++] = (saved_candidate){k, q->automaton->set.list[k]};
 }
 
-static dem_index n_moving(const queue *q)
+static dem_index n_moving(const event_queue *q)
 {
-    return q->patch.ball.end[q->patch.ball.n_rings - 1];
+    return q->correction.near.end[q->correction.near.n_rings - 1];
 }
 
-static bool moves(const queue *q, dem_index node)
+static bool moves(const event_queue *q, dem_index node)
 {
-    return ball_has(&q->patch.ball, node, q->patch.ball.n_rings - 1);
+    return neighbourhood_has(&q->correction.near, node, q->correction.near.n_rings - 1);
 }
 
 /* Does something to every site that has a node in the patch which moves. */
-static void each_site(queue *q, void (*act)(queue *q, dem_index k))
+static void each_site(event_queue *q, void (*act)(event_queue *q, dem_index k))
 {
-    const contact_sites *c = &q->contact->sites;
+    const contact_set *c = &q->automaton->set;
     const surface *s = &c->scene.model->surface;
     for (dem_index j = 0; j < n_moving(q); j++) {
-        const dem_index i = q->patch.ball.nodes[j].i;
+        const dem_index i = q->correction.near.nodes[j].i;
         if (c->of_node[i] >= 0) act(q, c->of_node[i]);
-        for (dem_index p = s->row[i]; p < s->row[i + 1] && c->n > c->scene.model->n_sites; p++) {
-            const dem_index k = sites_of_edge(c, s->at[p]);
+        for (dem_index p = s->row[i]; p < s->row[i + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+            const dem_index k = contact_set_of_edge(c, s->at[p]);
             if (c->list[k].node == i || !moves(q, c->list[k].node)) act(q, k); /* once */
         }
     }
 }
 
-void queue_undo(queue *q)
+void event_queue_undo(event_queue *q)
 {
-    contact *c = q->contact;
+    automaton *c = q->automaton;
     if (q->n_stops == 0) return;
-    for (dem_index s = 0; s < q->n_sites; s++) {
-        c->sites.list[q->sites[s].k] = q->sites[s].before;
-        q->kept[q->sites[s].k] = false;
+    for (dem_index s = 0; s < q->n_saved; s++) {
+        c->set.list[q->saved[s].k] = q->saved[s].before;
+        q->kept[q->saved[s].k] = false;
     }
-    copy_books(&q->books, &c->sites.books, c->sites.scene.model->obstacles.n);
-    (void)sites_regroup(&c->sites); /* groups that there were have room */
+    copy_books(&q->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
+    (void)contact_set_regroup(&c->set); /* groups that there were have room */
     changed_motion_undo(&q->changed);
     c->idle = q->idle;
     c->solved = NAN;
-    q->n_sites = q->n_events = q->n_stops = 0;
+    q->n_saved = q->n_events = q->n_stops = 0;
 }
 
 /* ---- events ---- */
 
 static dem_status hear(void *context, const dem_event *event)
 {
-    queue *q = context;
+    event_queue *q = context;
     CHECK(grow_array((void **)&q->events, &q->capacity, q->n_events + 1, sizeof *q->events), DEM_ERROR_MEMORY,
           "out of memory for the contact events of a step");
     q->events[q->n_events++] = *event;
     return DEM_OK;
 }
 
-static void look_again(queue *q, dem_index k)
+static void look_again(event_queue *q, dem_index k)
 {
-    wait_until(q, k, contact_next(q->contact, q->step, k, q->now, q->state));
+    wait_until(q, k, automaton_next_change(q->automaton, q->step, k, q->now, q->state));
 }
 
 /* How far sites may go: some are faster now. */
-static double furthest(const queue *q)
+static double furthest(const event_queue *q)
 {
     const dense_output *step = q->step;
-    double way = q->contact->way;
+    double way = q->automaton->way;
     for (dem_index j = 0; j < n_moving(q); j++) {
-        const dem_index i = q->patch.ball.nodes[j].i;
-        if (q->contact->sites.of_node[i] < 0) continue;
+        const dem_index i = q->correction.near.nodes[j].i;
+        if (q->automaton->set.of_node[i] < 0) continue;
         way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1, step->n_nodes + i)));
     }
     return way;
@@ -229,76 +229,77 @@ static double growth(double ratio)
 
 /* What errors have left closed contacts near the event of velocities that they do not allow goes first: it would be
  * taken for sliding or for an approach. */
-static void calm(queue *q)
+static void calm(event_queue *q)
 {
-    contact_sites *c = &q->contact->sites;
-    contact_moment now = {q->now, q->state, q->state + scene_velocities(&c->scene), NULL, DEM_OK};
-    for (dem_index g = 0; g < q->patch.ball.n_groups; g++) strike_stop(c, q->patch.ball.groups[g].group, &now);
+    contact_set *c = &q->automaton->set;
+    contact_instant now = {q->now, q->state, q->state + scene_velocities(&c->scene), NULL, DEM_OK};
+    for (dem_index g = 0; g < q->correction.near.n_groups; g++)
+        impact_stop(c, q->correction.near.groups[g].group, &now);
 }
 
 /* What is due at a site, and what follows from it. */
-static dem_status take(queue *q, dem_index k)
+static dem_status take(event_queue *q, dem_index k)
 {
-    const contact_listener listener = {hear, q};
-    contact *c = q->contact;
+    const event_listener listener = {hear, q};
+    automaton *c = q->automaton;
     double error;
-    if (q->n_stops == 0) copy_books(&c->sites.books, &q->books, c->sites.scene.model->obstacles.n);
+    if (q->n_stops == 0) copy_books(&c->set.ledger, &q->ledger, c->set.scene.model->obstacles.n);
     q->n_stops += q->n_stops == 0 || q->due[k] > q->now;
     q->now = q->due[k];
-    TRY(patch_open(&q->patch, q->step, k, q->now, q->state));
+    TRY(local_correction_open(&q->correction, q->step, k, q->now, q->state));
     each_site(q, keep_site);
     calm(q);
-    TRY(contact_resolve_at(c, k, q->now, q->state, &listener));
-    TRY(patch_close(&q->patch, q->step, &q->changed, q->state, &error));
+    TRY(automaton_resolve_near(c, k, q->now, q->state, &listener));
+    TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));
     CHECK(isfinite(error), DEM_ERROR_INTEGRATOR,
-          "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->sites.list[k].node,
+          "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->set.list[k].node,
           q->now);
     q->error += error;
-    q->ahead += error * growth((q->step->t1 - q->step->t0) / q->patch.h);
+    q->ahead += error * growth((q->step->t1 - q->step->t0) / q->correction.h);
     c->way = furthest(q);
-    for (dem_index g = 0; g < q->patch.ball.n_groups; g++)
-        contact_weigh(c, q->step, q->patch.ball.groups[g].group, q->state);
+    for (dem_index g = 0; g < q->correction.near.n_groups; g++)
+        automaton_solve_group(c, q->step, q->correction.near.groups[g].group, q->state);
     each_site(q, look_again);
     return DEM_OK;
 }
 
-static bool has_moved(const queue *q, dem_index group)
+static bool has_moved(const event_queue *q, dem_index group)
 {
-    const reactions *r = &q->contact->sites.reactions;
+    const contact_forces *r = &q->automaton->set.forces;
     for (dem_index m = r->row[group]; m < r->row[group + 1]; m++)
-        if (changed_motion_has(&q->changed, r->sites[r->members[m]].node)) return true;
+        if (changed_motion_has(&q->changed, r->candidates[r->members[m]].node)) return true;
     return false;
 }
 
 /* Accelerations at the end of the step depend on the new positions of nodes and neighbours. */
-static void renew(const queue *q, dem_index i, const double *y)
+static void renew(const event_queue *q, dem_index i, const double *y)
 {
-    const contact_sites *c = &q->contact->sites;
-    const unsigned held = q->patch.rule.held != NULL ? q->patch.rule.held[i] : 0;
+    const contact_set *c = &q->automaton->set;
+    const unsigned held = q->correction.rule.held != NULL ? q->correction.rule.held[i] : 0;
     const double *v = y + scene_velocities(&c->scene);
     double *a = q->changed.f1 + scene_velocities(&c->scene);
-    const bool grouped = sites_group_at(c, i) >= 0;
+    const bool grouped = contact_set_group_at(c, i) >= 0;
     const vec2 now =
-        grouped ? vec2_at(c->reactions.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
+        grouped ? vec2_at(c->forces.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
     if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
     if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
     if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));
 }
 
 /* The rates of the books that contacts fill, from all of them. */
-static dem_status renew_books(queue *q)
+static dem_status renew_books(event_queue *q)
 {
-    const contact_scene *scene = &q->contact->sites.scene;
+    const contact_scene *scene = &q->automaton->set.scene;
     const dem_index first = scene_books(scene), n_impulses = 2 * scene->model->obstacles.n;
     double *rate = q->changed.f1 + scene_velocities(scene) + 2 * first;
     for (dem_index b = 0; b <= n_impulses; b++) TRY(changed_motion_keep(&q->changed, first + b));
     for (dem_index k = 0; k <= 2 * n_impulses; k++) rate[k] = 0.0; /* the last is the power of friction */
-    contact_account(q->contact, q->changed.y1, rate);
+    automaton_add_rates(q->automaton, q->changed.y1, rate);
     return DEM_OK;
 }
 
 /* The same of a node whose motion has not changed. */
-static dem_status renew_beside(queue *q, dem_index i, const double *y)
+static dem_status renew_beside(event_queue *q, dem_index i, const double *y)
 {
     if (changed_motion_has(&q->changed, i)) return DEM_OK;
     TRY(changed_motion_keep(&q->changed, i));
@@ -308,14 +309,14 @@ static dem_status renew_beside(queue *q, dem_index i, const double *y)
 
 /* Derivatives at the end of the step, for the change of nodes and contacts: they are those of the state to the bit, but
  * for the power of damping and boundaries. */
-static dem_status renew_end(queue *q)
+static dem_status renew_end(event_queue *q)
 {
-    contact_sites *c = &q->contact->sites;
+    contact_set *c = &q->automaton->set;
     const springs *s = &c->scene.model->springs;
     const triangles *t = &c->scene.model->triangles;
     const double *y1 = q->changed.y1;
-    for (dem_index g = 0; g < c->reactions.n_groups; g++)
-        reactions_solve(&c->reactions, g, y1, y1 + scene_velocities(&c->scene));
+    for (dem_index g = 0; g < c->forces.n_groups; g++)
+        contact_forces_solve(&c->forces, g, y1, y1 + scene_velocities(&c->scene));
     for (dem_index e = 0, n = q->changed.n; e < n; e++) {
         const dem_index i = q->changed.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
@@ -330,37 +331,37 @@ static dem_status renew_end(queue *q)
 }
 
 /* The error that the patches leave in closed contacts goes: they are put back on their surfaces and stopped there. */
-static dem_status settle_end(queue *q)
+static dem_status settle_end(event_queue *q)
 {
-    contact_sites *c = &q->contact->sites;
+    contact_set *c = &q->automaton->set;
     double *y1 = q->changed.y1;
-    contact_moment now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
-    for (dem_index g = 0; g < c->reactions.n_groups; g++) {
+    contact_instant now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
+    for (dem_index g = 0; g < c->forces.n_groups; g++) {
         if (!has_moved(q, g)) continue;
-        (void)strike_straighten(c, g, &now);
-        strike_stop(c, g, &now);
+        (void)impact_project(c, g, &now);
+        impact_stop(c, g, &now);
     }
     q->settled = true;
     return renew_end(q);
 }
 
-double queue_error(const queue *q)
+double event_queue_error(const event_queue *q)
 {
     return isfinite(q->most) ? sqrt(q->error / q->most) : 0.0;
 }
 
-double queue_reach(const queue *q)
+double event_queue_reach(const event_queue *q)
 {
     const double error = isfinite(q->most) ? sqrt(q->ahead / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
-dem_status queue_show(queue *q, double t)
+dem_status event_queue_show(event_queue *q, double t)
 {
     const bool goes_back = t < q->now;
     if (goes_back && q->quiet) return DEM_OK;
     if (goes_back) {
-        queue_undo(q);
+        event_queue_undo(q);
         look_ahead(q);
     }
     for (dem_index k = next_of(q); k >= 0 && q->due[k] <= t && q->error <= q->most; k = next_of(q)) TRY(take(q, k));

@@ -9,14 +9,14 @@
 #include "events/local_correction.h"
 
 /** A site as it was before the step. */
-typedef struct queue_site {
+typedef struct saved_candidate {
     dem_index k;
-    contact_site before;
-} queue_site;
+    contact_candidate before;
+} saved_candidate;
 
-typedef struct queue {
-    contact *contact;
-    patch patch;
+typedef struct event_queue {
+    automaton *automaton;
+    local_correction correction;
     changed_motion changed;
     const dense_output *step; /* in hand */
     double *state;            /* [4 n] scratch, the caller's */
@@ -30,37 +30,37 @@ typedef struct queue {
     dem_index *waiting;       /* [n sites] sites that may be due */
     dem_index n_waiting;
     bool *waits, *kept; /* [n sites] whether a site is one of them; whether it is among `sites` */
-    dem_index n_sites;
-    queue_site *sites;   /* [n_sites] those that have changed */
-    contact_books books; /* before the step */
+    dem_index n_saved;
+    saved_candidate *saved; /* [n_saved] those that have changed */
+    contact_ledger ledger;  /* before the step */
     dem_index idle;
     dem_index n_events, capacity;
     dem_event *events; /* [n_events] */
     dem_index n_stops; /* times at which something happened */
-} queue;
+} event_queue;
 
 /** Borrows the contact, and what the rule points at. `controlled`: a step is rejected for an error above 1. Free with
- *  queue_destroy(). */
-dem_status queue_create(queue *out, contact *c, const patch_rule *rule, bool controlled);
-void queue_destroy(queue *q);
+ *  event_queue_destroy(). */
+dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled);
+void event_queue_destroy(event_queue *q);
 
 /** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given
  *  the trail; it must stay where it is.  \param state  [4 n] scratch */
-void queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
+void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 
 /** Makes the contacts, and the step up to there, what they are at t; the end is whole when t is not before it.
- *  \return DEM_ERROR_CONTACT as contact_resolve(), DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
+ *  \return DEM_ERROR_CONTACT as automaton_resolve(), DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
  *  DEM_ERROR_MEMORY */
-dem_status queue_show(queue *q, double t);
+dem_status event_queue_show(event_queue *q, double t);
 
 /** How far beyond what is allowed the error of the step is that comes from its events: 1 is just allowed. */
-double queue_error(const queue *q);
+double event_queue_error(const event_queue *q);
 
 /** How long the next step may be, s, for what the events have done; infinity if that sets no bound. Its own estimate
  *  may not tell. */
-double queue_reach(const queue *q);
+double event_queue_reach(const event_queue *q);
 
 /** Takes all back: contacts, books and the end of the step are as they were. */
-void queue_undo(queue *q);
+void event_queue_undo(event_queue *q);
 
 #endif

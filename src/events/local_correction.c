@@ -7,42 +7,42 @@
 
 #include "base/status.h"
 
-enum { END = PATCH_STAGES }; /* the end of the step, behind the stages */
+enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
 
-dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule)
+dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule)
 {
-    const bool damped = sites->scene.model->springs.viscosity != NULL;
-    patch p = {.rule = *rule};
+    const bool damped = set->scene.model->springs.viscosity != NULL;
+    local_correction p = {.rule = *rule};
     TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
-    TRY(ball_create(&p.ball, sites, 1 + (damped ? p.table.stages : p.table.stages / 2)));
+    TRY(neighbourhood_create(&p.near, set, 1 + (damped ? p.table.stages : p.table.stages / 2)));
     *out = p;
     return DEM_OK;
 }
 
-void patch_destroy(patch *p)
+void local_correction_destroy(local_correction *p)
 {
-    ball_destroy(&p->ball);
+    neighbourhood_destroy(&p->near);
     free(p->book);
     free(p->motions);
     free(p->block);
-    *p = (patch){0};
+    *p = (local_correction){0};
 }
 
 /* The last ring that moves. */
-static int last_ring(const patch *p)
+static int last_ring(const local_correction *p)
 {
-    return p->ball.n_rings - 1;
+    return p->near.n_rings - 1;
 }
 
-static dem_index n_moving(const patch *p)
+static dem_index n_moving(const local_correction *p)
 {
-    return p->ball.end[last_ring(p)];
+    return p->near.end[last_ring(p)];
 }
 
 /* Rings on which accelerations change at a stage: one more for every two stages, the first because a node may be put
  * back on its surface; damped springs one more for each. */
-static int reach(const patch *p, int stage)
+static int reach(const local_correction *p, int stage)
 {
     const int before = stage == END ? p->table.stages : stage;
     const int rings = last_ring(p) == p->table.stages ? before + 1 : 1 + before / 2;
@@ -51,17 +51,20 @@ static int reach(const patch *p, int stage)
 
 /* ---- memory ---- */
 
-enum { ARRAYS = 6 * PATCH_STAGES + 6, CHANGES = 3 * PATCH_STAGES }; /* CHANGES: the first of dx, dv, da */
+enum {
+    ARRAYS = 6 * LOCAL_CORRECTION_STAGES + 6,
+    CHANGES = 3 * LOCAL_CORRECTION_STAGES
+}; /* CHANGES: the first of dx, dv, da */
 
-static double **array_of(patch *p, int k)
+static double **array_of(local_correction *p, int k)
 {
     double **const before[] = {p->x, p->v, p->a}, **const change[] = {p->dx, p->dv, p->da, p->changed};
-    if (k < CHANGES) return &before[k / PATCH_STAGES][k % PATCH_STAGES];
-    return &change[(k - CHANGES) / (PATCH_STAGES + 1)][(k - CHANGES) % (PATCH_STAGES + 1)];
+    if (k < CHANGES) return &before[k / LOCAL_CORRECTION_STAGES][k % LOCAL_CORRECTION_STAGES];
+    return &change[(k - CHANGES) / (LOCAL_CORRECTION_STAGES + 1)][(k - CHANGES) % (LOCAL_CORRECTION_STAGES + 1)];
 }
 
 /* Room for so many nodes and pairs of the books; what there is of `used` is kept. */
-static dem_status reserve(patch *p, dem_index n, dem_index used)
+static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 {
     if (n <= p->capacity) return DEM_OK;
     const size_t more = 2 * (size_t)n + 64;
@@ -87,9 +90,9 @@ static dem_status reserve(patch *p, dem_index n, dem_index used)
 /* ---- books ---- */
 
 /* The number of the pair of the books at a place; one that is new has not changed. */
-static dem_status find_book(patch *p, dem_index place, dem_index *out)
+static dem_status find_book(local_correction *p, dem_index place, dem_index *out)
 {
-    const dem_index n = p->ball.n;
+    const dem_index n = p->near.n;
     for (dem_index b = 0; b < p->n_quadratures; b++) {
         *out = n + b;
         if (p->book[b] == place) return DEM_OK;
@@ -101,7 +104,7 @@ static dem_status find_book(patch *p, dem_index place, dem_index *out)
     return DEM_OK;
 }
 
-static dem_status add_rate(patch *p, dem_index place, int stage, double sign, vec2 rate)
+static dem_status add_rate(local_correction *p, dem_index place, int stage, double sign, vec2 rate)
 {
     dem_index book;
     if (rate.x == 0.0 && rate.y == 0.0) return DEM_OK;
@@ -111,9 +114,9 @@ static dem_status add_rate(patch *p, dem_index place, int stage, double sign, ve
 }
 
 /* Whether there is anything but contacts in the books. */
-static bool has_powers(const patch *p)
+static bool has_powers(const local_correction *p)
 {
-    const contact_scene *scene = &p->ball.sites->scene;
+    const contact_scene *scene = &p->near.set->scene;
     const forces *load = &scene->rule.load;
     return p->rule.held != NULL || scene->model->springs.viscosity != NULL || load->mass_damping > 0.0 ||
            load->external != NULL;
@@ -121,10 +124,10 @@ static bool has_powers(const patch *p)
 
 /* What damping takes at node j of the ball, and what is put in from outside, W; of these what no event changes is left
  * out. The forces from outside are those asked for last, at the same state. */
-static vec2 node_powers(const patch *p, dem_index j, const double *x, const double *v)
+static vec2 node_powers(const local_correction *p, dem_index j, const double *x, const double *v)
 {
-    const dem_index i = p->ball.nodes[j].i;
-    const contact_scene *scene = &p->ball.sites->scene;
+    const dem_index i = p->near.nodes[j].i;
+    const contact_scene *scene = &p->near.set->scene;
     const dem_model *model = scene->model;
     const forces *load = &scene->rule.load;
     const vec2 vi = vec2_at(v, i);
@@ -145,26 +148,26 @@ static vec2 node_powers(const patch *p, dem_index j, const double *x, const doub
 }
 
 /* Adds the rates of the books that come from the patch, in a state whose contact forces are known. */
-static dem_status add_rates(patch *p, int stage, double sign, const double *y)
+static dem_status add_rates(local_correction *p, int stage, double sign, const double *y)
 {
-    const contact_sites *c = p->ball.sites;
-    const reactions *r = &c->reactions;
+    const contact_set *c = p->near.set;
+    const contact_forces *r = &c->forces;
     const double *v = y + scene_velocities(&c->scene);
     const dem_index first = scene_books(&c->scene), n_obstacles = c->scene.model->obstacles.n;
     const int rings = reach(p, stage);
     vec2 totals[2] = {{0.0, 0.0}, {0.0, 0.0}};
-    for (dem_index g = 0; g < p->ball.n_groups; g++) {
-        if (p->ball.groups[g].ring > rings) continue;
-        for (dem_index m = r->row[p->ball.groups[g].group]; m < r->row[p->ball.groups[g].group + 1]; m++)
+    for (dem_index g = 0; g < p->near.n_groups; g++) {
+        if (p->near.groups[g].ring > rings) continue;
+        for (dem_index m = r->row[p->near.groups[g].group]; m < r->row[p->near.groups[g].group + 1]; m++)
             for (int q = 0; q < c->list[r->members[m]].n_closed; q++) {
-                const sites_share of = sites_share_of(c, r->members[m], q, y, v);
+                const contact_contribution of = contact_set_contribution(c, r->members[m], q, y, v);
                 TRY(add_rate(p, first + of.obstacle, stage, sign, of.force));
                 TRY(add_rate(p, first + n_obstacles + of.obstacle, stage, sign, of.friction));
                 totals[0].x += of.power;
             }
     }
     if (has_powers(p))
-        for (dem_index j = 0; j < p->ball.end[rings]; j++) {
+        for (dem_index j = 0; j < p->near.end[rings]; j++) {
             const vec2 powers = node_powers(p, j, y, v);
             totals[0].y += powers.x;
             totals[1].x += powers.y;
@@ -175,21 +178,21 @@ static dem_status add_rates(patch *p, int stage, double sign, const double *y)
 
 /* ---- stages ---- */
 
-static double stage_time(const patch *p, const dense_output *step, int stage)
+static double stage_time(const local_correction *p, const dense_output *step, int stage)
 {
     return stage == p->last ? step->t1 : p->t + p->table.c[stage] * p->h;
 }
 
 /* Puts the time into a state, for those who are driven by it. */
-static void put_time(const patch *p, const dense_output *step, int stage, double *y)
+static void put_time(const local_correction *p, const dense_output *step, int stage, double *y)
 {
     const dem_index last = step->n_nodes - 1;
-    if (!forces_are_driven(&p->ball.sites->scene.rule.load)) return;
+    if (!forces_are_driven(&p->near.set->scene.rule.load)) return;
     vec2_put(y, step->n_nodes + last, dense_output_velocity(step, stage_time(p, step, stage), last));
 }
 
 /* How n nodes go on to a stage without the event. */
-static void fetch_stage(patch *p, int stage, dem_index n)
+static void fetch_stage(local_correction *p, int stage, dem_index n)
 {
     const double s = p->table.c[stage];
     for (dem_index j = 0; j < n; j++) {
@@ -201,50 +204,50 @@ static void fetch_stage(patch *p, int stage, dem_index n)
 }
 
 /* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the books. */
-static bool needs_state(const patch *p)
+static bool needs_state(const local_correction *p)
 {
-    return !p->ball.plain || p->ball.n_groups > 0 || has_powers(p);
+    return !p->near.plain || p->near.n_groups > 0 || has_powers(p);
 }
 
-static dem_status open_stage(patch *p, const dense_output *step, int stage, double *y)
+static dem_status open_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
-    const ball_state s = {p->x[stage], p->v[stage], y};
-    const dem_index n = p->ball.end[reach(p, stage) + 1];
+    const neighbourhood_state s = {p->x[stage], p->v[stage], y};
+    const dem_index n = p->near.end[reach(p, stage) + 1];
     fetch_stage(p, stage, n);
-    if (needs_state(p)) ball_put(&p->ball, &s, n);
+    if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
     put_time(p, step, stage, y);
-    ball_accelerate(&p->ball, reach(p, stage), &s, p->a[stage]);
+    neighbourhood_accelerate(&p->near, reach(p, stage), &s, p->a[stage]);
     return add_rates(p, stage, -1.0, y);
 }
 
 /* At the end of the step that is known. */
-static dem_status open_end(patch *p, const dense_output *step)
+static dem_status open_end(local_correction *p, const dense_output *step)
 {
-    for (dem_index j = 0; j < p->ball.n; j++) {
-        const dem_index i = p->ball.nodes[j].i;
+    for (dem_index j = 0; j < p->near.n; j++) {
+        const dem_index i = p->near.nodes[j].i;
         vec2_put(p->x[p->last], j, vec2_at(step->y1, i));
         vec2_put(p->v[p->last], j, vec2_at(step->y1, step->n_nodes + i));
         vec2_put(p->a[p->last], j, vec2_at(step->f1, step->n_nodes + i));
     }
-    ball_push(&p->ball, reach(p, END), step->y1[4 * step->n_nodes - 1], p->x[p->last], p->v[p->last]);
+    neighbourhood_push(&p->near, reach(p, END), step->y1[4 * step->n_nodes - 1], p->x[p->last], p->v[p->last]);
     TRY(add_rates(p, END, -1.0, step->y1));
     return add_rates(p, p->last, -1.0, step->y1);
 }
 
 /* The state at the event. What it is due by has the bits that it was found with. */
-static void open_start(patch *p, const dense_output *step, double *y)
+static void open_start(local_correction *p, const dense_output *step, double *y)
 {
-    const ball_state s = {p->x[0], p->v[0], y};
-    fetch_stage(p, 0, p->ball.n);
-    for (dem_index j = 0; j < p->ball.end[1]; j++) {
-        vec2_put(p->x[0], j, dense_output_position(step, p->t, p->ball.nodes[j].i));
-        vec2_put(p->v[0], j, dense_output_velocity(step, p->t, p->ball.nodes[j].i));
+    const neighbourhood_state s = {p->x[0], p->v[0], y};
+    fetch_stage(p, 0, p->near.n);
+    for (dem_index j = 0; j < p->near.end[1]; j++) {
+        vec2_put(p->x[0], j, dense_output_position(step, p->t, p->near.nodes[j].i));
+        vec2_put(p->v[0], j, dense_output_velocity(step, p->t, p->near.nodes[j].i));
     }
-    ball_put(&p->ball, &s, p->ball.n);
+    neighbourhood_put(&p->near, &s, p->near.n);
     put_time(p, step, 0, y);
 }
 
-static motion_polynomial motion_of(const patch *p, const dense_output *step, dem_index place)
+static motion_polynomial motion_of(const local_correction *p, const dense_output *step, dem_index place)
 {
     const bool turned = changed_motion_has(step->changed, place);
     const motion_polynomial motion =
@@ -252,14 +255,15 @@ static motion_polynomial motion_of(const patch *p, const dense_output *step, dem
     return motion_polynomial_later(&motion, p->t, step->t1);
 }
 
-dem_status patch_open(patch *p, const dense_output *step, dem_index site, double t, double *state)
+dem_status local_correction_open(local_correction *p, const dense_output *step, dem_index candidate, double t,
+                                 double *state)
 {
     p->t = t;
     p->h = step->t1 - t;
     p->n_quadratures = 0;
-    TRY(ball_gather(&p->ball, site));
-    TRY(reserve(p, p->ball.n, 0));
-    for (dem_index j = 0; j < p->ball.n; j++) p->motions[j] = motion_of(p, step, p->ball.nodes[j].i);
+    TRY(neighbourhood_gather(&p->near, candidate));
+    TRY(reserve(p, p->near.n, 0));
+    for (dem_index j = 0; j < p->near.n; j++) p->motions[j] = motion_of(p, step, p->near.nodes[j].i);
     TRY(open_end(p, step));
     for (int stage = 0; stage < p->table.stages; stage++)
         if (stage != p->last) TRY(open_stage(p, step, stage, state));
@@ -270,8 +274,8 @@ dem_status patch_open(patch *p, const dense_output *step, dem_index site, double
 /* ---- the change ---- */
 
 /* change[stage] = change[0] + h sum of weights rates over the stages before, of nodes first to last - 1. */
-static void combine(const patch *p, int stage, double *const rates[], double *const change[], dem_index first,
-                    dem_index last)
+static void combine(const local_correction *p, int stage, double *const rates[], double *const change[],
+                    dem_index first, dem_index last)
 {
     const double *weights = stage == END ? p->table.b : p->table.a + stage * p->table.stages;
     double *restrict to = change[stage];
@@ -282,9 +286,9 @@ static void combine(const patch *p, int stage, double *const rates[], double *co
     }
 }
 
-static void advance(patch *p, int stage)
+static void advance(local_correction *p, int stage)
 {
-    const dem_index n = p->ball.n;
+    const dem_index n = p->near.n;
     combine(p, stage, p->dv, p->dx, 0, n_moving(p));
     combine(p, stage, p->da, p->dv, 0, n_moving(p));
     if (p->n_quadratures == 0) return;
@@ -299,30 +303,31 @@ static void add_change(const double *before, const double *change, dem_index n, 
 }
 
 /* Rates of the change at a stage. */
-static dem_status change_stage(patch *p, const dense_output *step, int stage, double *y)
+static dem_status change_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
     const int at = stage == END ? p->last : stage, rings = reach(p, stage);
-    const dem_index n = p->ball.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
-    const ball_state s = {p->changed[0], p->changed[1], y};
+    const dem_index n = p->near.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
+    const neighbourhood_state s = {p->changed[0], p->changed[1], y};
     add_change(p->x[at], p->dx[stage], n, n_changed, p->changed[0]);
     add_change(p->v[at], p->dv[stage], n, n_changed, p->changed[1]);
-    if (needs_state(p)) ball_put(&p->ball, &s, n);
+    if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
     put_time(p, step, at, y);
-    ball_accelerate(&p->ball, rings, &s, p->changed[2]);
+    neighbourhood_accelerate(&p->near, rings, &s, p->changed[2]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++)
-        p->da[stage][k] = k < 2 * p->ball.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
+        p->da[stage][k] = k < 2 * p->near.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
     for (dem_index k = 0; k < 2 * n_moving(p) && p->rule.held != NULL; k++)
-        if (p->rule.held[p->ball.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
+        if (p->rule.held[p->near.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
     return add_rates(p, stage, 1.0, y);
 }
 
-static motion_change jump_at(const patch *p, int stage, dem_index j)
+static motion_change jump_at(const local_correction *p, int stage, dem_index j)
 {
     return (motion_change){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
 }
 
 /* Makes the change of a node, or a pair of the books, one of the step. */
-static dem_status leave(const patch *p, changed_motion *tr, dem_index j, dem_index place, motion_polynomial *motion)
+static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j, dem_index place,
+                        motion_polynomial *motion)
 {
     const motion_change at = jump_at(p, 0, j), end = jump_at(p, END, j);
     const motion_change by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
@@ -332,10 +337,10 @@ static dem_status leave(const patch *p, changed_motion *tr, dem_index j, dem_ind
     return DEM_OK;
 }
 
-static double squared_error(const patch *p)
+static double squared_error(const local_correction *p)
 {
-    const dem_index n = p->ball.sites->scene.model->lattice.n_nodes;
-    double weights[PATCH_STAGES], x_sum = 0.0, v_sum = 0.0;
+    const dem_index n = p->near.set->scene.model->lattice.n_nodes;
+    double weights[LOCAL_CORRECTION_STAGES], x_sum = 0.0, v_sum = 0.0;
     for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++) {
         double x = 0.0, v = 0.0;
@@ -350,11 +355,12 @@ static double squared_error(const patch *p)
     return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / (4.0 * (double)n);
 }
 
-dem_status patch_close(patch *p, const dense_output *step, changed_motion *tr, double *state, double *error)
+dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
+                                  double *error)
 {
-    TRY(ball_regroup(&p->ball));
+    TRY(neighbourhood_regroup(&p->near));
     for (dem_index j = 0; j < n_moving(p); j++) {
-        const dem_index i = p->ball.nodes[j].i;
+        const dem_index i = p->near.nodes[j].i;
         vec2_put(p->dx[0], j, vec2_sub(vec2_at(state, i), vec2_at(p->x[0], j)));
         vec2_put(p->dv[0], j, vec2_sub(vec2_at(state, step->n_nodes + i), vec2_at(p->v[0], j)));
     }
@@ -363,10 +369,10 @@ dem_status patch_close(patch *p, const dense_output *step, changed_motion *tr, d
         if (stage > 0) advance(p, at);
         TRY(change_stage(p, step, at, state));
     }
-    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->ball.nodes[j].i, &p->motions[j]));
+    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->near.nodes[j].i, &p->motions[j]));
     for (dem_index b = 0; b < p->n_quadratures; b++) {
         motion_polynomial motion = motion_of(p, step, p->book[b]);
-        TRY(leave(p, tr, p->ball.n + b, p->book[b], &motion));
+        TRY(leave(p, tr, p->near.n + b, p->book[b], &motion));
     }
     *error = squared_error(p);
     return DEM_OK;

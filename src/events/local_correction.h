@@ -11,41 +11,45 @@
 #include "time/butcher.h"
 #include "time/dense_output.h"
 
-enum { PATCH_STAGES = 6 };
+enum { LOCAL_CORRECTION_STAGES = 6 };
 
 /** How a change is integrated. */
-typedef struct patch_rule {
+typedef struct local_correction_rule {
     int order;                             /* of the method that the step is of */
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
     const unsigned char *held; /* [n_nodes] components that boundaries prescribe, as they have it; or NULL */
-} patch_rule;
+} local_correction_rule;
 
-typedef struct patch {
-    ball ball; /* the change spreads over all its rings but the frame */
-    patch_rule rule;
+typedef struct local_correction {
+    neighbourhood near; /* the change spreads over all its rings but the frame */
+    local_correction_rule rule;
     butcher_table table;
     int last;                /* stage at the end of the step */
     double t, h;             /* s, of the event; from it to the end of the step */
     dem_index n_quadratures; /* pairs of the books that change, behind the nodes of the ball */
     dem_index capacity;
-    dem_index *book;                                             /* [n_quadratures] their places in a state */
-    motion_polynomial *motions;                                  /* of the nodes, without the event, from there on */
-    double *block;                                               /* those that follow, [n + n_quadratures][2]: */
-    double *x[PATCH_STAGES], *v[PATCH_STAGES], *a[PATCH_STAGES]; /* at each stage, without the event: and x'' */
-    double *dx[PATCH_STAGES + 1], *dv[PATCH_STAGES + 1], *da[PATCH_STAGES + 1]; /* the change, and at the end */
-    double *changed[3];                                                         /* x, v, x'' with it at a stage */
-} patch;
+    dem_index *book;            /* [n_quadratures] their places in a state */
+    motion_polynomial *motions; /* of the nodes, without the event, from there on */
+    double *block;              /* those that follow, [n + n_quadratures][2]: */
+    double *x[LOCAL_CORRECTION_STAGES], *v[LOCAL_CORRECTION_STAGES],
+        *a[LOCAL_CORRECTION_STAGES]; /* at each stage, without the event: and x'' */
+    double *dx[LOCAL_CORRECTION_STAGES + 1], *dv[LOCAL_CORRECTION_STAGES + 1],
+        *da[LOCAL_CORRECTION_STAGES + 1]; /* the change, and at the end */
+    double *changed[3];                   /* x, v, x'' with it at a stage */
+} local_correction;
 
-/** Borrows the sites, and what the rule points at. Free with patch_destroy(). */
-dem_status patch_create(patch *out, contact_sites *sites, const patch_rule *rule);
-void patch_destroy(patch *p);
+/** Borrows the sites, and what the rule points at. Free with local_correction_destroy(). */
+dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule);
+void local_correction_destroy(local_correction *p);
 
 /** Before an event at a site: gathers the patch and what moves it, and puts the state of its nodes at t into `state`
  *  [4 n]. The forces of the closed contacts are to be those at the end of the step. */
-dem_status patch_open(patch *p, const dense_output *step, dem_index site, double t, double *state);
+dem_status local_correction_open(local_correction *p, const dense_output *step, dem_index candidate, double t,
+                                 double *state);
 
 /** After the event has changed `state` and the contacts: integrates the change and makes it one of the step.
  *  \param[out] error  squared, of all unknowns of the bodies together, in units of the tolerance */
-dem_status patch_close(patch *p, const dense_output *step, changed_motion *tr, double *state, double *error);
+dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
+                                  double *error);
 
 #endif

@@ -8,45 +8,45 @@
 #include "base/grow.h"
 #include "base/status.h"
 
-dem_status ball_create(ball *out, contact_sites *sites, int n_rings)
+dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_rings)
 {
-    const dem_model *model = sites->scene.model;
+    const dem_model *model = set->scene.model;
     const dem_index n = model->lattice.n_nodes;
-    ball b = {.sites = sites, .n_rings = n_rings, .number = malloc((size_t)n * sizeof *b.number)};
+    neighbourhood b = {.set = set, .n_rings = n_rings, .number = malloc((size_t)n * sizeof *b.number)};
     CHECK(b.number != NULL, DEM_ERROR_MEMORY, "out of memory for the neighbours of %lld nodes", (long long)n);
     for (dem_index i = 0; i < n; i++) b.number[i] = -1;
     b.plain =
-        model->springs.viscosity == NULL && model->triangles.row[n] == 0 && sites->scene.rule.load.boundaries == NULL;
+        model->springs.viscosity == NULL && model->triangles.row[n] == 0 && set->scene.rule.load.boundaries == NULL;
     *out = b;
     return DEM_OK;
 }
 
-void ball_destroy(ball *b)
+void neighbourhood_destroy(neighbourhood *b)
 {
     free(b->number);
     free(b->nodes);
     free(b->bonds);
     free(b->stiffness);
     free(b->groups);
-    *b = (ball){0};
+    *b = (neighbourhood){0};
 }
 
 /* ---- rings ---- */
 
-static dem_status add_node(ball *b, dem_index i)
+static dem_status add_node(neighbourhood *b, dem_index i)
 {
     if (b->number[i] >= 0) return DEM_OK;
     CHECK(grow_array((void **)&b->nodes, &b->capacity, b->n + 1, sizeof *b->nodes), DEM_ERROR_MEMORY,
           "out of memory for what is near a contact");
     b->number[i] = (int32_t)b->n;
-    b->nodes[b->n++] = (ball_node){.i = i};
+    b->nodes[b->n++] = (neighbourhood_node){.i = i};
     return DEM_OK;
 }
 
-static dem_status add_neighbours(ball *b, dem_index i)
+static dem_status add_neighbours(neighbourhood *b, dem_index i)
 {
-    const springs *s = &b->sites->scene.model->springs;
-    const triangles *t = &b->sites->scene.model->triangles;
+    const springs *s = &b->set->scene.model->springs;
+    const triangles *t = &b->set->scene.model->triangles;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(add_node(b, s->neighbour[p]));
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         TRY(add_node(b, t->next[p]));
@@ -55,51 +55,51 @@ static dem_status add_neighbours(ball *b, dem_index i)
     return DEM_OK;
 }
 
-static dem_status note_group(ball *b, dem_index group, int ring, bool *is_new)
+static dem_status note_group(neighbourhood *b, dem_index group, int ring, bool *is_new)
 {
     *is_new = false;
     for (dem_index g = 0; g < b->n_groups; g++)
         if (b->groups[g].group == group) return DEM_OK;
     CHECK(grow_array((void **)&b->groups, &b->group_capacity, b->n_groups + 1, sizeof *b->groups), DEM_ERROR_MEMORY,
           "out of memory for what is near a contact");
-    b->groups[b->n_groups++] = (ball_group){group, ring};
+    b->groups[b->n_groups++] = (neighbourhood_group){group, ring};
     *is_new = true;
     return DEM_OK;
 }
 
 /* The group at a node, with all its nodes. */
-static dem_status add_group(ball *b, dem_index j, int ring)
+static dem_status add_group(neighbourhood *b, dem_index j, int ring)
 {
-    const reactions *r = &b->sites->reactions;
-    const dem_index group = sites_group_at(b->sites, b->nodes[j].i);
+    const contact_forces *r = &b->set->forces;
+    const dem_index group = contact_set_group_at(b->set, b->nodes[j].i);
     bool is_new;
     b->nodes[j].grouped = group >= 0;
     if (group < 0) return DEM_OK;
     TRY(note_group(b, group, ring, &is_new));
     for (dem_index m = r->row[group]; m < r->row[group + 1] && is_new; m++) {
-        const contact_site *site = &b->sites->list[r->members[m]];
-        TRY(add_node(b, site->node));
-        if (site_is_edge(site)) TRY(add_node(b, site->other));
+        const contact_candidate *candidate = &b->set->list[r->members[m]];
+        TRY(add_node(b, candidate->node));
+        if (candidate_is_edge(candidate)) TRY(add_node(b, candidate->other));
     }
     return DEM_OK;
 }
 
-static dem_status close_ring(ball *b, int ring)
+static dem_status close_ring(neighbourhood *b, int ring)
 {
     for (dem_index j = ring > 0 ? b->end[ring - 1] : 0; j < b->n && ring < b->n_rings; j++) TRY(add_group(b, j, ring));
     b->end[ring] = b->n;
     return DEM_OK;
 }
 
-static dem_status add_seeds(ball *b, dem_index k)
+static dem_status add_seeds(neighbourhood *b, dem_index k)
 {
-    const contact_sites *c = b->sites;
-    const contact_site *site = &c->list[k];
+    const contact_set *c = b->set;
+    const contact_candidate *candidate = &c->list[k];
     const surface *s = &c->scene.model->surface;
-    const dem_index nodes[2] = {site->node, site_is_edge(site) ? site->other : site->node};
+    const dem_index nodes[2] = {candidate->node, candidate_is_edge(candidate) ? candidate->other : candidate->node};
     for (int e = 0; e < 2; e++) {
         TRY(add_node(b, nodes[e]));
-        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_sites; p++)
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_contact_nodes; p++)
             for (int end = 0; end < 2; end++) TRY(add_node(b, s->ends[2 * s->at[p] + end]));
     }
     return close_ring(b, 0);
@@ -107,10 +107,10 @@ static dem_status add_seeds(ball *b, dem_index k)
 
 /* ---- springs ---- */
 
-static dem_status reserve_bonds(ball *b, dem_index n)
+static dem_status reserve_bonds(neighbourhood *b, dem_index n)
 {
     if (n <= b->bond_capacity) return DEM_OK;
-    ball_bond *bonds = malloc(2 * (size_t)n * sizeof *bonds);
+    neighbourhood_bond *bonds = malloc(2 * (size_t)n * sizeof *bonds);
     double *reals = malloc(10 * (size_t)n * sizeof *reals);
     if (bonds == NULL || reals == NULL) {
         free(bonds);
@@ -130,22 +130,22 @@ static dem_status reserve_bonds(ball *b, dem_index n)
 }
 
 /* The springs of a node, but those that were listed from their other end. */
-static void add_bonds(ball *b, dem_index j)
+static void add_bonds(neighbourhood *b, dem_index j)
 {
-    const springs *s = &b->sites->scene.model->springs;
+    const springs *s = &b->set->scene.model->springs;
     const dem_index i = b->nodes[j].i;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = b->number[s->neighbour[p]];
         if (other < j) continue;
-        b->bonds[b->n_bonds] = (ball_bond){(int32_t)j, other};
+        b->bonds[b->n_bonds] = (neighbourhood_bond){(int32_t)j, other};
         b->stiffness[b->n_bonds] = s->stiffness[p];
         b->rest_length[b->n_bonds++] = s->rest_length[p];
     }
 }
 
-static dem_status list_bonds(ball *b)
+static dem_status list_bonds(neighbourhood *b)
 {
-    const springs *s = &b->sites->scene.model->springs;
+    const springs *s = &b->set->scene.model->springs;
     dem_index most = 0;
     for (dem_index j = 0; j < b->end[b->n_rings - 1]; j++) most += s->row[b->nodes[j].i + 1] - s->row[b->nodes[j].i];
     TRY(reserve_bonds(b, most));
@@ -157,11 +157,11 @@ static dem_status list_bonds(ball *b)
     return DEM_OK;
 }
 
-dem_status ball_gather(ball *b, dem_index site)
+dem_status neighbourhood_gather(neighbourhood *b, dem_index candidate)
 {
     for (dem_index j = 0; j < b->n; j++) b->number[b->nodes[j].i] = -1;
     b->n = b->n_groups = 0;
-    TRY(add_seeds(b, site));
+    TRY(add_seeds(b, candidate));
     for (int ring = 1; ring <= b->n_rings; ring++) {
         const dem_index first = ring > 1 ? b->end[ring - 2] : 0, last = b->end[ring - 1];
         for (dem_index j = first; j < last; j++) TRY(add_neighbours(b, b->nodes[j].i));
@@ -170,13 +170,13 @@ dem_status ball_gather(ball *b, dem_index site)
     return b->plain ? list_bonds(b) : DEM_OK;
 }
 
-dem_status ball_regroup(ball *b)
+dem_status neighbourhood_regroup(neighbourhood *b)
 {
     bool is_new;
     b->n_groups = 0;
     for (int ring = 0; ring < b->n_rings; ring++)
         for (dem_index j = ring > 0 ? b->end[ring - 1] : 0; j < b->end[ring]; j++) {
-            const dem_index group = sites_group_at(b->sites, b->nodes[j].i);
+            const dem_index group = contact_set_group_at(b->set, b->nodes[j].i);
             b->nodes[j].grouped = group >= 0;
             if (group >= 0) TRY(note_group(b, group, ring, &is_new));
         }
@@ -185,9 +185,9 @@ dem_status ball_regroup(ball *b)
 
 /* ---- accelerations ---- */
 
-void ball_put(const ball *b, const ball_state *s, dem_index n)
+void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem_index n)
 {
-    double *v = s->y + scene_velocities(&b->sites->scene);
+    double *v = s->y + scene_velocities(&b->set->scene);
     for (dem_index j = 0; j < n; j++) {
         vec2_put(s->y, b->nodes[j].i, vec2_at(s->x, j));
         vec2_put(v, b->nodes[j].i, vec2_at(s->v, j));
@@ -196,7 +196,7 @@ void ball_put(const ball *b, const ball_state *s, dem_index n)
 
 /* Forces (1) of springs on the nodes of some rings; f [n][2] has room for more. The loop in the middle is for vector
  * instructions. */
-static void pull(const ball *b, int rings, const double *x, double *f)
+static void pull(const neighbourhood *b, int rings, const double *x, double *f)
 {
     const dem_index n = b->bonds_end[rings];
     double *restrict dx = b->dx, *restrict dy = b->dy, *restrict factor = b->pull;
@@ -209,16 +209,16 @@ static void pull(const ball *b, int rings, const double *x, double *f)
         factor[k] = springs_pull(b->stiffness[k], b->rest_length[k], sqrt(dx[k] * dx[k] + dy[k] * dy[k]));
     memset(f, 0, 2 * (size_t)b->end[rings + 1] * sizeof *f);
     for (dem_index k = 0; k < n; k++) {
-        const ball_bond bond = b->bonds[k];
+        const neighbourhood_bond bond = b->bonds[k];
         const vec2 force = {factor[k] * dx[k], factor[k] * dy[k]};
         vec2_put(f, bond.first, vec2_add(vec2_at(f, bond.first), force));
         vec2_put(f, bond.second, vec2_sub(vec2_at(f, bond.second), force));
     }
 }
 
-static void accelerate_plain(const ball *b, int rings, const ball_state *s, double *a)
+static void accelerate_plain(const neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
-    const contact_scene *scene = &b->sites->scene;
+    const contact_scene *scene = &b->set->scene;
     const forces *load = &scene->rule.load;
     pull(b, rings, s->x, a);
     for (dem_index j = 0; j < b->end[rings]; j++) {
@@ -229,29 +229,29 @@ static void accelerate_plain(const ball *b, int rings, const ball_state *s, doub
     }
 }
 
-void ball_push(const ball *b, int rings, double t, const double *x, const double *v)
+void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v)
 {
-    external_force *c = b->sites->scene.rule.load.external;
+    external_force *c = b->set->scene.rule.load.external;
     if (c == NULL) return;
     for (dem_index j = 0; j < b->end[rings]; j++) c->some[j] = b->nodes[j].i;
     external_force_evaluate(c, &(dem_force_query){t, b->end[rings], c->some, x, v});
 }
 
-void ball_accelerate(ball *b, int rings, const ball_state *s, double *a)
+void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
-    const contact_scene *scene = &b->sites->scene;
+    const contact_scene *scene = &b->set->scene;
     const forces *load = &scene->rule.load;
     const double *v = s->y + scene_velocities(scene);
     if (b->plain) accelerate_plain(b, rings, s, a);
     for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
         vec2_put(a, j, forces_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));
-    ball_push(b, rings, v[load->clock], s->x, s->v);
+    neighbourhood_push(b, rings, v[load->clock], s->x, s->v);
     for (dem_index j = 0; j < b->end[rings] && load->external != NULL; j++)
         vec2_put(
             a, j,
             vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(load->external->value, j)));
     for (dem_index g = 0; g < b->n_groups; g++)
-        if (b->groups[g].ring <= rings) reactions_solve(&b->sites->reactions, b->groups[g].group, s->y, v);
+        if (b->groups[g].ring <= rings) contact_forces_solve(&b->set->forces, b->groups[g].group, s->y, v);
     for (dem_index j = 0; j < b->end[rings] && b->n_groups > 0; j++)
-        if (b->nodes[j].grouped) vec2_put(a, j, vec2_at(b->sites->reactions.a, b->nodes[j].i));
+        if (b->nodes[j].grouped) vec2_put(a, j, vec2_at(b->set->forces.a, b->nodes[j].i));
 }

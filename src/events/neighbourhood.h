@@ -6,72 +6,72 @@
 
 #include "contact/contact_set.h"
 
-enum { BALL_RINGS = 8 };
+enum { NEIGHBOURHOOD_RINGS = 8 };
 
-typedef struct ball_node {
+typedef struct neighbourhood_node {
     dem_index i;  /* in the lattice */
     bool grouped; /* it takes part in closed contacts */
-} ball_node;
+} neighbourhood_node;
 
 /** A spring between two of its nodes: first < second. */
-typedef struct ball_bond {
+typedef struct neighbourhood_bond {
     int32_t first, second;
-} ball_bond;
+} neighbourhood_bond;
 
 /** Closed contacts that share nodes, in the ring where they begin. */
-typedef struct ball_group {
+typedef struct neighbourhood_group {
     dem_index group;
     int ring;
-} ball_group;
+} neighbourhood_group;
 
-typedef struct ball {
-    contact_sites *sites;
+typedef struct neighbourhood {
+    contact_set *set;
     bool plain;      /* springs are all that acts between nodes, and forces do not depend on time */
     int n_rings;     /* the last is a frame: its nodes accelerate others, but are not accelerated */
     int32_t *number; /* [n_nodes] of a node of the lattice here; -1: it is not */
     dem_index n, capacity;
-    ball_node *nodes;                /* [n] */
-    dem_index end[BALL_RINGS];       /* nodes of ring r or nearer */
-    dem_index bonds_end[BALL_RINGS]; /* springs that act on them */
+    neighbourhood_node *nodes;                /* [n] */
+    dem_index end[NEIGHBOURHOOD_RINGS];       /* nodes of ring r or nearer */
+    dem_index bonds_end[NEIGHBOURHOOD_RINGS]; /* springs that act on them */
     dem_index n_bonds, bond_capacity;
-    ball_bond *bonds;                /* [n_bonds] */
+    neighbourhood_bond *bonds;       /* [n_bonds] */
     double *stiffness, *rest_length; /* [n_bonds] */
     double *dx, *dy, *pull;          /* [n_bonds] scratch */
     dem_index n_groups, group_capacity;
-    ball_group *groups; /* [n_groups] with nodes in it */
-} ball;
+    neighbourhood_group *groups; /* [n_groups] with nodes in it */
+} neighbourhood;
 
-/** Borrows the sites. `n_rings` < BALL_RINGS. Free with ball_destroy(). */
-dem_status ball_create(ball *out, contact_sites *sites, int n_rings);
-void ball_destroy(ball *b);
+/** Borrows the sites. `n_rings` < NEIGHBOURHOOD_RINGS. Free with neighbourhood_destroy(). */
+dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_rings);
+void neighbourhood_destroy(neighbourhood *b);
 
 /** Gathers the nodes round a site. Ring 0 is what an event there may change at once: its nodes, and where obstacles
  *  have vertices those of the edges at them. */
-dem_status ball_gather(ball *b, dem_index site);
+dem_status neighbourhood_gather(neighbourhood *b, dem_index candidate);
 
 /** Finds the groups again, after contacts have opened or closed. */
-dem_status ball_regroup(ball *b);
+dem_status neighbourhood_regroup(neighbourhood *b);
 
-static inline bool ball_has(const ball *b, dem_index node, int rings)
+static inline bool neighbourhood_has(const neighbourhood *b, dem_index node, int rings)
 {
     return b->number[node] >= 0 && b->number[node] < b->end[rings];
 }
 
 /** A state of the nodes: [n][2] by their numbers here. */
-typedef struct ball_state {
+typedef struct neighbourhood_state {
     const double *x, *v;
     double *y; /* [4 n_nodes] the same in a state of all nodes, as far as was put there */
-} ball_state;
+} neighbourhood_state;
 
 /** Puts the first n nodes into the state of all. */
-void ball_put(const ball *b, const ball_state *s, dem_index n);
+void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem_index n);
 
 /** Asks for the forces from outside, if there are any, on the nodes of some rings at t: the answer is by their numbers
  *  here. */
-void ball_push(const ball *b, int rings, double t, const double *x, const double *v);
+void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v);
 
-/** Accelerations a [n][2] of the nodes of some rings, closed contacts included, in a state that ball_put() has put as
- *  far as one ring more. */
-void ball_accelerate(ball *b, int rings, const ball_state *s, double *a);
+/** Accelerations a [n][2] of the nodes of some rings, closed contacts included, in a state that neighbourhood_put()
+ *  has put as far as one ring more. */
+void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_state *s, double *a);
 
 #endif

@@ -19,8 +19,8 @@ struct dem_model {
     layout layout; /* of springs and triangles, for sweeps over all nodes */
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
-    dem_index n_sites;
-    dem_index *sites; /* [n_sites] nodes that may touch, ascending */
+    dem_index n_contact_nodes;
+    dem_index *contact_nodes; /* [n_contact_nodes] nodes that may touch, ascending */
     dem_index n_bodies;
     double spacing;   /* m */
     double omega_max; /* rad/s */

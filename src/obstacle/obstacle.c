@@ -269,21 +269,21 @@ static void bury_ends(obstacle_set *o)
     }
 }
 
-static bool touches(const segment *s, vec2 x, const obstacle_touch *touch)
+static bool touches(const segment *s, vec2 x, const obstacle_touch *point)
 {
-    return fabs(segment_height(s, x)) <= touch->tolerance &&
-           on_segment(s, segment_place(s, x), touch->tolerance, touch->margin);
+    return fabs(segment_height(s, x)) <= point->tolerance &&
+           on_segment(s, segment_place(s, x), point->tolerance, point->margin);
 }
 
-int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity)
+int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *point, dem_index *hits, int capacity)
 {
-    const box around = box_around(x, x, 2.0 * touch->tolerance + touch->margin); /* tolerance along and across */
+    const box around = box_around(x, x, 2.0 * point->tolerance + point->margin); /* tolerance along and across */
     int n = 0;
     for (dem_index q = 0; q < o->n; q++) {
         const box_tree *tree = &o->trees[q];
-        if (q == touch->without) continue;
+        if (q == point->without) continue;
         for (dem_index k = -1; n < capacity && (k = box_tree_seek(tree, k + 1, &around)) < tree->n;)
-            if (touches(&o->segments[o->first[q] + k], x, touch)) hits[n++] = o->first[q] + k;
+            if (touches(&o->segments[o->first[q] + k], x, point)) hits[n++] = o->first[q] + k;
     }
     return n;
 }

@@ -66,7 +66,7 @@ typedef struct obstacle_touch {
 } obstacle_touch;
 
 /** Segments that x touches, at most `capacity` of them, into hits; returns their number. */
-int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch, dem_index *hits, int capacity);
+int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *point, dem_index *hits, int capacity);
 
 /** A straight edge of a body, from a to b with the body on its left. */
 typedef struct obstacle_edge {

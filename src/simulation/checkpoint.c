@@ -20,11 +20,11 @@ typedef struct numbers {
 
 /* What two models must have in common. */
 typedef struct sizes {
-    dem_index n_nodes, n_springs, n_triangles, n_segments, n_vertices, n_obstacles, n_sites, n_unknowns;
+    dem_index n_nodes, n_springs, n_triangles, n_segments, n_vertices, n_obstacles, n_candidates, n_unknowns;
 } sizes;
 
 typedef struct touch_entry {
-    dem_index feature, sign, held;
+    dem_index feature, slide, held;
     double place, force, friction;
 } touch_entry;
 
@@ -39,28 +39,33 @@ static sizes sizes_of(const dem_simulation *s)
 {
     const dem_model *m = s->model;
     return (sizes){m->lattice.n_nodes,      m->lattice.n_springs, m->lattice.n_triangles, m->obstacles.n_segments,
-                   m->obstacles.n_vertices, m->obstacles.n,       s->contact.sites.n,     run_unknowns(m)};
+                   m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     run_unknowns(m)};
 }
 
 /* ---- contacts ---- */
 
-static bool remembers(const contact_site *site)
+static bool remembers(const contact_candidate *candidate)
 {
-    return site->n_closed > 0 || site->behind[0] >= 0 || site->behind[1] >= 0 || site->storm > 0;
+    return candidate->n_closed > 0 || candidate->behind[0] >= 0 || candidate->behind[1] >= 0 || candidate->storm > 0;
 }
 
-static site_entry describe(const contact_site *site, dem_index k)
+static site_entry describe(const contact_candidate *candidate, dem_index k)
 {
-    site_entry e = {k, site->n_closed, {site->behind[0], site->behind[1]}, site->storm, site->storm_start, {{0}}};
-    for (int q = 0; q < site->n_closed; q++) {
-        const contact_touch *touch = &site->closed[q];
+    site_entry e = {k,
+                    candidate->n_closed,
+                    {candidate->behind[0], candidate->behind[1]},
+                    candidate->storm,
+                    candidate->storm_start,
+                    {{0}}};
+    for (int q = 0; q < candidate->n_closed; q++) {
+        const contact_point *point = &candidate->closed[q];
         e.closed[q] =
-            (touch_entry){touch->feature, touch->sign, touch->held, touch->place, touch->force, touch->friction};
+            (touch_entry){point->feature, point->slide, point->held, point->place, point->force, point->friction};
     }
     return e;
 }
 
-static dem_status put_contacts(const contact_sites *c, dem_record *record)
+static dem_status put_contacts(const contact_set *c, dem_record *record)
 {
     dem_index n = 0;
     for (dem_index k = 0; k < c->n; k++) n += remembers(&c->list[k]);
@@ -80,46 +85,46 @@ static bool is_within(dem_index value, dem_index low, dem_index high)
 }
 
 /* Whether an entry is one of a site. */
-static bool is_possible(const contact_sites *c, const site_entry *e)
+static bool is_possible(const contact_set *c, const site_entry *e)
 {
     const obstacle_set *o = &c->scene.model->obstacles;
     if (!is_within(e->k, 0, c->n - 1) || !is_within(e->n_closed, 0, 2)) return false;
     if (!is_within(e->behind[0], -1, o->n - 1) || !is_within(e->behind[1], -1, o->n - 1)) return false;
     if (e->storm < 0 || !isfinite(e->storm_start)) return false;
-    const dem_index n_features = site_is_edge(&c->list[e->k]) ? o->n_vertices : o->n_segments;
+    const dem_index n_features = candidate_is_edge(&c->list[e->k]) ? o->n_vertices : o->n_segments;
     for (dem_index q = 0; q < e->n_closed; q++) {
-        const touch_entry *touch = &e->closed[q];
-        if (!is_within(touch->feature, 0, n_features - 1) || !is_within(touch->sign, -1, 1)) return false;
-        if (!is_within(touch->held, 0, 1) || !isfinite(touch->place)) return false;
-        if (!isfinite(touch->force) || !isfinite(touch->friction)) return false;
+        const touch_entry *point = &e->closed[q];
+        if (!is_within(point->feature, 0, n_features - 1) || !is_within(point->slide, -1, 1)) return false;
+        if (!is_within(point->held, 0, 1) || !isfinite(point->place)) return false;
+        if (!isfinite(point->force) || !isfinite(point->friction)) return false;
     }
     return e->n_closed < 2 || e->closed[0].feature != e->closed[1].feature;
 }
 
-static void forget(contact_site *site)
+static void forget(contact_candidate *candidate)
 {
-    *site = sites_anew(site);
-    site->behind[0] = site->behind[1] = -1;
+    *candidate = candidate_reset(candidate);
+    candidate->behind[0] = candidate->behind[1] = -1;
 }
 
-static void restore(contact_site *site, const site_entry *e)
+static void restore(contact_candidate *candidate, const site_entry *e)
 {
-    site->n_closed = (int)e->n_closed;
-    site->storm = e->storm;
-    site->storm_start = e->storm_start;
-    for (int q = 0; q < 2; q++) site->behind[q] = e->behind[q];
-    for (int q = 0; q < site->n_closed; q++) {
-        const touch_entry *touch = &e->closed[q];
-        site->closed[q] = (contact_touch){.feature = touch->feature,
-                                          .sign = (int)touch->sign,
-                                          .held = touch->held != 0,
-                                          .place = touch->place,
-                                          .force = touch->force,
-                                          .friction = touch->friction};
+    candidate->n_closed = (int)e->n_closed;
+    candidate->storm = e->storm;
+    candidate->storm_start = e->storm_start;
+    for (int q = 0; q < 2; q++) candidate->behind[q] = e->behind[q];
+    for (int q = 0; q < candidate->n_closed; q++) {
+        const touch_entry *point = &e->closed[q];
+        candidate->closed[q] = (contact_point){.feature = point->feature,
+                                               .slide = (int)point->slide,
+                                               .held = point->held != 0,
+                                               .place = point->place,
+                                               .force = point->force,
+                                               .friction = point->friction};
     }
 }
 
-static dem_status get_contacts(contact_sites *c, const dem_record *record)
+static dem_status get_contacts(contact_set *c, const dem_record *record)
 {
     size_t size;
     dem_index last = -1;
@@ -140,7 +145,7 @@ static dem_status get_contacts(contact_sites *c, const dem_record *record)
 /* What goes both ways. */
 static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem_counts *counts)
 {
-    contact_books *books = &s->contact.sites.books;
+    contact_ledger *books = &s->automaton.set.ledger;
     const size_t n_impulses = 4 * (size_t)s->model->obstacles.n;
     TRY(record_pass(way, "numbers", n, sizeof *n));
     TRY(record_pass(way, "counts", counts, sizeof *counts));
@@ -150,21 +155,21 @@ static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem
 
 dem_status recall_put(dem_simulation *s, dem_record *record)
 {
-    const contact_books *books = &s->contact.sites.books;
+    const contact_ledger *books = &s->automaton.set.ledger;
     const record_way way = {.into = record};
     const dem_counts of_engine = integrator_counts(&s->integrator);
     dem_counts counts = books->counts;
     sizes size = sizes_of(s);
     numbers n = {s->t,          s->step,           integrator_next_step(&s->integrator),
-                 books->impact, books->projection, s->contact.sites.straightened,
-                 s->events,     s->unlooked,       s->contact.idle};
+                 books->impact, books->projection, s->automaton.set.straightened,
+                 s->events,     s->unlooked,       s->automaton.idle};
     counts.steps = of_engine.steps;
     counts.rejected = of_engine.rejected;
     counts.evaluations = of_engine.evaluations;
     counts.retries = of_engine.retries;
     TRY(record_pass(&way, "sizes", &size, sizeof size));
     TRY(pass(s, &way, &n, &counts));
-    TRY(put_contacts(&s->contact.sites, record));
+    TRY(put_contacts(&s->automaton.set, record));
     return record_pass(&way, "state", s->y, 2 * (size_t)run_unknowns(s->model) * sizeof *s->y);
 }
 
@@ -206,19 +211,19 @@ static dem_status check_numbers(const numbers *n)
 
 dem_status recall_get(dem_simulation *s, const dem_record *record)
 {
-    contact_sites *c = &s->contact.sites;
+    contact_set *c = &s->automaton.set;
     const record_way way = {.from = record};
     const double *y = NULL;
     numbers n;
     TRY(check_sizes(s, record));
-    TRY(pass(s, &way, &n, &c->books.counts));
+    TRY(pass(s, &way, &n, &c->ledger.counts));
     TRY(check_numbers(&n));
     TRY(find_state(s, record, &y));
     TRY(get_contacts(c, record));
-    c->books.impact = n.impact;
-    c->books.projection = n.projection;
+    c->ledger.impact = n.impact;
+    c->ledger.projection = n.projection;
     c->straightened = n.straightened;
-    s->contact.idle = n.idle;
+    s->automaton.idle = n.idle;
     s->t = n.t;
     s->step = n.step;
     s->events = n.events;
@@ -226,7 +231,7 @@ dem_status recall_get(dem_simulation *s, const dem_record *record)
     s->unrecorded = 0;
     s->in_hand = s->at_event = false;
     s->path = (dense_output){0};
-    TRY(integrator_renew(&s->integrator, &(integrator_start){n.t, n.next_step, y, c->books.counts}));
+    TRY(integrator_renew(&s->integrator, &(integrator_start){n.t, n.next_step, y, c->ledger.counts}));
     s->y = integrator_state(&s->integrator);
-    return contact_renew(&s->contact, s->y);
+    return automaton_restore(&s->automaton, s->y);
 }

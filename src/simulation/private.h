@@ -25,8 +25,8 @@ struct dem_simulation {
     external_force *external; /* NULL: no force from outside */
     kernel kernel;
     overlap overlap;
-    contact contact;
-    queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
+    automaton automaton;
+    event_queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
     integrator integrator;
     double t;              /* s, of y */
     double step;           /* s, length of the last committed step */
@@ -41,7 +41,7 @@ struct dem_simulation {
     bool advancing;        /* whether it does so just now */
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
-    dem_contact *contacts; /* [2 n_sites + 2 n_edges] closed ones, as seen */
+    dem_contact *contacts; /* [2 n_candidates + 2 n_edges] closed ones, as seen */
     run_measures *measures;
     bool damped;  /* whether springs or masses are */
     int unlooked; /* steps since overlaps were looked for */

@@ -18,12 +18,13 @@ void view_inside(dem_simulation *s, double t)
 }
 
 /* Contacts and books as seen. The queue goes back for that and on again, to the same end. */
-static const contact *contact_of(const dem_simulation *s)
+static const automaton *contact_of(const dem_simulation *s)
 {
     dem_simulation *self = (dem_simulation *)s;
-    if (!s->measures->has_events) (void)queue_show(&self->queue, s->seen_t); /* what it did once it can do again */
+    if (!s->measures->has_events)
+        (void)event_queue_show(&self->queue, s->seen_t); /* what it did once it can do again */
     s->measures->has_events = true;
-    return &s->contact;
+    return &s->automaton;
 }
 
 static const double *seen_of(const dem_simulation *s)
@@ -37,7 +38,7 @@ static const double *seen_of(const dem_simulation *s)
 static dem_index contacts_of(const dem_simulation *s)
 {
     run_measures *m = s->measures;
-    if (!m->has_contacts) m->n_contacts = contact_list(&s->contact, seen_of(s), s->contacts);
+    if (!m->has_contacts) m->n_contacts = automaton_list(&s->automaton, seen_of(s), s->contacts);
     m->has_contacts = true;
     return m->n_contacts;
 }
@@ -62,11 +63,11 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
     if (!m->has_energy)
         m->energy = diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + run_unknowns(s->model));
     m->has_energy = true;
-    m->energy.impact = contact_of(s)->sites.books.impact;
+    m->energy.impact = contact_of(s)->set.ledger.impact;
     m->energy.friction = run_totals_of(s, seen_of(s))[RUN_FRICTION];
     m->energy.damping = run_totals_of(s, seen_of(s))[RUN_DAMPING];
     m->energy.boundary = run_totals_of(s, seen_of(s))[RUN_WORK];
-    m->energy.projection = contact_of(s)->sites.books.projection;
+    m->energy.projection = contact_of(s)->set.ledger.projection;
     return m->energy;
 }
 
@@ -107,7 +108,7 @@ dem_overlap dem_simulation_overlap(const dem_simulation *s)
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
     const dem_counts of_engine = integrator_counts(&s->integrator);
-    dem_counts counts = contact_of(s)->sites.books.counts;
+    dem_counts counts = contact_of(s)->set.ledger.counts;
     counts.steps = of_engine.steps;
     counts.rejected = of_engine.rejected;
     counts.evaluations = of_engine.evaluations;
@@ -123,7 +124,7 @@ dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
-    const contact_books *books = &contact_of(s)->sites.books;
+    const contact_ledger *books = &contact_of(s)->set.ledger;
     const double *lasting = run_books_of(s, seen_of(s)), *rubbing = lasting + 2 * s->model->obstacles.n;
     dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
     for (int k = 0; k < 2; k++) {

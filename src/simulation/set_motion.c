@@ -52,14 +52,14 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     dem_simulation_state(s, &seen); /* with contacts and books of that time */
     TRY(check(s, "place", x, seen.x));
     TRY(check(s, "velocity", v, seen.v));
-    if (x != NULL) TRY(contact_admissible(&s->contact, x));
+    if (x != NULL) TRY(automaton_check_start(&s->automaton, x));
     if (s->seen != s->frame) memcpy(s->frame, s->seen, 2 * (size_t)run_unknowns(s->model) * sizeof *s->frame);
     put(s, x, v, s->frame);
     s->events += s->in_hand ? s->queue.n_stops : 0;
     s->t = s->seen_t;
     s->path = (dense_output){0};
     s->in_hand = s->at_event = s->started = s->has_record = false;
-    TRY(contact_forget(&s->contact));
+    TRY(automaton_open_all(&s->automaton));
     TRY(integrator_restart(&s->integrator, s->t, s->frame));
     s->y = integrator_state(&s->integrator);
     view_at(s, s->t, s->y);

@@ -39,10 +39,10 @@ static void fill_rates(dem_simulation *s, const double *y, double *rate, double 
 {
     double *impulse = rate + 2 * run_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
     for (dem_index k = 0; k < 2 * run_books(s->model); k++) rate[k] = 0.0;
-    contact_account(&s->contact, y, impulse);
+    automaton_add_rates(&s->automaton, y, impulse);
     if (s->damped)
         total[RUN_DAMPING] =
-            diagnostics_damping_power(s->model, &s->contact.sites.scene.rule.load, y, y + run_unknowns(s->model));
+            diagnostics_damping_power(s->model, &s->automaton.set.scene.rule.load, y, y + run_unknowns(s->model));
     total[RUN_WORK] = work;
     total[RUN_TIME] = 1.0;
 }
@@ -55,9 +55,9 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
     const double *v = y + n;
     const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
-    const double sum = kernel_accelerate(&s->kernel, &s->contact.sites.scene.rule.load, &nodes);
+    const double sum = kernel_accelerate(&s->kernel, &s->automaton.set.scene.rule.load, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
-    contact_constrain(&s->contact, y, a);
+    automaton_constrain(&s->automaton, y, a);
     const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
     fill_rates(s, y, a + n_real, s->external != NULL ? work + external_force_power(s->external, v) : work);
     if (external_force_failed(s->external)) return 2;
@@ -70,14 +70,14 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
 static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;
-    const forces *load = &s->contact.sites.scene.rule.load;
+    const forces *load = &s->automaton.set.scene.rule.load;
     const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
-    if (!kernel_can_fuse(&s->kernel, load) || s->contact.sites.reactions.n_groups > 0) return -1;
+    if (!kernel_can_fuse(&s->kernel, load) || s->automaton.set.forces.n_groups > 0) return -1;
     const double sum = kernel_accelerate(&s->kernel, load, &y);
-    contact_constrain(&s->contact, y.x, y.a);
+    automaton_constrain(&s->automaton, y.x, y.a);
     fill_rates(s, y.x, y.a + n_real, 0.0);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, step->t1, y.x, y.a);
@@ -87,7 +87,7 @@ static int take_fused_step(const ode_fused_step *step, void *context)
 static void root_functions(double t, const double *y, double *g, void *context)
 {
     dem_simulation *s = context;
-    contact_guards(&s->contact, t, y, g);
+    automaton_root_functions(&s->automaton, t, y, g);
 }
 
 static double stiffening(const double *y, void *context)
@@ -156,7 +156,7 @@ static dem_status take_refuge(dem_simulation *s)
 static dem_status fall_back(dem_simulation *s)
 {
     dem_status status = DEM_OK;
-    if (s->in_hand) queue_undo(&s->queue);
+    if (s->in_hand) event_queue_undo(&s->queue);
     s->in_hand = s->at_event = false;
     if (s->has_refuge)
         status = recall_get(s, s->refuge);
@@ -169,9 +169,9 @@ static dem_status fall_back(dem_simulation *s)
 
 /* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
  * too long. */
-static double shortening(const queue *q, dem_status status)
+static double shortening(const event_queue *q, dem_status status)
 {
-    const double error = queue_error(q);
+    const double error = event_queue_error(q);
     if (status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR) return least_factor;
     return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
 }
@@ -194,11 +194,11 @@ static dem_status take_local_step(dem_simulation *s)
     for (int attempt = 1;; attempt++) {
         TRY(integrator_step(&s->integrator, &s->path, &rooted));
         integrator_end(&s->integrator, &y1, &f1);
-        queue_start(&s->queue, &s->path, y1, f1, s->frame);
-        const dem_status status = heed(s, queue_show(&s->queue, s->path.t1));
+        event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
+        const dem_status status = heed(s, event_queue_show(&s->queue, s->path.t1));
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
-        queue_undo(&s->queue);
+        event_queue_undo(&s->queue);
         if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return give_up(s, status);
         TRY(integrator_redo(&s->integrator, factor));
     }
@@ -209,7 +209,7 @@ static dem_status take_step_to_event(dem_simulation *s)
 {
     bool rooted;
     TRY(integrator_step(&s->integrator, &s->path, &rooted));
-    s->at_event = contact_check(&s->contact, &s->path, rooted, s->frame) || rooted;
+    s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
     return heed(s, DEM_OK);
 }
 
@@ -243,8 +243,8 @@ static bool settle_step(dem_simulation *s)
     const dense_output *p = &s->path;
     integrator_settle(&s->integrator, p);
     s->y = integrator_state(&s->integrator);
-    const bool moved = contact_straighten(&s->contact, p->end, s->y);
-    contact_follow(&s->contact, p, s->y);
+    const bool moved = automaton_project(&s->automaton, p->end, s->y);
+    automaton_end_step(&s->automaton, p, s->y);
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
@@ -255,22 +255,22 @@ static bool settle_step(dem_simulation *s)
 
 static dem_status commit_step_to_event(dem_simulation *s)
 {
-    const contact_listener listener = {hear_event, s};
+    const event_listener listener = {hear_event, s};
     if (s->at_event) TRY(take_refuge(s));
     const bool moved = settle_step(s);
     if (!s->at_event && moved) TRY(integrator_restart(&s->integrator, s->t, s->y));
     if (!s->at_event) return tell_step(s);
     s->events++;
-    return go_on(s, contact_resolve(&s->contact, s->t, s->y, &listener)); /* (8), (9) */
+    return go_on(s, automaton_resolve(&s->automaton, s->t, s->y, &listener)); /* (8), (9) */
 }
 
 static dem_status commit_local_step(dem_simulation *s)
 {
     TRY(tell_events(s, s->path.t1));
-    TRY(heed(s, queue_show(&s->queue, s->path.t1)));
+    TRY(heed(s, event_queue_show(&s->queue, s->path.t1)));
     const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
     s->events += s->queue.n_stops;
-    TRY(integrator_bound(&s->integrator, queue_reach(&s->queue)));
+    TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
     if (moved)
         TRY(integrator_restart(&s->integrator, s->t, s->y));
     else if (corrected)
@@ -286,9 +286,9 @@ static dem_status commit_step(dem_simulation *s)
 /* Contacts of the initial state come before the first step, when the observers are there to be told. */
 static dem_status start(dem_simulation *s)
 {
-    const contact_listener listener = {hear_event, s};
+    const event_listener listener = {hear_event, s};
     TRY(take_refuge(s));
-    const dem_status status = go_on(s, contact_start(&s->contact, s->t, s->y, &listener));
+    const dem_status status = go_on(s, automaton_start(&s->automaton, s->t, s->y, &listener));
     s->started = !external_force_failed(s->external);
     return status;
 }
@@ -343,7 +343,7 @@ static dem_status allocate(dem_simulation *s)
     const size_t n = 2 * (size_t)run_unknowns(s->model);
     s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
-    s->contacts = calloc(2 * (size_t)(s->model->n_sites + s->model->surface.n_edges) + 1, sizeof *s->contacts);
+    s->contacts = calloc(2 * (size_t)(s->model->n_contact_nodes + s->model->surface.n_edges) + 1, sizeof *s->contacts);
     s->measures = calloc(1, sizeof *s->measures);
     CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)s->model->lattice.n_nodes);
@@ -385,29 +385,29 @@ static dem_status set_up(dem_simulation *s)
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
-    TRY(contact_create(&s->contact, model, &rule));
-    TRY(contact_admissible(&s->contact, s->y));
+    TRY(automaton_create(&s->automaton, model, &rule));
+    TRY(automaton_check_start(&s->automaton, s->y));
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
-    const patch_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
-    if (run_is_local(s)) TRY(queue_create(&s->queue, &s->contact, &near, !(o->fixed_step > 0.0)));
-    const ode_problem problem = {.n_nodes = model->lattice.n_nodes + run_books(model),
-                                 .n_quadratures = run_books(model),
-                                 .n_roots =
-                                     model->obstacles.n > 0 && !run_is_local(s) ? SITE_GUARDS * s->contact.sites.n : 0,
-                                 .prescribes = boundary_conditions_move(&s->boundaries),
-                                 .derivative = derivative,
-                                 .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
-                                 .root_functions = root_functions,
-                                 .stiffening = stiffening,
-                                 .context = s,
-                                 .method = o->method,
-                                 .position_error = o->rtol * o->spacing,
-                                 .velocity_error = o->rtol * o->v_scale,
-                                 .max_step = o->max_step,
-                                 .fixed_step = o->fixed_step,
-                                 .ops = s->kernel.ops,
-                                 .n_threads = s->kernel.n_threads};
+    const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
+    if (run_is_local(s)) TRY(event_queue_create(&s->queue, &s->automaton, &near, !(o->fixed_step > 0.0)));
+    const ode_problem problem = {
+        .n_nodes = model->lattice.n_nodes + run_books(model),
+        .n_quadratures = run_books(model),
+        .n_roots = model->obstacles.n > 0 && !run_is_local(s) ? CANDIDATE_ROOTS * s->automaton.set.n : 0,
+        .prescribes = boundary_conditions_move(&s->boundaries),
+        .derivative = derivative,
+        .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
+        .root_functions = root_functions,
+        .stiffening = stiffening,
+        .context = s,
+        .method = o->method,
+        .position_error = o->rtol * o->spacing,
+        .velocity_error = o->rtol * o->v_scale,
+        .max_step = o->max_step,
+        .fixed_step = o->fixed_step,
+        .ops = s->kernel.ops,
+        .n_threads = s->kernel.n_threads};
     TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
     s->y = integrator_state(&s->integrator);
     free(s->initial);
@@ -464,8 +464,8 @@ void dem_simulation_destroy(dem_simulation *s)
     if (s == NULL) return;
     integrator_destroy(&s->integrator);
     kernel_destroy(&s->kernel);
-    queue_destroy(&s->queue);
-    contact_destroy(&s->contact);
+    event_queue_destroy(&s->queue);
+    automaton_destroy(&s->automaton);
     boundary_conditions_free(&s->boundaries);
     external_force_destroy(s->external);
     overlap_destroy(&s->overlap);

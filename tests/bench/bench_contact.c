@@ -64,51 +64,51 @@ enum { PARTS = 5 };
 
 static double spent[PARTS]; /* s, in this step */
 
-void __real_contact_guards(contact *c, double t, const double *y, double *g);
-bool __real_contact_check(contact *c, dense_output *p, bool rooted, double *state);
-void __real_contact_follow(contact *c, const dense_output *p, const double *y);
-void __real_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
-dem_status __real_queue_show(queue *q, double t);
-void __wrap_contact_guards(contact *c, double t, const double *y, double *g);
-bool __wrap_contact_check(contact *c, dense_output *p, bool rooted, double *state);
-void __wrap_contact_follow(contact *c, const dense_output *p, const double *y);
-void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
-dem_status __wrap_queue_show(queue *q, double t);
+void __real_automaton_root_functions(automaton *c, double t, const double *y, double *g);
+bool __real_automaton_check_step(automaton *c, dense_output *p, bool rooted, double *state);
+void __real_automaton_end_step(automaton *c, const dense_output *p, const double *y);
+void __real_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+dem_status __real_event_queue_show(event_queue *q, double t);
+void __wrap_automaton_root_functions(automaton *c, double t, const double *y, double *g);
+bool __wrap_automaton_check_step(automaton *c, dense_output *p, bool rooted, double *state);
+void __wrap_automaton_end_step(automaton *c, const dense_output *p, const double *y);
+void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+dem_status __wrap_event_queue_show(event_queue *q, double t);
 
-void __wrap_contact_guards(contact *c, double t, const double *y, double *g)
+void __wrap_automaton_root_functions(automaton *c, double t, const double *y, double *g)
 {
     const double start = seconds(CLOCK_MONOTONIC);
-    __real_contact_guards(c, t, y, g);
+    __real_automaton_root_functions(c, t, y, g);
     spent[0] += seconds(CLOCK_MONOTONIC) - start;
 }
 
-bool __wrap_contact_check(contact *c, dense_output *p, bool rooted, double *state)
+bool __wrap_automaton_check_step(automaton *c, dense_output *p, bool rooted, double *state)
 {
     const double start = seconds(CLOCK_MONOTONIC);
-    const bool late = __real_contact_check(c, p, rooted, state);
+    const bool late = __real_automaton_check_step(c, p, rooted, state);
     spent[1] += seconds(CLOCK_MONOTONIC) - start;
     return late;
 }
 
-void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state)
+void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
     const double start = seconds(CLOCK_MONOTONIC);
-    __real_queue_start(q, step, y1, f1, state);
+    __real_event_queue_start(q, step, y1, f1, state);
     spent[2] += seconds(CLOCK_MONOTONIC) - start;
 }
 
-dem_status __wrap_queue_show(queue *q, double t)
+dem_status __wrap_event_queue_show(event_queue *q, double t)
 {
     const double start = seconds(CLOCK_MONOTONIC);
-    const dem_status status = __real_queue_show(q, t);
+    const dem_status status = __real_event_queue_show(q, t);
     spent[3] += seconds(CLOCK_MONOTONIC) - start;
     return status;
 }
 
-void __wrap_contact_follow(contact *c, const dense_output *p, const double *y)
+void __wrap_automaton_end_step(automaton *c, const dense_output *p, const double *y)
 {
     const double start = seconds(CLOCK_MONOTONIC);
-    __real_contact_follow(c, p, y);
+    __real_automaton_end_step(c, p, y);
     spent[4] += seconds(CLOCK_MONOTONIC) - start;
 }
 

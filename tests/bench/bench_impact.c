@@ -73,22 +73,22 @@ typedef struct times {
 
 static times spent;
 
-void __real_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
-dem_status __real_queue_show(queue *q, double t);
-void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state);
-dem_status __wrap_queue_show(queue *q, double t);
+void __real_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+dem_status __real_event_queue_show(event_queue *q, double t);
+void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+dem_status __wrap_event_queue_show(event_queue *q, double t);
 
-void __wrap_queue_start(queue *q, dense_output *step, double *y1, double *f1, double *state)
+void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
     const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    __real_queue_start(q, step, y1, f1, state);
+    __real_event_queue_start(q, step, y1, f1, state);
     spent.find += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
 }
 
-dem_status __wrap_queue_show(queue *q, double t)
+dem_status __wrap_event_queue_show(event_queue *q, double t)
 {
     const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    const dem_status status = __real_queue_show(q, t);
+    const dem_status status = __real_event_queue_show(q, t);
     spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
     return status;
 }

@@ -123,13 +123,13 @@ static void query(const obstacle_set *o, bytes *from, bool tame)
     for (int q = 0; q < QUERIES && from->left > 0; q++) {
         const unsigned kind = bytes_below(from, tame ? 15 : 16);
         const vec2 x = {coordinate(from, kind), coordinate(from, kind)};
-        const obstacle_touch touch = {.tolerance = 1e-6 * (double)bytes_take(from), .without = -1};
-        const int n = obstacles_touching(o, x, &touch, hits, 64);
+        const obstacle_touch point = {.tolerance = 1e-6 * (double)bytes_take(from), .without = -1};
+        const int n = obstacles_touching(o, x, &point, hits, 64);
         if (!tame) continue; /* of points at 1e300 only that they do no harm */
         for (dem_index k = 0; k < o->n; k++) check_gap(o, x, k);
         require(obstacles_gap(o, x, 0.0, -1, -1).segment >= 0);
-        require(n >= count_touching(o, x, touch.tolerance * (1.0 - 1e-9) - 1e-12));
-        require(n <= count_touching(o, x, touch.tolerance * (1.0 + 1e-9) + 1e-12));
+        require(n >= count_touching(o, x, point.tolerance * (1.0 - 1e-9) - 1e-12));
+        require(n <= count_touching(o, x, point.tolerance * (1.0 + 1e-9) + 1e-12));
         check_vertices(o, from);
     }
 }

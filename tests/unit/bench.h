@@ -18,8 +18,8 @@ typedef struct bench {
     dem_obstacle list[BENCH_OBSTACLES];
     segment segments[BENCH_FEATURES];
     obstacle_vertex vertices[BENCH_FEATURES];
-    dem_index n_sites;
-    contact_site sites[BENCH_SITES];
+    dem_index n_candidates;
+    contact_candidate candidates[BENCH_SITES];
 } bench;
 
 /** n free nodes of mass 1 at rest in the origin, their sites, and no edges. Stays where it is: it points to itself.
@@ -32,11 +32,11 @@ static inline void bench_open(bench *b, dem_index n)
     b->list[2] = (dem_obstacle){.friction = 0.9, .friction_law = DEM_FRICTION_PAPER};
     for (dem_index i = 0; i < n; i++) {
         b->mass[i] = b->inverse_mass[i] = 1.0;
-        b->sites[i] = (contact_site){.node = i, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+        b->candidates[i] = (contact_candidate){.node = i, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
     }
-    b->n_sites = n;
+    b->n_candidates = n;
     b->model.lattice = (dem_lattice){.dim = 2, .n_nodes = n, .mass = b->mass};
-    b->model.n_sites = n;
+    b->model.n_contact_nodes = n;
     b->model.inverse_mass = b->inverse_mass;
     b->model.springs.row = b->none;
     b->model.triangles.row = b->none;
@@ -54,35 +54,36 @@ static inline void bench_mass(bench *b, dem_index node, double mass)
 /** An edge from node a to b; returns its site. */
 static inline dem_index bench_edge(bench *b, dem_index from, dem_index to)
 {
-    assert_true(b->n_sites < BENCH_SITES);
-    b->sites[b->n_sites] = (contact_site){.node = from, .other = to, .previous = -1, .next = -1, .behind = {-1, -1}};
-    return b->n_sites++;
+    assert_true(b->n_candidates < BENCH_SITES);
+    b->candidates[b->n_candidates] =
+        (contact_candidate){.node = from, .other = to, .previous = -1, .next = -1, .behind = {-1, -1}};
+    return b->n_candidates++;
 }
 
 /** Closes another contact of site k on an obstacle. A node lies on a segment whose normal has the angle `at`; an edge
  *  has a vertex at the fraction `at` of it, where it sticks if sign is 0. Positions must have been set. */
-static inline contact_touch *bench_touch(bench *b, dem_index k, dem_index obstacle, double at, int sign)
+static inline contact_point *bench_touch(bench *b, dem_index k, dem_index obstacle, double at, int sign)
 {
-    contact_site *site = &b->sites[k];
-    const dem_index feature = 2 * k + site->n_closed;
-    contact_touch *touch = &site->closed[site->n_closed++];
+    contact_candidate *candidate = &b->candidates[k];
+    const dem_index feature = 2 * k + candidate->n_closed;
+    contact_point *point = &candidate->closed[candidate->n_closed++];
     segment *s = &b->segments[feature];
-    assert_true(site->n_closed <= 2);
-    *touch = (contact_touch){.feature = feature, .sign = sign};
+    assert_true(candidate->n_closed <= 2);
+    *point = (contact_point){.feature = feature, .slide = sign};
     s->obstacle = obstacle;
     s->index = feature;
-    if (site_is_edge(site)) {
-        const vec2 a = vec2_at(b->x, site->node), ab = vec2_sub(vec2_at(b->x, site->other), a);
+    if (candidate_is_edge(candidate)) {
+        const vec2 a = vec2_at(b->x, candidate->node), ab = vec2_sub(vec2_at(b->x, candidate->other), a);
         b->vertices[feature] = (obstacle_vertex){.at = vec2_along(a, at, ab), .before = feature, .after = -1};
-        touch->place = sign == 0 ? at : 77.0;
-        return touch;
+        point->place = sign == 0 ? at : 77.0;
+        return point;
     }
     s->normal = (vec2){cos(at), sin(at)};
     s->tangent = (vec2){s->normal.y, -s->normal.x};
-    s->start = vec2_along(vec2_at(b->x, site->node), -0.5, s->tangent);
+    s->start = vec2_along(vec2_at(b->x, candidate->node), -0.5, s->tangent);
     s->end = vec2_along(s->start, 1.0, s->tangent);
     s->length = 1.0;
-    return touch;
+    return point;
 }
 
 /** Two segments with normals of these angles hold node k, whatever their signs say. */

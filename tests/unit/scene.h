@@ -16,7 +16,7 @@ static const double scene_skin = 1e-6, scene_gravity = 10.0;
 
 typedef struct scene {
     dem_model *model;
-    contact c;
+    automaton c;
     double y[4 * SCENE_NODES];
     dem_event events[SCENE_EVENTS], impacts[SCENE_EVENTS]; /* all, and the impacts among them */
     int n_events, n_impacts;
@@ -43,7 +43,7 @@ static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_o
                                .load = {.gravity = {0.0, -scene_gravity}}};
     *s = (scene){0};
     assert_ok(dem_model_create(&s->model, lattice, obstacles, n));
-    assert_ok(contact_create(&s->c, s->model, &rule));
+    assert_ok(automaton_create(&s->c, s->model, &rule));
 }
 
 /* n masses, each a body of its own, with the triangles' sides for edges; nothing else holds them together. */
@@ -78,7 +78,7 @@ static inline void scene_open_triangle(scene *s, const double mass[3], double x,
 
 static inline void scene_close(scene *s)
 {
-    contact_destroy(&s->c);
+    automaton_destroy(&s->c);
     dem_model_destroy(s->model);
 }
 
@@ -92,7 +92,7 @@ static inline void scene_put(scene *s, dem_index i, double x, double y, double u
 {
     vec2_put(s->y, i, (vec2){x, y});
     vec2_put(scene_v(s), i, (vec2){u, v});
-    for (dem_index k = 0; k < s->c.sites.n; k++) s->c.sites.list[k].asleep = false;
+    for (dem_index k = 0; k < s->c.set.n; k++) s->c.set.list[k].inactive = false;
 }
 
 static inline void scene_check(scene *s, dem_index i, double x, double y, double u, double v)
@@ -107,22 +107,22 @@ static inline void scene_check(scene *s, dem_index i, double x, double y, double
 /* The site of the edge from node a to node b. */
 static inline dem_index scene_edge(const scene *s, dem_index a, dem_index b)
 {
-    for (dem_index k = s->model->n_sites; k < s->c.sites.n; k++)
-        if (s->c.sites.list[k].node == a && s->c.sites.list[k].other == b) return k;
+    for (dem_index k = s->model->n_contact_nodes; k < s->c.set.n; k++)
+        if (s->c.set.list[k].node == a && s->c.set.list[k].other == b) return k;
     fail_msg("no edge from node %lld to node %lld", (long long)a, (long long)b);
     return -1;
 }
 
 static inline dem_status scene_take_up(scene *s)
 {
-    const contact_listener listener = {scene_note, s};
-    return contact_start(&s->c, 0.0, s->y, &listener);
+    const event_listener listener = {scene_note, s};
+    return automaton_start(&s->c, 0.0, s->y, &listener);
 }
 
 static inline dem_status scene_resolve(scene *s, double t)
 {
-    const contact_listener listener = {scene_note, s};
-    return contact_resolve(&s->c, t, s->y, &listener);
+    const event_listener listener = {scene_note, s};
+    return automaton_resolve(&s->c, t, s->y, &listener);
 }
 
 /* A step of length h from s->y with the same acceleration of all nodes, which the path's quintic follows exactly. */

@@ -110,29 +110,29 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     double *y0 = arrays, *y1 = y0 + size, *f0 = y1 + size, *f1 = f0 + size, *error = f1 + size, *state = error + size;
     gsl_odeiv2_system system = {derive, NULL, size, p};
     gsl_odeiv2_step *gsl = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkf45, size);
-    const contact_listener nobody = {NULL, NULL};
+    const event_listener nobody = {NULL, NULL};
     const double one[2] = {p->options.rtol * p->options.spacing, p->options.rtol * p->options.v_scale};
-    contact c;
-    queue q;
+    automaton c;
+    event_queue q;
     assert_true(arrays != NULL && gsl != NULL);
     spread(p, y, y0);
-    assert_ok(contact_create(&c, p->model, &p->rule));
-    assert_ok(contact_start(&c, t, y0, &nobody));
-    assert_ok(queue_create(&q, &c, &(patch_rule){5, one[0], one[1], NULL}, true));
+    assert_ok(automaton_create(&c, p->model, &p->rule));
+    assert_ok(automaton_start(&c, t, y0, &nobody));
+    assert_ok(event_queue_create(&q, &c, &(local_correction_rule){5, one[0], one[1], NULL}, true));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
     (void)derive(t, y0, f0, p);
     (void)derive(t1, y1, f1, p);
     dense_output step = {p->n_all, t, t1, t1, y0, f0, y1, f1, false, NULL};
-    queue_start(&q, &step, y1, f1, state);
-    assert_ok(queue_show(&q, t1));
-    const estimates e = {norm(p, error, error + 2 * p->n_all), queue_error(&q)};
+    event_queue_start(&q, &step, y1, f1, state);
+    assert_ok(event_queue_show(&q, t1));
+    const estimates e = {norm(p, error, error + 2 * p->n_all), event_queue_error(&q)};
     for (dem_index k = 0; k < 2 * p->n; k++) {
         assert_close(y1[k], product[k], 1e-3 * one[0] + 1e-15);
         assert_close(y1[2 * p->n_all + k], product[2 * p->n + k], 1e-3 * one[1] + 1e-12);
     }
-    queue_destroy(&q);
-    contact_destroy(&c);
+    event_queue_destroy(&q);
+    automaton_destroy(&c);
     gsl_odeiv2_step_free(gsl);
     free(arrays);
     return e;
@@ -188,8 +188,8 @@ static void judge(verdict *v, double ratio)
 /* Whether every node is clear of the ground by more than a new start takes for touching. */
 static bool is_clear(const parts *p, const double *x)
 {
-    for (dem_index k = 0; k < p->model->n_sites; k++)
-        if (dem_model_gap(p->model, x + 2 * p->model->sites[k]) < 1e-15) return false;
+    for (dem_index k = 0; k < p->model->n_contact_nodes; k++)
+        if (dem_model_gap(p->model, x + 2 * p->model->contact_nodes[k]) < 1e-15) return false;
     return true;
 }
 

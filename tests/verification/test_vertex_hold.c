@@ -20,8 +20,8 @@ enum { A, B, C };
 typedef struct triangle {
     double mass[3], rest[3], stiffness[3]; /* springs AB, BC, CA */
     double g[2], mu;
-    int sign; /* of sliding: of the body along the edge from A to B; 0: sticks */
-    double s; /* where it sticks */
+    int slide; /* of sliding: of the body along the edge from A to B; 0: sticks */
+    double s;  /* where it sticks */
 } triangle;
 
 static void spring_forces(const triangle *q, const double *x, double *f)
@@ -49,8 +49,8 @@ static double normal_force(const triangle *q, const double *x, const double *v, 
     const double gradient[4] = {x[1] + w[1], -x[0] - w[0], -x[1], x[0]};
     double by_push = 0.0, free = -2.0 * ((v[2] - v[0]) * v[1] - (v[3] - v[1]) * v[0]);
     for (int i = 0; i < 2; i++) {
-        push[2 * i] = share[i] * (-t[1] - q->mu * q->sign * t[0]);
-        push[2 * i + 1] = share[i] * (t[0] - q->mu * q->sign * t[1]);
+        push[2 * i] = share[i] * (-t[1] - q->mu * q->slide * t[0]);
+        push[2 * i + 1] = share[i] * (t[0] - q->mu * q->slide * t[1]);
         for (int d = 0; d < 2; d++) {
             by_push += gradient[2 * i + d] * push[2 * i + d] / q->mass[i];
             free += gradient[2 * i + d] * f[2 * i + d] / q->mass[i];
@@ -77,7 +77,7 @@ static int constrained(double time, const double *y, double *out, void *context)
     double f[6], push[4];
     (void)time;
     spring_forces(q, y, f);
-    if (q->sign != 0) {
+    if (q->slide != 0) {
         const double n = normal_force(q, y, y + 6, f, push);
         for (int k = 0; k < 4; k++) f[k] += n * push[k];
     } else {
@@ -115,7 +115,7 @@ static double slip_speed(const double *y, double *s)
 static double margin(const triangle *q, const double *y, double *tangential)
 {
     double f[6], r[2], s;
-    if (q->sign != 0) return q->sign * slip_speed(y, &s);
+    if (q->slide != 0) return q->slide * slip_speed(y, &s);
     spring_forces(q, y, f);
     sticking_force(q, y, f, r);
     *tangential = r[1];
@@ -126,11 +126,11 @@ static double margin(const triangle *q, const double *y, double *tangential)
 static void change(triangle *q, const double *y)
 {
     double tangential = 0.0;
-    const bool slid = q->sign != 0;
-    q->sign = 0;
+    const bool slid = q->slide != 0;
+    q->slide = 0;
     if (slid) (void)slip_speed(y, &q->s);
     if (margin(q, y, &tangential) > 0.0 && slid) return;
-    q->sign = tangential > 0.0 ? -1 : 1;
+    q->slide = tangential > 0.0 ? -1 : 1;
 }
 
 /* As integrate(), with the changes between sliding and sticking bisected to 1e-13 s; returns how many. */
@@ -223,12 +223,12 @@ static void compare(const triangle *q, const double *y, const dem_state *state, 
     double f[6], push[4];
     assert_int_equal(state->n_contacts, 1);
     assert_int_equal(state->contacts[0].n_nodes, 2);
-    assert_int_equal(state->contacts[0].state, q->sign == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
+    assert_int_equal(state->contacts[0].state, q->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
     for (int i = 0; i < 6; i++) assert_close(state->x[i], y[i], tolerance);
-    if (q->sign == 0) return;
+    if (q->slide == 0) return;
     spring_forces(q, y, f);
     assert_true(normal_force(q, y, y + 6, f, push) > 0.0); /* the reference cannot lift off */
-    assert_close(state->contacts[0].friction, -q->mu * q->sign * state->contacts[0].force,
+    assert_close(state->contacts[0].friction, -q->mu * q->slide * state->contacts[0].force,
                  1e-14 * state->contacts[0].force);
 }
 
@@ -253,7 +253,7 @@ static int follow(triangle *q, double *y, double t_end)
     const dem_counts counts = dem_simulation_counts(run.simulation);
     print_message("# sign %d, mu %g: off by %.1e m, ledger by %.1e J, %lld steps, %lld events, %lld slips, %lld "
                   "sticks, %d changes\n",
-                  q->sign, q->mu, worst, books.worst, (long long)counts.steps, (long long)counts.events,
+                  q->slide, q->mu, worst, books.worst, (long long)counts.steps, (long long)counts.events,
                   (long long)counts.slips, (long long)counts.sticks, changes);
     assert_true(books.worst < 1e-8);
     assert_in_range(counts.slips + counts.sticks - changes, 0, 1); /* what starts at rest, to rounding, sticks */
@@ -271,7 +271,7 @@ static triangle make_triangle(double mu, int sign)
                       .stiffness = {2000.0, 1600.0, 2400.0},
                       .g = {0.0, -9.81},
                       .mu = mu,
-                      .sign = sign};
+                      .slide = sign};
 }
 
 /* It turns by up to 0.5 rad and slides by 0.2 m: 2 omega v_t is some 4 m/s^2, a part of the reaction that would be
@@ -285,7 +285,7 @@ static void a_triangle_slides_over_a_point_as_the_constrained_equations_say(void
             for (double spin = -2.0; spin < 2.5; spin += 2.0) {
                 triangle q = make_triangle(0.2 * k, sign);
                 place_triangle(0.5 - 0.1 * sign, 0.1 * sign, -1.5 * sign, spin, y);
-                q.sign = -sign;
+                q.slide = -sign;
                 assert_int_equal(follow(&q, y, 0.12), 0);
             }
 }

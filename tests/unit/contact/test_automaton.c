@@ -27,9 +27,9 @@ static void touching_is_admissible_and_deeper_than_the_skin_is_not(void **state)
     open_scene(&s, 2, &half, 1);
     scene_put(&s, 0, 0.5, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 1.5, -skin, 0.0, 0.0);
-    assert_ok(contact_admissible(&s.c, s.y));
+    assert_ok(automaton_check_start(&s.c, s.y));
     scene_put(&s, 1, 1.5, -0.25, 0.0, 0.0);
-    assert_int_equal(contact_admissible(&s.c, s.y), DEM_ERROR_MODEL);
+    assert_int_equal(automaton_check_start(&s.c, s.y), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(),
                         "node 1 at (1.5, -0.25) m starts 0.25 m inside obstacle 0, deeper than the skin of 1e-06 m");
     scene_close(&s);
@@ -48,12 +48,12 @@ static void at_the_start_touching_is_enough_for_a_contact(void **state)
     scene_check(&s, 0, 0.0, 0.0, 3.0, 0.0);
     scene_check(&s, 1, 1.0, 0.0, 0.0, 1.0);
     scene_check(&s, 2, 2.0, 1e-9, 0.0, -2.0);
-    assert_int_equal(contact_list(&s.c, s.y, list), 1);
+    assert_int_equal(automaton_list(&s.c, s.y, list), 1);
     assert_int_equal(list[0].nodes[0], 0);
     assert_int_equal(list[0].state, DEM_CONTACT_SLIP);
     assert_close(list[0].force, 2.0 * g, 0.0);
     assert_int_equal(s.n_impacts, 1); /* the resting node's velocity did not change */
-    assert_int_equal(s.c.sites.books.counts.closings, 1);
+    assert_int_equal(s.c.set.ledger.counts.closings, 1);
     scene_close(&s);
 }
 
@@ -65,7 +65,7 @@ static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.5);
     assert_ok(scene_take_up(&s));
     scene_check(&s, 0, 0.0, 0.0, 0.0, 0.5);
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
     assert_int_equal(s.n_impacts, 0);
     scene_close(&s);
 }
@@ -93,12 +93,12 @@ static void an_impact_is_reflected_reported_and_booked(void **state)
     const double actual[10] = {hit.x[0],       hit.x[1],      hit.normal[0], hit.normal[1], hit.impulse[0],
                                hit.impulse[1], hit.before[0], hit.before[1], hit.after[0],  hit.after[1]};
     for (int k = 0; k < 10; k++) assert_close(actual[k], expected[k], 1e-15);
-    assert_close(s.c.sites.books.impact, 12.0, 1e-14);
-    assert_close(s.c.sites.books.impulse[0], 0.0, 0.0);
-    assert_close(s.c.sites.books.impulse[1], 12.0, 1e-14);
-    assert_close(s.c.sites.books.projection, 2.0 * g * skin, 1e-14); /* a difference of energies of order 20 m g */
-    assert_int_equal(s.c.sites.books.counts.impacts, 1);
-    assert_int_equal(s.c.sites.books.counts.closings, 0);
+    assert_close(s.c.set.ledger.impact, 12.0, 1e-14);
+    assert_close(s.c.set.ledger.impulse[0], 0.0, 0.0);
+    assert_close(s.c.set.ledger.impulse[1], 12.0, 1e-14);
+    assert_close(s.c.set.ledger.projection, 2.0 * g * skin, 1e-14); /* a difference of energies of order 20 m g */
+    assert_int_equal(s.c.set.ledger.counts.impacts, 1);
+    assert_int_equal(s.c.set.ledger.counts.closings, 0);
     scene_close(&s);
 }
 
@@ -112,8 +112,8 @@ static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void
     assert_ok(scene_resolve(&s, 0.125));
     scene_check(&s, 0, 0.25, 0.0, 3.0, 0.0);
     assert_int_not_equal(s.impacts[0].state, DEM_CONTACT_FREE);
-    assert_int_equal(s.c.sites.books.counts.closings, 1);
-    assert_int_equal(contact_list(&s.c, s.y, list), 1);
+    assert_int_equal(s.c.set.ledger.counts.closings, 1);
+    assert_int_equal(automaton_list(&s.c, s.y, list), 1);
     assert_int_equal(list[0].n_nodes, 1);
     assert_int_equal(list[0].obstacle, 0);
     assert_int_equal(list[0].segment, 0);
@@ -140,7 +140,7 @@ static void land(double eta, double speed, double rest_speed, int closed)
     const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = eta};
     scene s;
     open_scene(&s, 1, &plane, 1);
-    s.c.sites.scene.rule.rest_speed = rest_speed;
+    s.c.set.scene.rule.rest_speed = rest_speed;
     scene_put(&s, 0, 0.25, -skin, 1.0, -speed / eta);
     assert_ok(scene_resolve(&s, 0.0));
     assert_int_equal(s.impacts[0].state != DEM_CONTACT_FREE, closed);
@@ -173,13 +173,13 @@ static void a_contact_does_not_last_where_nothing_presses(void **state)
     for (int k = 0; k < 4; k++) {
         scene s;
         open_scene(&s, 1, &plastic, 1);
-        s.c.sites.scene.rule.load.gravity[1] = pull[k];
-        s.c.sites.scene.rule.rest_speed = rest_speed[k];
+        s.c.set.scene.rule.load.gravity[1] = pull[k];
+        s.c.set.scene.rule.rest_speed = rest_speed[k];
         scene_put(&s, 0, 0.25, -skin, 1.0, -1.0);
         assert_ok(scene_resolve(&s, 0.0));
         scene_check(&s, 0, 0.25, 0.0, 1.0, 0.0);
         assert_int_equal(s.impacts[0].state, DEM_CONTACT_FREE);
-        assert_int_equal(s.c.sites.list[0].n_closed, 0);
+        assert_int_equal(s.c.set.list[0].n_closed, 0);
         scene_close(&s);
     }
 }
@@ -198,7 +198,7 @@ static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void 
         assert_int_equal(s.impacts[k].node, k);
         scene_check(&s, k, 2.0 - k, 0.0, 0.0, 0.5 * (1.0 + k));
     }
-    assert_close(s.c.sites.books.impulse[1], 2.0 * 1.5 * (1.0 + 2.0 + 3.0), 1e-14);
+    assert_close(s.c.set.ledger.impulse[1], 2.0 * 1.5 * (1.0 + 2.0 + 3.0), 1e-14);
     scene_close(&s);
 }
 
@@ -224,13 +224,13 @@ static void in_a_corner_each_obstacle_gets_the_impulse_along_its_normal(void **s
     scene_put(&s, 0, 2.0 + skin, -skin, 4.0, -3.0);
     assert_ok(scene_resolve(&s, 0.0));
     scene_check(&s, 0, 2.0, 0.0, -1.0, 1.5);
-    assert_close(s.c.sites.books.impulse[0], -2.0 * 5.0, 1e-14);
-    assert_close(s.c.sites.books.impulse[1], 0.0, 1e-14);
-    assert_close(s.c.sites.books.impulse[2], 0.0, 1e-14);
-    assert_close(s.c.sites.books.impulse[3], 2.0 * 4.5, 1e-14);
+    assert_close(s.c.set.ledger.impulse[0], -2.0 * 5.0, 1e-14);
+    assert_close(s.c.set.ledger.impulse[1], 0.0, 1e-14);
+    assert_close(s.c.set.ledger.impulse[2], 0.0, 1e-14);
+    assert_close(s.c.set.ledger.impulse[3], 2.0 * 4.5, 1e-14);
     assert_int_equal(s.n_impacts, 1);
     assert_int_equal(s.impacts[0].obstacle, 0); /* approached faster */
-    assert_close(s.c.sites.books.impact, 25.0 - 1.0 - 2.25, 1e-13);
+    assert_close(s.c.set.ledger.impact, 25.0 - 1.0 - 2.25, 1e-13);
     scene_close(&s);
 }
 
@@ -248,7 +248,7 @@ static void open_pair(scene *s)
     scene_put(s, 0, 0.0, 0.0, 0.5, 0.0);
     scene_put(s, 1, 0.0, 1.0, 0.5, 2.0);
     assert_ok(scene_take_up(s));
-    assert_int_equal(s->c.sites.list[0].n_closed, 1);
+    assert_int_equal(s->c.set.list[0].n_closed, 1);
 }
 
 static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(void **state)
@@ -258,13 +258,13 @@ static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(vo
     open_pair(&s);
     scene_put(&s, 1, 0.0, 1.19, 0.5, 2.0); /* pulls with 19 N against 20 N */
     assert_ok(scene_resolve(&s, 0.1));
-    assert_int_equal(s.c.sites.list[0].n_closed, 1);
-    assert_close(s.c.sites.list[0].closed[0].force, 1.0, 1e-13);
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    assert_close(s.c.set.list[0].closed[0].force, 1.0, 1e-13);
     scene_put(&s, 1, 0.0, 1.21, 0.5, 2.0);
     assert_ok(scene_resolve(&s, 0.2));
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
     scene_check(&s, 0, 0.0, 0.0, 0.5, 0.0);
-    assert_int_equal(s.c.sites.books.counts.releases, 1);
+    assert_int_equal(s.c.set.ledger.counts.releases, 1);
     assert_int_equal(s.n_impacts, 0);
     scene_close(&s);
 }
@@ -280,10 +280,10 @@ static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
     scene_put(&s, 1, 0.0, 1.19, 0.5, 2.0);
     a[1] += 19.0 / 2.0;
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
-    contact_follow(&s.c, &f.path, s.y);
-    assert_close(s.c.sites.list[0].closed[0].force, 1.0, 1e-13);
-    contact_constrain(&s.c, s.y, a);
-    contact_account(&s.c, s.y, rate);
+    automaton_end_step(&s.c, &f.path, s.y);
+    assert_close(s.c.set.list[0].closed[0].force, 1.0, 1e-13);
+    automaton_constrain(&s.c, s.y, a);
+    automaton_add_rates(&s.c, s.y, rate);
     const double expected[6] = {0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(rate[k], expected[k], 1e-13);
     scene_close(&s);
@@ -301,11 +301,11 @@ static void closed_contacts_hold_the_acceleration_along_their_normals(void **sta
     scene_put(&s, 2, 0.0, 0.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
     double a[6] = {1.0, -g, 1.0, -g, 1.0, -g};
-    contact_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, s.y, a);
     const double expected[6] = {1.0, -g, 0.5 * (1.0 - g), 0.5 * (1.0 - g), 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(a[k], expected[k], 1e-14);
-    assert_int_equal(s.c.sites.list[2].n_closed, 2);
-    assert_true(s.c.sites.list[2].closed[0].held && s.c.sites.list[2].closed[1].held);
+    assert_int_equal(s.c.set.list[2].n_closed, 2);
+    assert_true(s.c.set.list[2].closed[0].held && s.c.set.list[2].closed[1].held);
     scene_close(&s);
 }
 
@@ -321,7 +321,7 @@ static void contacts_are_listed_in_the_order_of_nodes(void **state)
     scene_put(&s, 1, 0.5, 3.0, 0.0, 0.0);
     scene_put(&s, 2, -1.0, 1.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
-    assert_int_equal(contact_list(&s.c, s.y, list), 3);
+    assert_int_equal(automaton_list(&s.c, s.y, list), 3);
     assert_int_equal(list[0].nodes[0], 0);
     assert_int_equal(list[1].nodes[0], 0);
     assert_int_equal(list[0].segment + list[1].segment, 1);
@@ -342,19 +342,19 @@ static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
     open_scene(&s, 1, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
-    assert_int_equal(s.c.sites.list[0].n_closed, 2);
-    s.c.sites.scene.rule.load.gravity[0] = 1.1 * g;
+    assert_int_equal(s.c.set.list[0].n_closed, 2);
+    s.c.set.scene.rule.load.gravity[0] = 1.1 * g;
     assert_ok(scene_resolve(&s, 0.1));
-    assert_int_equal(s.c.sites.list[0].n_closed, 1);
-    assert_int_equal(s.c.sites.list[0].closed[0].feature, 1);
-    assert_false(s.c.sites.list[0].closed[0].held);
-    assert_int_equal(s.c.sites.list[0].closed[0].sign, 1);
-    assert_int_equal(s.c.sites.books.counts.releases, 1);
-    s.c.sites.scene.rule.load.gravity[0] = 0.0;
-    s.c.sites.scene.rule.load.gravity[1] = g;
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
+    assert_false(s.c.set.list[0].closed[0].held);
+    assert_int_equal(s.c.set.list[0].closed[0].slide, 1);
+    assert_int_equal(s.c.set.ledger.counts.releases, 1);
+    s.c.set.scene.rule.load.gravity[0] = 0.0;
+    s.c.set.scene.rule.load.gravity[1] = g;
     assert_ok(scene_resolve(&s, 0.2));
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
-    assert_int_equal(s.c.sites.books.counts.releases, 2);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.ledger.counts.releases, 2);
     scene_close(&s);
 }
 
@@ -372,8 +372,8 @@ static void a_corner_holds_only_what_is_at_rest_in_it(void **state)
         open_scene(&s, 1, &groove, 1);
         scene_put(&s, 0, 0.0, 0.0, root * speed[k], root * speed[k]);
         assert_ok(scene_take_up(&s));
-        assert_int_equal(s.c.sites.list[0].n_closed, 2 - k);
-        if (k == 1) assert_int_equal(s.c.sites.list[0].closed[0].feature, 1);
+        assert_int_equal(s.c.set.list[0].n_closed, 2 - k);
+        if (k == 1) assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
         scene_check(&s, 0, 0.0, 0.0, u, u);
         scene_close(&s);
     }
@@ -390,7 +390,7 @@ static void a_closed_node_is_put_back_where_rounding_has_taken_it_from(void **st
     assert_ok(scene_resolve(&s, 0.1));
     scene_check(&s, 0, 0.5, 0.0, 1.0, 0.0);
     assert_close(s.y[1], 0.0, 0.0);
-    assert_close(s.c.sites.books.projection, -2.0 * g * 1e-9, 1e-20);
+    assert_close(s.c.set.ledger.projection, -2.0 * g * 1e-9, 1e-20);
     assert_int_equal(s.n_impacts, 0);
     scene_close(&s);
 }
@@ -406,7 +406,7 @@ static void slide(scene *s, const dem_obstacle *obstacle, double x, double u)
     open_scene(s, 1, obstacle, 1);
     scene_put(s, 0, x, 0.0, u, 0.0);
     assert_ok(scene_take_up(s));
-    assert_int_equal(s->c.sites.list[0].n_closed, 1);
+    assert_int_equal(s->c.set.list[0].n_closed, 1);
 }
 
 static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
@@ -416,13 +416,13 @@ static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
     slide(&s, &terrace, -1.0, 1.5);
     scene_put(&s, 0, 1.01 * skin, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
-    assert_int_equal(s.c.sites.list[0].closed[0].feature, 1);
+    assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
     scene_check(&s, 0, 1.01 * skin, 0.0, 1.5, 0.0);
     scene_put(&s, 0, -1.01 * skin, 0.0, -1.5, 0.0); /* and back */
     assert_ok(scene_resolve(&s, 0.2));
-    assert_int_equal(s.c.sites.list[0].closed[0].feature, 0);
-    assert_int_equal(s.c.sites.books.counts.passings, 2);
-    assert_int_equal(s.c.sites.books.counts.releases, 0);
+    assert_int_equal(s.c.set.list[0].closed[0].feature, 0);
+    assert_int_equal(s.c.set.ledger.counts.passings, 2);
+    assert_int_equal(s.c.set.ledger.counts.releases, 0);
     scene_close(&s);
 }
 
@@ -433,15 +433,15 @@ static void a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end(void **sta
     slide(&s, &terrace, 1.0, 1.5);
     scene_put(&s, 0, 2.0 + 1.01 * skin, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
     scene_check(&s, 0, 2.0 + 1.01 * skin, 0.0, 1.5, 0.0);
-    assert_int_equal(s.c.sites.books.counts.passings, 1);
-    assert_int_equal(s.c.sites.books.counts.releases, 1);
+    assert_int_equal(s.c.set.ledger.counts.passings, 1);
+    assert_int_equal(s.c.set.ledger.counts.releases, 1);
     scene_close(&s);
     slide(&s, &terrace, -1.0, -1.5);
     scene_put(&s, 0, -4.0 - 1.01 * skin, 0.0, -1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
     scene_close(&s);
 }
 
@@ -457,9 +457,9 @@ static void a_sliding_node_takes_its_impact_at_a_concave_bend(void **state)
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_impacts, 1);
     scene_check(&s, 0, 0.0, 0.0, 2.0 * cosine * cosine, 2.0 * cosine * 0.5);
-    assert_int_equal(s.c.sites.list[0].n_closed, 1);
-    assert_int_equal(s.c.sites.list[0].closed[0].feature, 1);
-    assert_int_equal(s.c.sites.books.counts.passings, 1);
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
+    assert_int_equal(s.c.set.ledger.counts.passings, 1);
     scene_close(&s);
 }
 
@@ -475,10 +475,10 @@ static void another_obstacle_stops_a_sliding_node(void **state)
     scene_put(&s, 0, 2.0 + skin, 0.0, 3.0, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     scene_check(&s, 0, 2.0, 0.0, -1.5, 0.0);
-    assert_int_equal(s.c.sites.list[0].n_closed, 1);
-    assert_int_equal(s.c.sites.list[0].closed[0].feature, 0);
-    assert_close(s.c.sites.books.impulse[2], -2.0 * 4.5, 1e-14);
-    assert_close(s.c.sites.books.impulse[1], 0.0, 1e-14);
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    assert_int_equal(s.c.set.list[0].closed[0].feature, 0);
+    assert_close(s.c.set.ledger.impulse[2], -2.0 * 4.5, 1e-14);
+    assert_close(s.c.set.ledger.impulse[1], 0.0, 1e-14);
     scene_close(&s);
 }
 
@@ -500,14 +500,14 @@ static void rub(scene *s, double u)
     open_scene(s, 1, &rough, 1);
     scene_put(s, 0, 0.5, 0.0, u, 0.0);
     assert_ok(scene_take_up(s));
-    assert_int_equal(s->c.sites.list[0].n_closed, 1);
+    assert_int_equal(s->c.set.list[0].n_closed, 1);
     check_event(s, 0, DEM_EVENT_CLOSE, u == 0.0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
-    assert_int_equal(s->c.sites.list[0].closed[0].sign, (u > 0.0) - (u < 0.0));
+    assert_int_equal(s->c.set.list[0].closed[0].slide, (u > 0.0) - (u < 0.0));
 }
 
 static void set_wind(scene *s, double a)
 {
-    s->c.sites.scene.rule.load.gravity[0] = a;
+    s->c.set.scene.rule.load.gravity[0] = a;
 }
 
 /* mu = 1/2 holds a wind of up to g/2. */
@@ -516,7 +516,7 @@ static void a_sliding_node_stops_and_starts_again_when_it_is_driven(void **state
     scene s;
     (void)state;
     rub(&s, 0.5);
-    assert_close(s.c.sites.list[0].closed[0].friction, -10.0, 1e-14);
+    assert_close(s.c.set.list[0].closed[0].friction, -10.0, 1e-14);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_events, 1);
     scene_put(&s, 0, 0.5, 0.0, -1e-6, 0.0);
@@ -527,15 +527,15 @@ static void a_sliding_node_stops_and_starts_again_when_it_is_driven(void **state
     set_wind(&s, -0.49 * g);
     assert_ok(scene_resolve(&s, 0.3));
     assert_int_equal(s.n_events, 2);
-    assert_close(s.c.sites.list[0].closed[0].friction, 0.98 * g, 1e-14);
+    assert_close(s.c.set.list[0].closed[0].friction, 0.98 * g, 1e-14);
     set_wind(&s, -0.51 * g);
     assert_ok(scene_resolve(&s, 0.4));
     assert_int_equal(s.n_events, 3);
     check_event(&s, 2, DEM_EVENT_SLIP, DEM_CONTACT_SLIP);
-    assert_int_equal(s.c.sites.list[0].closed[0].sign, -1);
-    assert_close(s.c.sites.list[0].closed[0].friction, 10.0, 1e-14);
-    assert_int_equal(s.c.sites.books.counts.sticks, 1);
-    assert_int_equal(s.c.sites.books.counts.slips, 1);
+    assert_int_equal(s.c.set.list[0].closed[0].slide, -1);
+    assert_close(s.c.set.list[0].closed[0].friction, 10.0, 1e-14);
+    assert_int_equal(s.c.set.ledger.counts.sticks, 1);
+    assert_int_equal(s.c.set.ledger.counts.slips, 1);
     scene_close(&s);
 }
 
@@ -552,8 +552,8 @@ static void a_sliding_node_turns_back_where_friction_cannot_hold_it(void **state
         assert_int_equal(s.n_events, 2);
         check_event(&s, 1, DEM_EVENT_STICK, DEM_CONTACT_SLIP);
         scene_check(&s, 0, 0.5, 0.0, 0.0, 0.0);
-        assert_int_equal(s.c.sites.list[0].closed[0].sign, -k);
-        assert_close(s.c.sites.list[0].closed[0].friction, 10.0 * k, 1e-14);
+        assert_int_equal(s.c.set.list[0].closed[0].slide, -k);
+        assert_close(s.c.set.list[0].closed[0].friction, 10.0 * k, 1e-14);
         scene_close(&s);
     }
 }
@@ -566,7 +566,7 @@ static void release_comes_before_stick_and_slip(void **state)
         scene s;
         rub(&s, k == 0 ? 0.5 : 0.0);
         set_wind(&s, 2.0 * g);
-        s.c.sites.scene.rule.load.gravity[1] = 0.1;
+        s.c.set.scene.rule.load.gravity[1] = 0.1;
         scene_put(&s, 0, 0.5, 0.0, k == 0 ? -0.25 : 0.0, 0.0);
         assert_ok(scene_resolve(&s, 0.2));
         assert_int_equal(s.n_events, 2);
@@ -582,14 +582,14 @@ static void a_sticking_node_does_not_move_in_any_wind_it_withstands(void **state
     double a[2] = {0.3 * g, -g};
     (void)state;
     rub(&s, 0.0);
-    contact_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, s.y, a);
     assert_close(a[0], 0.0, 0.0);
     assert_close(a[1], 0.0, 0.0);
     scene_close(&s);
     a[0] = 0.3 * g;
     a[1] = -g;
     rub(&s, 1.0);
-    contact_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, s.y, a);
     assert_close(a[0], 0.3 * g - 0.5 * g, 1e-14);
     assert_close(a[1], 0.0, 0.0);
     scene_close(&s);
@@ -606,8 +606,8 @@ static void forces_and_friction_power_are_told_as_rates(void **state)
         rub(&s, u[k]);
         if (k == 2)
             scene_put(&s, 0, 0.5, 0.0, 1e-3, 0.0); /* what sticks takes nothing, whatever is left of its speed */
-        contact_constrain(&s.c, s.y, a);
-        contact_account(&s.c, s.y, rate);
+        automaton_constrain(&s.c, s.y, a);
+        automaton_add_rates(&s.c, s.y, rate);
         const double expected[6] = {T[k], 20.0, T[k], 0.0, fabs(10.0 * u[k]), 0.0};
         for (int q = 0; q < 6; q++) assert_close(rate[q] - 100.0, expected[q], 1e-13);
         scene_close(&s);
@@ -639,10 +639,10 @@ static void an_edge_may_touch_a_vertex_but_not_start_with_it_inside(void **state
     scene s;
     (void)state;
     open_side(&s, &roof, 0.25, -0.9 * skin, 0.0);
-    assert_ok(contact_admissible(&s.c, s.y));
+    assert_ok(automaton_check_start(&s.c, s.y));
     scene_close(&s);
     open_side(&s, &roof, 0.25, -0.125, 0.0);
-    assert_int_equal(contact_admissible(&s.c, s.y), DEM_ERROR_MODEL);
+    assert_int_equal(automaton_check_start(&s.c, s.y), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 starts 0.125 m inside the body, "
                                               "deeper than the skin of 1e-06 m");
     scene_close(&s);
@@ -658,13 +658,13 @@ static void at_the_start_a_touching_edge_is_in_contact(void **state)
         open_side(&s, &rough_roof, 0.25, y[k], 0.0);
         launch(&s, u[k], v[k]);
         assert_ok(scene_take_up(&s));
-        const contact_site *edge = &s.c.sites.list[scene_edge(&s, 0, 1)];
+        const contact_candidate *edge = &s.c.set.list[scene_edge(&s, 0, 1)];
         assert_int_equal(edge->n_closed, k < 3);
         assert_int_equal(s.n_events, k < 3);
         if (k < 3)
             check_event(&s, 0, k < 2 ? DEM_EVENT_CLOSE : DEM_EVENT_IMPACT,
                         k == 1 ? DEM_CONTACT_SLIP : DEM_CONTACT_STICK);
-        if (k == 1) assert_int_equal(edge->closed[0].sign, 1);
+        if (k == 1) assert_int_equal(edge->closed[0].slide, 1);
         scene_close(&s);
     }
 }
@@ -678,7 +678,7 @@ static void at_the_start_an_edge_may_touch_two_vertices(void **state)
     (void)state;
     scene_open_triangle(&s, mass, -0.5, 0.0, &ridges, 1);
     assert_ok(scene_take_up(&s));
-    const contact_site *edge = &s.c.sites.list[scene_edge(&s, 0, 1)];
+    const contact_candidate *edge = &s.c.set.list[scene_edge(&s, 0, 1)];
     assert_int_equal(edge->n_closed, 2);
     for (int q = 0; q < 2; q++) assert_close(edge->closed[q].force, 2.0 * g, 1e-12);
     scene_close(&s);
@@ -694,27 +694,27 @@ static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
     open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
     launch(&s, 0.5, 0.0);
     assert_ok(scene_take_up(&s));
-    const contact_touch *touch = &s.c.sites.list[scene_edge(&s, 0, 1)].closed[0];
-    assert_close(touch->force, 40.0, 1e-13);
-    assert_close(touch->friction, -20.0, 1e-13);
-    contact_account(&s.c, s.y, rate);
+    const contact_point *point = &s.c.set.list[scene_edge(&s, 0, 1)].closed[0];
+    assert_close(point->force, 40.0, 1e-13);
+    assert_close(point->friction, -20.0, 1e-13);
+    automaton_add_rates(&s.c, s.y, rate);
     const double expected[6] = {-20.0, 40.0, -20.0, 0.0, 10.0, 0.0};
     for (int q = 0; q < 6; q++) assert_close(rate[q], expected[q], 1e-13);
     launch(&s, -1e-6, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     check_event(&s, 1, DEM_EVENT_STICK, DEM_CONTACT_STICK);
-    assert_close(touch->place, 0.75, 1e-15);
+    assert_close(point->place, 0.75, 1e-15);
     assert_close(0.25 * s.y[8] + 0.75 * s.y[10], 0.0, 1e-21); /* 1e-15 of 1e-6 m/s */
     set_wind(&s, 0.49 * g);
     assert_ok(scene_resolve(&s, 0.2));
     assert_int_equal(s.n_events, 2);
-    assert_close(touch->friction, -19.6, 1e-12);
+    assert_close(point->friction, -19.6, 1e-12);
     set_wind(&s, 0.6 * g);
     assert_ok(scene_resolve(&s, 0.3));
     assert_int_equal(s.n_events, 3);
     check_event(&s, 2, DEM_EVENT_SLIP, DEM_CONTACT_SLIP);
-    assert_int_equal(touch->sign, 1);
-    s.c.sites.scene.rule.load.gravity[1] = 0.1;
+    assert_int_equal(point->slide, 1);
+    s.c.set.scene.rule.load.gravity[1] = 0.1;
     assert_ok(scene_resolve(&s, 0.4));
     check_event(&s, 3, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
     assert_int_equal(s.n_events, 4);
@@ -732,21 +732,21 @@ static void a_closed_edge_that_has_opened_is_put_back(void **state)
     assert_ok(scene_take_up(&s));
     for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 0.2 * skin;
     scene_v(&s)[3] = 1e-3;
-    assert_false(contact_straighten(&s.c, 0.1, s.y));
+    assert_false(automaton_project(&s.c, 0.1, s.y));
     assert_close(s.y[1], 0.2 * skin, 0.0);
     assert_close(scene_v(&s)[3], 1e-3, 0.0);
     for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 30.0 * skin;
-    assert_true(contact_straighten(&s.c, 0.1, s.y));
+    assert_true(automaton_project(&s.c, 0.1, s.y));
     assert_close(0.25 * s.y[1] + 0.75 * s.y[3], 0.0, 1e-9 * skin);
     assert_close(0.25 * scene_v(&s)[1] + 0.75 * scene_v(&s)[3], 0.0, 1e-15);
     assert_close(scene_v(&s)[0], 0.5, 1e-7);
-    assert_int_equal(s.c.sites.list[scene_edge(&s, 0, 1)].n_closed, 1);
-    const contact_books *books = &s.c.sites.books;
+    assert_int_equal(s.c.set.list[scene_edge(&s, 0, 1)].n_closed, 1);
+    const contact_ledger *books = &s.c.set.ledger;
     assert_close(books->impulse[1], -4.0 * 0.75e-3, 1e-8);
     assert_close(books->projection, -40.0 * 30.0 * skin, 1e-3 * skin);
     assert_close(books->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
     assert_int_equal(s.n_events, 1);
-    assert_close(s.c.sites.straightened, 30.0 * skin, 1e-9 * skin);
+    assert_close(s.c.set.straightened, 30.0 * skin, 1e-9 * skin);
     scene_close(&s);
 }
 
@@ -755,7 +755,7 @@ static void slide_on(scene *s, double bend, double u)
 {
     open_side(s, &roof, 1.01 * skin, 1.01 * skin * bend, bend);
     launch(s, u, u * bend);
-    assert_ok(sites_close(&s->c.sites, scene_edge(s, 1, 2), (contact_touch){.feature = 0, .sign = 1}));
+    assert_ok(contact_set_close(&s->c.set, scene_edge(s, 1, 2), (contact_point){.feature = 0, .slide = 1}));
 }
 
 static void a_vertex_glides_from_edge_to_edge_of_a_flat_side(void **state)
@@ -763,11 +763,11 @@ static void a_vertex_glides_from_edge_to_edge_of_a_flat_side(void **state)
     scene s;
     (void)state;
     slide_on(&s, 0.0, 0.5);
-    const contact_site *from = &s.c.sites.list[scene_edge(&s, 1, 2)], *to = &s.c.sites.list[scene_edge(&s, 0, 1)];
+    const contact_candidate *from = &s.c.set.list[scene_edge(&s, 1, 2)], *to = &s.c.set.list[scene_edge(&s, 0, 1)];
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(from->n_closed, 0);
     assert_int_equal(to->n_closed, 1);
-    assert_int_equal(to->closed[0].sign, 1);
+    assert_int_equal(to->closed[0].slide, 1);
     scene_check(&s, 1, 0.0, 0.0, 0.5, 0.0);
     assert_int_equal(s.n_impacts, 0);
     assert_int_equal(s.n_events, 3);
@@ -791,7 +791,7 @@ static void a_vertex_leaves_a_convex_corner_of_the_body(void **state)
     check_event(&s, 0, DEM_EVENT_PASS, DEM_CONTACT_SLIP);
     check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
     scene_check(&s, 1, 0.0, 0.0, 0.5, 0.125);
-    for (dem_index k = 4; k < s.c.sites.n; k++) assert_int_equal(s.c.sites.list[k].n_closed, 0);
+    for (dem_index k = 4; k < s.c.set.n; k++) assert_int_equal(s.c.set.list[k].n_closed, 0);
     scene_close(&s);
 }
 
@@ -813,8 +813,8 @@ static void a_vertex_strikes_the_next_edge_where_the_body_bends_in(void **state)
     assert_close(s.events[2].impulse[1], -3.0 * vn * n[1], 1e-6);
     assert_close(after.x, 0.5 - vn * n[0], 1e-6);
     assert_close(after.y, -0.125 - vn * n[1], 1e-6);
-    assert_int_equal(s.c.sites.list[scene_edge(&s, 0, 1)].n_closed, 1);
-    assert_int_equal(s.c.sites.list[scene_edge(&s, 1, 2)].n_closed, 0);
+    assert_int_equal(s.c.set.list[scene_edge(&s, 0, 1)].n_closed, 1);
+    assert_int_equal(s.c.set.list[scene_edge(&s, 1, 2)].n_closed, 0);
     scene_close(&s);
 }
 
@@ -827,17 +827,17 @@ static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
     (void)state;
     slide_on(&s, -0.25, 1e-5);
     assert_ok(scene_resolve(&s, 0.1));
-    const contact_site *left = &s.c.sites.list[scene_edge(&s, 0, 1)], *right = &s.c.sites.list[scene_edge(&s, 1, 2)];
+    const contact_candidate *left = &s.c.set.list[scene_edge(&s, 0, 1)], *right = &s.c.set.list[scene_edge(&s, 1, 2)];
     assert_true(left->n_closed == 1 && left->closed[0].held);
     assert_true(right->n_closed == 1 && right->closed[0].held);
     scene_check(&s, 1, 0.0, 0.0, 0.0, 0.0);
     assert_close(left->closed[0].force, 15.0 * L, 3e-5); /* a skin in 1 m of slope, of 15 N */
     assert_close(right->closed[0].force, 15.0 * L, 3e-5);
-    s.c.sites.scene.rule.load.gravity[1] = 0.1;
+    s.c.set.scene.rule.load.gravity[1] = 0.1;
     assert_ok(scene_resolve(&s, 0.2));
     assert_int_equal(left->n_closed, 0);
     assert_int_equal(right->n_closed, 0);
-    assert_int_equal(s.c.sites.books.counts.releases, 2);
+    assert_int_equal(s.c.set.ledger.counts.releases, 2);
     scene_close(&s);
 }
 
@@ -851,14 +851,14 @@ static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_
         open_side(&s, &rough_roof, 1.01 * skin, -0.05 * k * 1.01 * skin, -0.05 * k);
         launch(&s, 1e-5, -0.05 * k * 1e-5);
         const dem_index k_left = scene_edge(&s, 0, 1), k_right = scene_edge(&s, 1, 2);
-        const contact_site *left = &s.c.sites.list[k_left], *right = &s.c.sites.list[k_right];
-        assert_ok(sites_close(&s.c.sites, k_right, (contact_touch){.feature = 0, .sign = 1, .place = 0.5}));
+        const contact_candidate *left = &s.c.set.list[k_left], *right = &s.c.set.list[k_right];
+        assert_ok(contact_set_close(&s.c.set, k_right, (contact_point){.feature = 0, .slide = 1, .place = 0.5}));
         assert_ok(scene_resolve(&s, 0.1));
         assert_true(left->closed[0].held && right->closed[0].held);
         set_wind(&s, -0.06 * k * g);
         assert_ok(scene_resolve(&s, 0.2));
         assert_int_equal(left->n_closed, 0);
-        assert_true(right->n_closed == 1 && right->closed[0].sign == 0);
+        assert_true(right->n_closed == 1 && right->closed[0].slide == 0);
         assert_close(right->closed[0].place, 0.0, 1e-12);
         scene_close(&s);
     }
@@ -903,7 +903,7 @@ static void too_many_changes_of_one_node_in_a_short_time_are_a_storm(void **stat
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    s.c.sites.scene.rule.max_impacts = 2;
+    s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
         scene_put(&s, 0, 0.5, -skin, 0.0, -1.0);
         assert_int_equal(scene_resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
@@ -918,7 +918,7 @@ static void changes_further_apart_are_no_storm(void **state)
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    s.c.sites.scene.rule.max_impacts = 2;
+    s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 20; k++) {
         scene_put(&s, 0, 0.5, -skin, 0.0, -1.0);
         assert_ok(scene_resolve(&s, 0.3 * (k + 1)));
@@ -942,10 +942,10 @@ static void too_many_changes_of_one_edge_in_a_short_time_are_a_storm(void **stat
     scene s;
     (void)state;
     open_side(&s, &roof, 0.5, 0.0, 0.0);
-    s.c.sites.scene.rule.max_impacts = 2;
+    s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
         const dem_index edge = scene_edge(&s, 0, 1);
-        if (s.c.sites.list[edge].n_closed > 0) assert_ok(sites_open(&s.c.sites, edge, 0));
+        if (s.c.set.list[edge].n_closed > 0) assert_ok(contact_set_open(&s.c.set, edge, 0));
         scene_put(&s, 0, -0.5, -skin, 0.0, -1.0);
         scene_put(&s, 1, 0.5, -skin, 0.0, -1.0);
         assert_int_equal(scene_resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
@@ -960,7 +960,7 @@ static void events_that_change_nothing_end_the_run_after_a_while(void **state)
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    s.c.sites.scene.rule.max_impacts = 2;
+    s.c.set.scene.rule.max_impacts = 2;
     assert_ok(scene_resolve(&s, 0.1));
     scene_put(&s, 0, 0.5, -skin, 0.0, -1.0); /* this one does */
     assert_ok(scene_resolve(&s, 0.2));
@@ -981,7 +981,7 @@ static void what_arrives_within_the_window_of_an_impact_is_reflected_with_it(voi
     for (int k = 0; k < 2; k++) {
         scene s;
         open_scene(&s, 3, &half, 1);
-        s.c.sites.scene.rule.window = 0.1;
+        s.c.set.scene.rule.window = 0.1;
         scene_put(&s, 0, 0.0, k == 0 ? -skin : 1.0, 0.0, -8.0);
         scene_put(&s, 1, 1.0, 0.099, 0.5, -1.0);
         scene_put(&s, 2, 2.0, 0.101, 0.5, -1.0);
@@ -989,7 +989,7 @@ static void what_arrives_within_the_window_of_an_impact_is_reflected_with_it(voi
         scene_check(&s, 1, 1.0, 0.099, 0.5, k == 0 ? 0.5 : -1.0);
         scene_check(&s, 2, 2.0, 0.101, 0.5, -1.0);
         assert_int_equal(s.n_impacts, k == 0 ? 2 : 0);
-        assert_int_equal(s.c.sites.books.counts.early, k == 0 ? 1 : 0);
+        assert_int_equal(s.c.set.ledger.counts.early, k == 0 ? 1 : 0);
         scene_close(&s);
     }
 }
@@ -1002,15 +1002,15 @@ static void an_edge_is_reflected_early_too(void **state)
     scene s;
     (void)state;
     scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 2);
-    s.c.sites.scene.rule.window = 0.1;
+    s.c.set.scene.rule.window = 0.1;
     launch(&s, 0.0, -2.0);
     vec2_put(scene_v(&s), 1, (vec2){0.0, -0.5}); /* at s = 3/8 with 1.4375 m/s: there in 0.07 s */
     assert_ok(scene_resolve(&s, 0.25));
     const double J = 1.5 * 1.4375 / (0.5 * (0.625 * 0.625 + 0.375 * 0.375));
     scene_check(&s, 0, -0.75, 0.099, 0.0, -2.0 + 0.625 * J / 2.0);
     scene_check(&s, 1, 1.25, 0.099, 0.0, -0.5 + 0.375 * J / 2.0);
-    assert_int_equal(s.c.sites.books.counts.early, 1);
-    assert_int_equal(s.c.sites.books.counts.vertex_impacts, 1);
+    assert_int_equal(s.c.set.ledger.counts.early, 1);
+    assert_int_equal(s.c.set.ledger.counts.vertex_impacts, 1);
     scene_close(&s);
 }
 
@@ -1025,12 +1025,12 @@ static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state
         const double along = k == 0 ? 8.0 : 0.0;
         scene s;
         open_scene(&s, 2, two, 2);
-        s.c.sites.scene.rule.window = 0.1;
+        s.c.set.scene.rule.window = 0.1;
         scene_put(&s, 0, -6.0, -4.0 - skin, 0.0, -2.0);
         scene_put(&s, 1, 0.0, 0.05, along, -0.6);
         assert_ok(scene_resolve(&s, 0.25));
         scene_check(&s, 1, 0.0, 0.05, along, k == 0 ? -0.6 : 0.3);
-        assert_int_equal(s.c.sites.books.counts.early, k);
+        assert_int_equal(s.c.set.ledger.counts.early, k);
         scene_close(&s);
     }
 }
@@ -1050,7 +1050,7 @@ static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **s
                                      .friction_law = paper ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
         scene s;
         open_scene(&s, 3, &gritty, 1);
-        s.c.sites.scene.rule.window = 0.1;
+        s.c.set.scene.rule.window = 0.1;
         for (dem_index i = 0; i < 3; i++) scene_put(&s, i, (double)i, height[(i + k) % 3], 3.0, -4.0);
         assert_ok(scene_resolve(&s, 0.25));
         const double u = paper ? 0.75 : 1.5;
@@ -1059,11 +1059,11 @@ static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **s
             scene_check(&s, i, (double)i, fmax(y, 0.0), u, 2.0);
             assert_close(s.impacts[i].energy, 25.0 - u * u - 4.0, 1e-13);
         }
-        assert_close(s.c.sites.books.impact, 3.0 * (25.0 - u * u - 4.0), 1e-12);
-        assert_close(s.c.sites.books.impulse[1], 3.0 * 12.0, 1e-13);
-        assert_close(s.c.sites.books.friction_impulse[0], 3.0 * 2.0 * (u - 3.0), 1e-13);
-        assert_close(s.c.sites.books.projection, 2.0 * g * skin, 1e-15);
-        assert_int_equal(s.c.sites.books.counts.early, 2);
+        assert_close(s.c.set.ledger.impact, 3.0 * (25.0 - u * u - 4.0), 1e-12);
+        assert_close(s.c.set.ledger.impulse[1], 3.0 * 12.0, 1e-13);
+        assert_close(s.c.set.ledger.friction_impulse[0], 3.0 * 2.0 * (u - 3.0), 1e-13);
+        assert_close(s.c.set.ledger.projection, 2.0 * g * skin, 1e-15);
+        assert_int_equal(s.c.set.ledger.counts.early, 2);
         scene_close(&s);
     }
 }
@@ -1080,18 +1080,18 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
     for (int k = 0; k < 2; k++) {
         scene s;
         scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 3);
-        s.c.sites.scene.rule.window = 0.1;
+        s.c.set.scene.rule.window = 0.1;
         if (k == 0) {
             launch(&s, 0.0, 0.0);
             assert_ok(scene_take_up(&s));
-            assert_int_equal(s.c.sites.list[scene_edge(&s, 0, 1)].n_closed, 1);
+            assert_int_equal(s.c.set.list[scene_edge(&s, 0, 1)].n_closed, 1);
         }
         vec2_put(scene_v(&s), 0, (vec2){0.0, -1.0});
         vec2_put(scene_v(&s), 1, (vec2){0.0, 1.0});
         scene_put(&s, 3, -6.0, -4.0 - skin, 0.0, -1.0);
         s.n_impacts = 0;
         assert_ok(scene_resolve(&s, 0.25));
-        assert_int_equal(s.c.sites.books.counts.early, k == 0 ? 0 : 1);
+        assert_int_equal(s.c.set.ledger.counts.early, k == 0 ? 0 : 1);
         assert_close(scene_v(&s)[1], k == 0 ? -1.0 : 0.5, 1e-14);
         scene_close(&s);
     }
@@ -1102,25 +1102,25 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
 static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
 {
     scene s;
-    double guards[SITE_GUARDS];
+    double guards[CANDIDATE_ROOTS];
     scene_flight f;
     (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, -4.0, -0.5, 1.0, 2.0); /* right below the end: from in front to 0.5 m inside */
     assert_ok(scene_resolve(&s, 0.1));
-    assert_int_equal(s.c.sites.books.counts.behind, 1);
-    assert_int_equal(s.c.sites.list[0].behind[0], 0);
-    contact_guards(&s.c, 0.2, s.y, guards);
+    assert_int_equal(s.c.set.ledger.counts.behind, 1);
+    assert_int_equal(s.c.set.list[0].behind[0], 0);
+    automaton_root_functions(&s.c, 0.2, s.y, guards);
     assert_close(guards[0], 1.0, 0.0); /* it sleeps */
     scene_put(&s, 0, -3.0, -0.01, 1.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
-    contact_follow(&s.c, &f.path, s.y);
-    assert_int_equal(s.c.sites.books.counts.behind, 1);
+    automaton_end_step(&s.c, &f.path, s.y);
+    assert_int_equal(s.c.set.ledger.counts.behind, 1);
     scene_put(&s, 0, -3.0, 0.01, 1.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
-    contact_follow(&s.c, &f.path, s.y);
-    assert_int_equal(s.c.sites.books.counts.behind, 0);
-    assert_int_equal(s.c.sites.list[0].behind[0], -1);
+    automaton_end_step(&s.c, &f.path, s.y);
+    assert_int_equal(s.c.set.ledger.counts.behind, 0);
+    assert_int_equal(s.c.set.list[0].behind[0], -1);
     assert_int_equal(s.n_impacts, 0);
     scene_close(&s);
 }
@@ -1137,9 +1137,9 @@ static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
     scene_put(&s, 1, 1.0, 0.3, 0.0, -1.0);
     scene_put(&s, 2, 2.0, 0.2, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    assert_true(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
     assert_close(f.path.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
-    assert_int_equal(s.c.sites.books.counts.late, 1);
+    assert_int_equal(s.c.set.ledger.counts.late, 1);
     scene_close(&s);
 }
 
@@ -1154,12 +1154,12 @@ static void a_contact_at_the_root_that_ends_a_step_is_no_other(void **state)
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
     f.path.end = (0.2 + skin) * (1.0 + 1e-14);
     const double end = f.path.end;
-    assert_false(contact_check(&s.c, &f.path, true, f.scratch));
+    assert_false(automaton_check_step(&s.c, &f.path, true, f.scratch));
     assert_close(f.path.end, end, 0.0);
-    assert_true(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
     assert_close(f.path.end, 0.2 + skin, 1e-13);
     f.path.end = 0.21;
-    assert_true(contact_check(&s.c, &f.path, true, f.scratch)); /* well before a root */
+    assert_true(automaton_check_step(&s.c, &f.path, true, f.scratch)); /* well before a root */
     assert_close(f.path.end, 0.2 + skin, 1e-13);
     scene_close(&s);
 }
@@ -1172,9 +1172,9 @@ static void a_step_without_contacts_is_left_as_it_is(void **state)
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.0, 1.5, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    assert_false(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_false(automaton_check_step(&s.c, &f.path, false, f.scratch));
     assert_close(f.path.end, 1.0, 0.0);
-    assert_int_equal(s.c.sites.books.counts.late, 0);
+    assert_int_equal(s.c.set.ledger.counts.late, 0);
     scene_close(&s);
 }
 
@@ -1185,7 +1185,7 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     (void)state;
     slide(&s, &half, 3.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    assert_true(contact_check(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another site */
+    assert_true(automaton_check_step(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another site */
     assert_close(f.path.end, 0.5 * (1.0 + skin), 1e-13);
     scene_close(&s);
 }
@@ -1197,12 +1197,12 @@ static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
     for (int ends = 0; ends <= 1; ends++) {
         scene s;
         scene_flight f;
-        double guards[SITE_GUARDS];
+        double guards[CANDIDATE_ROOTS];
         slide(&s, &half, 3.0, ends ? 2.0 : 0.5);
         scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-        contact_guards(&s.c, 1.0, f.y1, guards);
+        automaton_root_functions(&s.c, 1.0, f.y1, guards);
         assert_int_equal(s.c.quiet, !ends);
-        assert_int_equal(contact_check(&s.c, &f.path, false, f.scratch), ends);
+        assert_int_equal(automaton_check_step(&s.c, &f.path, false, f.scratch), ends);
         if (ends) assert_close(f.path.end, 0.5 * (1.0 + skin), 1e-13);
         scene_close(&s);
     }
@@ -1212,18 +1212,18 @@ static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
 static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
 {
     scene s;
-    double guards[3 * SITE_GUARDS];
+    double guards[3 * CANDIDATE_ROOTS];
     (void)state;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 1.0, 0.25, 0.0, -20.0);
     scene_put(&s, 1, 3.5, 0.0, 0.0, 0.0);
     scene_put(&s, 2, 1.0, 0.75, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
-    for (int k = 0; k < 3; k++) s.c.sites.list[k].clear = 0.0; /* else a lower bound would do for their gaps */
-    contact_guards(&s.c, 0.2, s.y, guards);
-    const double expected[3 * SITE_GUARDS] = {0.25 + skin, 1.0, 1.0, 1.0, 1.0 + skin, 2.0 * g,
-                                              0.5 + skin,  1.0, 1.0, 1.0, 1.0,        1.0};
-    for (int k = 0; k < 3 * SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-15);
+    for (int k = 0; k < 3; k++) s.c.set.list[k].clear = 0.0; /* else a lower bound would do for their gaps */
+    automaton_root_functions(&s.c, 0.2, s.y, guards);
+    const double expected[3 * CANDIDATE_ROOTS] = {0.25 + skin, 1.0, 1.0, 1.0, 1.0 + skin, 2.0 * g,
+                                                  0.5 + skin,  1.0, 1.0, 1.0, 1.0,        1.0};
+    for (int k = 0; k < 3 * CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-15);
     scene_close(&s);
 }
 
@@ -1254,15 +1254,15 @@ static void what_goes_round_a_free_end_at_a_distance_is_behind_it(void **state)
     scene_open(&s, 1, x, &m, 0, NULL, &wall, 1);
     scene_put(&s, 0, x[0], x[1], 0.01, -0.06);
     assert_ok(scene_take_up(&s));
-    s.c.sites.list[0].asleep = false;
+    s.c.set.list[0].inactive = false;
     for (int k = 0; k < 2; k++) {
         scene_fly(&s, (vec2){0.0, 0.0}, 0.01 * k, 0.01, &f);
-        contact_expect(&s.c, &f.path, f.scratch);
-        assert_true(isinf(contact_next(&s.c, &f.path, 0, f.path.t0, f.scratch)) != 0);
-        assert_int_equal(s.c.sites.list[0].behind[0], k - 1);
+        automaton_begin_step(&s.c, &f.path, f.scratch);
+        assert_true(isinf(automaton_next_change(&s.c, &f.path, 0, f.path.t0, f.scratch)) != 0);
+        assert_int_equal(s.c.set.list[0].behind[0], k - 1);
         memcpy(s.y, f.y1, sizeof s.y);
     }
-    assert_int_equal(s.c.sites.books.counts.behind, 1);
+    assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(s.n_events, 0);
     scene_close(&s);
 }

@@ -19,8 +19,8 @@ static void open_nodes(scene *s, dem_index n, const double *x)
 static void look(scene *s, double speed)
 {
     double v[8] = {speed};
-    watch_look(&s->c.watch, &s->c.sites, s->y, v);
-    assert_close(s->c.watch.speed, speed, 0.0);
+    broad_phase_update(&s->c.broad_phase, &s->c.set, s->y, v);
+    assert_close(s->c.broad_phase.speed, speed, 0.0);
 }
 
 static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
@@ -36,7 +36,7 @@ static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
     dem_lattice_free(&lattice);
     scene_put(&s, 0, 0.0, 1.0, 50.0, 0.0);
     scene_put(&s, 1, 1.0, 1.0, 3.0, -4.0);
-    assert_close(watch_speed(&s.c.sites, scene_v(&s)), 5.0, 1e-15);
+    assert_close(broad_phase_speed(&s.c.set, scene_v(&s)), 5.0, 1e-15);
     scene_close(&s);
 }
 
@@ -48,11 +48,11 @@ static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **
     (void)state;
     open_nodes(&s, 3, x);
     look(&s, 10.0);
-    assert_int_equal(s.c.watch.n, 1);
-    assert_int_equal(s.c.watch.awake[0], 0);
+    assert_int_equal(s.c.broad_phase.n, 1);
+    assert_int_equal(s.c.broad_phase.active[0], 0);
     for (dem_index k = 0; k < 3; k++) {
-        assert_int_equal(s.c.sites.list[k].asleep, k > 0);
-        assert_close(s.c.sites.list[k].wake, x[2 * k + 1] - 20.0 * skin, 1e-15);
+        assert_int_equal(s.c.set.list[k].inactive, k > 0);
+        assert_close(s.c.set.list[k].active_from, x[2 * k + 1] - 20.0 * skin, 1e-15);
     }
     scene_close(&s);
 }
@@ -64,8 +64,8 @@ static void what_is_closed_never_sleeps(void **state)
     (void)state;
     open_nodes(&s, 2, x);
     assert_ok(scene_take_up(&s));
-    assert_int_equal(s.c.watch.n, 1);
-    assert_int_equal(s.c.watch.awake[0], 0);
+    assert_int_equal(s.c.broad_phase.n, 1);
+    assert_int_equal(s.c.broad_phase.active[0], 0);
     scene_close(&s);
 }
 
@@ -77,23 +77,23 @@ static void a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough(void **stat
     (void)state;
     open_nodes(&s, 2, x);
     look(&s, 1.0);
-    const contact_site *site = &s.c.sites.list[0];
-    assert_true(site->asleep);
-    s.c.watch.travelled = 2.9;
+    const contact_candidate *candidate = &s.c.set.list[0];
+    assert_true(candidate->inactive);
+    s.c.broad_phase.travelled = 2.9;
     s.y[1] = 0.5;
     look(&s, 1.0);
-    assert_close(site->wake, 3.0 - 20.0 * skin, 1e-15); /* not looked at */
-    assert_true(watch_wakes(&s.c.watch, site, 0.1));
-    assert_false(watch_wakes(&s.c.watch, site, 0.09));
-    s.c.watch.travelled = 2.99;
+    assert_close(candidate->active_from, 3.0 - 20.0 * skin, 1e-15); /* not looked at */
+    assert_true(broad_phase_may_touch(&s.c.broad_phase, candidate, 0.1));
+    assert_false(broad_phase_may_touch(&s.c.broad_phase, candidate, 0.09));
+    s.c.broad_phase.travelled = 2.99;
     look(&s, 1.0);
-    assert_true(site->asleep);
-    assert_close(site->wake, 2.99 + 0.5 - 20.0 * skin, 1e-15);
-    s.c.watch.travelled = 3.49;
+    assert_true(candidate->inactive);
+    assert_close(candidate->active_from, 2.99 + 0.5 - 20.0 * skin, 1e-15);
+    s.c.broad_phase.travelled = 3.49;
     s.y[1] = 0.01;
     look(&s, 1.0);
-    assert_false(site->asleep);
-    assert_int_equal(s.c.watch.n, 1);
+    assert_false(candidate->inactive);
+    assert_int_equal(s.c.broad_phase.n, 1);
     scene_close(&s);
 }
 
@@ -108,9 +108,9 @@ static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
     scene_put(&s, 0, 0.0, 3.0, 0.0, -1.0);
     look(&s, 1.0);
     scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, 0.01, &f);
-    assert_false(contact_check(&s.c, &f.path, false, f.scratch));
-    contact_follow(&s.c, &f.path, f.y1);
-    assert_close(s.c.watch.travelled, 2.0 * 0.01 * 1.1, 1e-16);
+    assert_false(automaton_check_step(&s.c, &f.path, false, f.scratch));
+    automaton_end_step(&s.c, &f.path, f.y1);
+    assert_close(s.c.broad_phase.travelled, 2.0 * 0.01 * 1.1, 1e-16);
     scene_close(&s);
 }
 
@@ -121,12 +121,12 @@ static void edges_sleep_too(void **state)
     (void)state;
     scene_open_triangle(&s, masses, -1.0, 1.2, &roof, 1);
     look(&s, 10.0);
-    assert_int_equal(s.c.watch.n, 0);
+    assert_int_equal(s.c.broad_phase.n, 0);
     for (dem_index i = 0; i < 3; i++) s.y[2 * i + 1] -= 1.1;
-    s.c.watch.travelled = 1.1;
+    s.c.broad_phase.travelled = 1.1;
     look(&s, 10.0);
-    assert_int_equal(s.c.watch.n, 1);
-    assert_int_equal(s.c.watch.awake[0], scene_edge(&s, 0, 1));
+    assert_int_equal(s.c.broad_phase.n, 1);
+    assert_int_equal(s.c.broad_phase.active[0], scene_edge(&s, 0, 1));
     scene_close(&s);
 }
 
@@ -141,15 +141,15 @@ static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(vo
     (void)state;
     open_nodes(&s, 1, x);
     assert_ok(scene_take_up(&s));
-    assert_int_equal(s.c.watch.n, 0); /* at rest nothing is in reach */
+    assert_int_equal(s.c.broad_phase.n, 0); /* at rest nothing is in reach */
     scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, max_step, &f);
     assert_true(f.y1[1] < 0.0);
-    assert_true(contact_check(&s.c, &f.path, false, f.scratch));
+    assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
     assert_close(f.path.end, sqrt(2.0 * (2e-4 + skin) / scene_gravity), 1e-13);
     dense_output_state(&f.path, f.path.end, y);
-    contact_follow(&s.c, &f.path, y);
+    automaton_end_step(&s.c, &f.path, y);
     memcpy(s.y, y, sizeof y);
-    assert_int_equal(s.c.sites.list[0].behind[0], -1);
+    assert_int_equal(s.c.set.list[0].behind[0], -1);
     assert_ok(scene_resolve(&s, f.path.end));
     assert_int_equal(s.n_impacts, 1);
     scene_close(&s);
@@ -166,20 +166,20 @@ static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void
         scene s;
         open_nodes(&s, 2, x);
         look(&s, 1.0);
-        assert_int_equal(s.c.watch.n, 0);
+        assert_int_equal(s.c.broad_phase.n, 0);
         s.y[0] = 3.5;
         s.y[1] = -0.5;
-        s.c.watch.travelled = travelled[k];
-        if (k == 2) sites_disturb(&s.c.sites.list[0]);
-        if (k == 3) s.c.sites.list[0].asleep = false;
+        s.c.broad_phase.travelled = travelled[k];
+        if (k == 2) candidate_forget_clearance(&s.c.set.list[0]);
+        if (k == 3) s.c.set.list[0].inactive = false;
         look(&s, 1.0);
-        assert_int_equal(s.c.sites.list[0].behind[0], comes_round ? 0 : -1);
-        assert_int_equal(s.c.sites.books.counts.behind, comes_round);
-        if (!comes_round) assert_false(s.c.sites.list[0].asleep);
+        assert_int_equal(s.c.set.list[0].behind[0], comes_round ? 0 : -1);
+        assert_int_equal(s.c.set.ledger.counts.behind, comes_round);
+        if (!comes_round) assert_false(s.c.set.list[0].inactive);
         s.y[1] = 0.5;
         look(&s, 1.0);
-        assert_int_equal(s.c.sites.list[0].behind[0], -1);
-        assert_int_equal(s.c.sites.books.counts.behind, 0);
+        assert_int_equal(s.c.set.list[0].behind[0], -1);
+        assert_int_equal(s.c.set.ledger.counts.behind, 0);
         scene_close(&s);
     }
 }

@@ -18,8 +18,8 @@ static const dem_obstacle groove = {.n_points = 3, .points = groove_points, .res
 
 static void set_rule(scene *s)
 {
-    s->c.sites.scene.rule.skin = skin;
-    s->c.sites.scene.rule.max_step = 0.1;
+    s->c.set.scene.rule.skin = skin;
+    s->c.set.scene.rule.max_step = 0.1;
 }
 
 /* One node of 2 kg. */
@@ -28,51 +28,51 @@ static const contact_scene *open_node(scene *s, const dem_obstacle *obstacles, d
     const double x[2] = {1.0, 1.0}, mass = 2.0;
     scene_open(s, 1, x, &mass, 0, NULL, obstacles, n);
     set_rule(s);
-    return &s->c.sites.scene;
+    return &s->c.set.scene;
 }
 
-static contact_site free_site(void)
+static contact_candidate free_site(void)
 {
-    return (contact_site){.node = 0, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+    return (contact_candidate){.node = 0, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
 }
 
-static contact_site closed_site(dem_index feature, int sign)
+static contact_candidate closed_site(dem_index feature, int sign)
 {
-    contact_site site = free_site();
-    site.n_closed = 1;
-    site.closed[0] = (contact_touch){.feature = feature, .sign = sign};
-    return site;
+    contact_candidate candidate = free_site();
+    candidate.n_closed = 1;
+    candidate.closed[0] = (contact_point){.feature = feature, .slide = sign};
+    return candidate;
 }
 
-static contact_site held_site(void)
+static contact_candidate held_site(void)
 {
-    contact_site site = closed_site(0, 1);
-    site.n_closed = 2;
-    site.closed[1] = (contact_touch){.feature = 1, .sign = 1};
-    site.closed[0].held = site.closed[1].held = true;
-    return site;
+    contact_candidate candidate = closed_site(0, 1);
+    candidate.n_closed = 2;
+    candidate.closed[1] = (contact_point){.feature = 1, .slide = 1};
+    candidate.closed[0].held = candidate.closed[1].held = true;
+    return candidate;
 }
 
 /* State of one node and the forces in its contacts. */
 typedef struct node_state {
     double x[2], v[2];
-    reaction force[2];
+    contact_force force[2];
 } node_state;
 
-static void check_guards(const contact_scene *world, const contact_site *site, const node_state *s,
-                         const double expected[SITE_GUARDS])
+static void check_guards(const contact_scene *world, const contact_candidate *candidate, const node_state *s,
+                         const double expected[CANDIDATE_ROOTS])
 {
-    double guards[SITE_GUARDS] = {77.0, 77.0, 77.0, 77.0};
-    site_guards(world, site, s->force, s->x, s->v, guards);
-    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+    double guards[CANDIDATE_ROOTS] = {77.0, 77.0, 77.0, 77.0};
+    candidate_root_functions(world, candidate, s->force, s->x, s->v, guards);
+    for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-13);
 }
 
 /* ---- guards of a node ---- */
 
-static void check_free(const contact_scene *world, const contact_site *site, double x, double y, double guard)
+static void check_free(const contact_scene *world, const contact_candidate *candidate, double x, double y, double guard)
 {
     const node_state s = {{x, y}, {0.0, 0.0}, {{0.0, 0.0}, {0.0, 0.0}}};
-    check_guards(world, site, &s, (double[]){guard, 1.0, 1.0, 1.0});
+    check_guards(world, candidate, &s, (double[]){guard, 1.0, 1.0, 1.0});
 }
 
 static void a_free_site_watches_its_gap_down_to_the_skin(void **state)
@@ -80,12 +80,12 @@ static void a_free_site_watches_its_gap_down_to_the_skin(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    const contact_site site = free_site();
-    check_free(world, &site, 1.0, 0.25, 0.25 + skin);
-    check_free(world, &site, 1.0, 0.0, skin);
-    check_free(world, &site, 1.0, -skin, 0.0);
-    check_free(world, &site, 1.0, -0.1, -0.1 + skin);
-    check_free(world, &site, 5.0, 2.5, 0.5 + skin); /* the ceiling is nearer */
+    const contact_candidate candidate = free_site();
+    check_free(world, &candidate, 1.0, 0.25, 0.25 + skin);
+    check_free(world, &candidate, 1.0, 0.0, skin);
+    check_free(world, &candidate, 1.0, -skin, 0.0);
+    check_free(world, &candidate, 1.0, -0.1, -0.1 + skin);
+    check_free(world, &candidate, 5.0, 2.5, 0.5 + skin); /* the ceiling is nearer */
     scene_close(&s);
 }
 
@@ -94,9 +94,9 @@ static void far_from_everything_its_guard_is_finite(void **state)
     scene s, empty;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
-    const contact_site site = free_site();
-    check_free(world, &site, -50.0, 1.0, 1.0 + skin);
-    check_free(nothing, &site, 0.0, 0.0, 1.0 + skin);
+    const contact_candidate candidate = free_site();
+    check_free(world, &candidate, -50.0, 1.0, 1.0 + skin);
+    check_free(nothing, &candidate, 0.0, 0.0, 1.0 + skin);
     scene_close(&s);
     scene_close(&empty);
 }
@@ -106,14 +106,14 @@ static void a_site_behind_an_obstacle_does_not_see_it(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    contact_site site = free_site();
-    site.behind[0] = 0;
-    check_free(world, &site, 3.5, -0.2, 1.0 + skin);
-    check_free(world, &site, 3.5, 2.5, 0.5 + skin);
-    site = closed_site(1, 1);
-    site.behind[0] = 0;
+    contact_candidate candidate = free_site();
+    candidate.behind[0] = 0;
+    check_free(world, &candidate, 3.5, -0.2, 1.0 + skin);
+    check_free(world, &candidate, 3.5, 2.5, 0.5 + skin);
+    candidate = closed_site(1, 1);
+    candidate.behind[0] = 0;
     const node_state at = {{3.5, 3.0}, {0.0, 0.0}, {{-20.0, 0.0}, {0.0, 0.0}}};
-    check_guards(world, &site, &at, (double[]){1.0 + skin, -20.0, 0.5 + skin, 1.0});
+    check_guards(world, &candidate, &at, (double[]){1.0 + skin, -20.0, 0.5 + skin, 1.0});
     scene_close(&s);
 }
 
@@ -124,13 +124,13 @@ static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    const contact_site on_floor = closed_site(0, 1), on_ceiling = closed_site(1, 1);
+    const contact_candidate on_floor = closed_site(0, 1), on_ceiling = closed_site(1, 1);
     const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
-    const double expected[5][SITE_GUARDS] = {{1.0 + skin, 20.0, 1.5 + skin, 1.0},
-                                             {1.0 + skin, 20.0, 0.25 + skin, 1.0},
-                                             {1.0 + skin, 20.0, -0.5 + skin, 1.0},
-                                             {0.25 + skin, 20.0, 0.5 + skin, 1.0},
-                                             {1.0 + skin, 20.0, 1.0 + skin, 1.0}};
+    const double expected[5][CANDIDATE_ROOTS] = {{1.0 + skin, 20.0, 1.5 + skin, 1.0},
+                                                 {1.0 + skin, 20.0, 0.25 + skin, 1.0},
+                                                 {1.0 + skin, 20.0, -0.5 + skin, 1.0},
+                                                 {0.25 + skin, 20.0, 0.5 + skin, 1.0},
+                                                 {1.0 + skin, 20.0, 1.0 + skin, 1.0}};
     for (int k = 0; k < 5; k++) {
         const node_state at = {{x[k], y[k]}, {-3.0, 0.0}, {{20.0, 0.0}, {-7.0, -7.0}}};
         check_guards(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
@@ -144,7 +144,7 @@ static void a_site_that_slides_with_friction_watches_its_speed_too(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_site along = closed_site(0, 1), against = closed_site(0, -1);
+    const contact_candidate along = closed_site(0, 1), against = closed_site(0, -1);
     const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
     const node_state backwards = {{3.0, 0.0}, {-0.5, 0.0}, {{20.0, 10.0}, {0.0, 0.0}}};
     check_guards(world, &along, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, 0.75});
@@ -160,11 +160,11 @@ static void a_sticking_site_watches_its_grip(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_site site = closed_site(0, 0);
+    const contact_candidate candidate = closed_site(0, 0);
     const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
     for (int k = 0; k < 4; k++) {
         const node_state at = {{4.5, 0.0}, {0.0, 0.0}, {{20.0, tangent[k]}, {-7.0, -7.0}}};
-        check_guards(world, &site, &at, (double[]){1.0 + skin, 20.0, grip[k], 1.0});
+        check_guards(world, &candidate, &at, (double[]){1.0 + skin, 20.0, grip[k], 1.0});
     }
     scene_close(&s);
 }
@@ -174,20 +174,20 @@ static void a_held_site_watches_both_reactions(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &groove, 1);
-    const contact_site site = held_site();
+    const contact_candidate candidate = held_site();
     const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
     const node_state second = {{0.0, 0.0}, {0.0, 0.0}, {{14.0, 0.0}, {-2.0, 0.0}}};
-    check_guards(world, &site, &first, (double[]){1.0 + skin, 3.0, 1.0, 1.0});
-    check_guards(world, &site, &second, (double[]){1.0 + skin, -2.0, 1.0, 1.0});
+    check_guards(world, &candidate, &first, (double[]){1.0 + skin, 3.0, 1.0, 1.0});
+    check_guards(world, &candidate, &second, (double[]){1.0 + skin, -2.0, 1.0, 1.0});
     scene_close(&s);
 }
 
-static double grip(const contact_scene *world, const contact_site *site)
+static double grip(const contact_scene *world, const contact_candidate *candidate)
 {
-    const reaction force = {20.0, -4.0};
+    const contact_force force = {20.0, -4.0};
     const double x[2] = {1.0, 0.0}, v[2] = {0.0, 0.0};
-    const touch_frame f = touch_frame_at(world, site, 0, x, v);
-    return site_grip(world, site, 0, &f, &force, x);
+    const contact_frame f = contact_frame_at(world, candidate, 0, x, v);
+    return candidate_grip(world, candidate, 0, &f, &force, x);
 }
 
 static void only_what_sticks_by_friction_has_a_grip(void **state)
@@ -195,7 +195,7 @@ static void only_what_sticks_by_friction_has_a_grip(void **state)
     scene s, t;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1), *corner = open_node(&t, &groove, 1);
-    const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1), held = held_site();
+    const contact_candidate sticks = closed_site(0, 0), slides = closed_site(0, 1), held = held_site();
     assert_close(grip(world, &sticks), 6.0, 1e-14);
     assert_true(isinf(grip(world, &slides)) != 0);
     assert_true(isinf(grip(corner, &held)) != 0);
@@ -205,10 +205,10 @@ static void only_what_sticks_by_friction_has_a_grip(void **state)
 
 static bool turns(const contact_scene *world, int sign, double speed)
 {
-    const contact_site site = closed_site(0, sign);
+    const contact_candidate candidate = closed_site(0, sign);
     const double x[2] = {1.0, 0.0}, v[2] = {speed, 0.0};
-    const touch_frame f = touch_frame_at(world, &site, 0, x, v);
-    return site_turns(world, &site, 0, &f, v);
+    const contact_frame f = contact_frame_at(world, &candidate, 0, x, v);
+    return candidate_turns(world, &candidate, 0, &f, v);
 }
 
 static void what_slides_with_friction_turns_when_it_goes_the_other_way(void **state)
@@ -231,9 +231,9 @@ static void what_slides_with_friction_turns_when_it_goes_the_other_way(void **st
 
 static int end_passed(const contact_scene *world, double x, double vx)
 {
-    const contact_site site = closed_site(0, 1);
+    const contact_candidate candidate = closed_site(0, 1);
     const double at[2] = {x, 0.0}, v[2] = {vx, 0.0};
-    return site_end_passed(world, &site, 0, at, v);
+    return candidate_end_passed(world, &candidate, 0, at, v);
 }
 
 static void an_end_is_passed_by_the_skin_heading_out(void **state)
@@ -257,7 +257,7 @@ static void at_rest_the_force_tells_where_it_heads(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    double *gravity = s.c.sites.scene.rule.load.gravity;
+    double *gravity = s.c.set.scene.rule.load.gravity;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
     gravity[0] = 1.0;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 1);
@@ -274,15 +274,15 @@ static void what_sticks_passes_no_end(void **state)
     const double at[2] = {4.5, 0.0}, v[2] = {1.0, 0.0};
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_site sticks = closed_site(0, 0), slides = closed_site(0, 1);
-    assert_int_equal(site_end_passed(world, &sticks, 0, at, v), 0);
-    assert_int_equal(site_end_passed(world, &slides, 0, at, v), 1);
+    const contact_candidate sticks = closed_site(0, 0), slides = closed_site(0, 1);
+    assert_int_equal(candidate_end_passed(world, &sticks, 0, at, v), 0);
+    assert_int_equal(candidate_end_passed(world, &slides, 0, at, v), 1);
     scene_close(&s);
 }
 
-static bool due(const contact_scene *world, const contact_site *site, const node_state *s)
+static bool due(const contact_scene *world, const contact_candidate *candidate, const node_state *s)
 {
-    return site_due(world, site, s->force, s->x, s->v);
+    return candidate_due(world, candidate, s->force, s->x, s->v);
 }
 
 static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
@@ -290,22 +290,22 @@ static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(v
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    const contact_site site = closed_site(0, 1);
+    const contact_candidate candidate = closed_site(0, 1);
     node_state at = {{2.0, 0.0}, {1.0, 0.0}, {{20.0, 0.0}, {0.0, 0.0}}};
-    assert_false(due(world, &site, &at));
+    assert_false(due(world, &candidate, &at));
     at.force[0].normal = 0.0;
-    assert_true(due(world, &site, &at));
+    assert_true(due(world, &candidate, &at));
     at.force[0].normal = 1e-9;
-    assert_false(due(world, &site, &at));
+    assert_false(due(world, &candidate, &at));
     at.x[0] = 4.0 + 1.01 * skin;
-    assert_true(due(world, &site, &at));
+    assert_true(due(world, &candidate, &at));
     at.v[0] = -1.0;
-    assert_false(due(world, &site, &at));
+    assert_false(due(world, &candidate, &at));
     at.x[0] = 3.5;
     at.x[1] = 3.0 + 1.01 * skin;
-    assert_true(due(world, &site, &at));
+    assert_true(due(world, &candidate, &at));
     at.x[1] = 3.0 + 0.99 * skin;
-    assert_false(due(world, &site, &at));
+    assert_false(due(world, &candidate, &at));
     scene_close(&s);
 }
 
@@ -314,7 +314,7 @@ static void with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip(voi
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_site slides = closed_site(0, 1), sticks = closed_site(0, 0);
+    const contact_candidate slides = closed_site(0, 1), sticks = closed_site(0, 0);
     node_state at = {{2.0, 0.0}, {1e-3, 0.0}, {{20.0, -10.0}, {0.0, 0.0}}};
     assert_false(due(world, &slides, &at));
     at.v[0] = -1e-3;
@@ -334,14 +334,14 @@ static void a_held_site_is_due_when_either_reaction_ceases(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &groove, 1);
-    const contact_site site = held_site();
+    const contact_candidate candidate = held_site();
     node_state at = {{0.0, 0.0}, {0.0, 0.0}, {{1.0, 0.0}, {1.0, 0.0}}};
-    assert_false(due(world, &site, &at));
+    assert_false(due(world, &candidate, &at));
     at.force[0].normal = -0.01;
-    assert_true(due(world, &site, &at));
+    assert_true(due(world, &candidate, &at));
     at.force[0].normal = 1.0;
     at.force[1].normal = -0.01;
-    assert_true(due(world, &site, &at));
+    assert_true(due(world, &candidate, &at));
     scene_close(&s);
 }
 
@@ -360,19 +360,19 @@ static const dem_obstacle roofs[2] = {{.n_points = 3, .points = roof_points}, {.
 static const double masses[3] = {2.0, 2.0, 2.0};
 
 /* The lower edge, from node 0 at (x, y) 2 m along. */
-static contact_site *open_edge(scene *s, double x, double y, const dem_obstacle *obstacles, dem_index n)
+static contact_candidate *open_edge(scene *s, double x, double y, const dem_obstacle *obstacles, dem_index n)
 {
     scene_open_triangle(s, masses, x, y, obstacles, n);
     set_rule(s);
-    return &s->c.sites.list[scene_edge(s, 0, 1)];
+    return &s->c.set.list[scene_edge(s, 0, 1)];
 }
 
-static void check_edge(scene *s, const contact_site *edge, const double expected[SITE_GUARDS])
+static void check_edge(scene *s, const contact_candidate *edge, const double expected[CANDIDATE_ROOTS])
 {
-    const reaction force[2] = {{20.0, -4.0}, {8.0, 6.0}};
-    double guards[SITE_GUARDS];
-    site_guards(&s->c.sites.scene, edge, force, s->y, scene_v(s), guards);
-    for (int k = 0; k < SITE_GUARDS; k++) assert_close(guards[k], expected[k], 1e-13);
+    const contact_force force[2] = {{20.0, -4.0}, {8.0, 6.0}};
+    double guards[CANDIDATE_ROOTS];
+    candidate_root_functions(&s->c.set.scene, edge, force, s->y, scene_v(s), guards);
+    for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-13);
 }
 
 static void move_all(scene *s, double x, double y, double u)
@@ -392,7 +392,7 @@ static void a_free_edge_watches_the_convex_vertex_below_it(void **state)
     const double gap[10] = {0.25, 0.0, -skin, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
     scene s;
     (void)state;
-    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 10; k++) {
         move_all(&s, x[k], y[k], 0.0);
         vec2_put(s.y, 2, (vec2){x[k] + 1.0, 10.0}); /* deep inside, the other edges are further */
@@ -407,17 +407,17 @@ static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
 {
     scene s;
     (void)state;
-    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
     scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
-    const contact_spot spot = site_spot(edge, s.y);
-    const contact_gap gap = site_gap(&s.c.sites.scene, edge, &spot);
+    const candidate_positions spot = candidate_place(edge, s.y);
+    const contact_gap gap = candidate_gap(&s.c.set.scene, edge, &spot);
     assert_close(gap.distance, 0.8 * (-0.625 + 0.75 * 1.5), 1e-15);
     assert_close(gap.place, (0.8 * 1.5 + 0.6 * 0.625) / 2.0, 1e-15);
     assert_close(gap.normal.x, -0.6, 1e-15);
     assert_close(gap.normal.y, 0.8, 1e-15);
     assert_int_equal(gap.feature, 0);
-    assert_int_equal(touch_segment(&s.c.sites.scene, edge, gap.feature), 0);
+    assert_int_equal(contact_point_segment(&s.c.set.scene, edge, gap.feature), 0);
     scene_close(&s);
 }
 
@@ -426,9 +426,9 @@ static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
 {
     scene s, rubbed;
     (void)state;
-    contact_site *edge = open_edge(&s, -1.5, 0.0, roofs, 2);
+    contact_candidate *edge = open_edge(&s, -1.5, 0.0, roofs, 2);
     edge->n_closed = 1;
-    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
     move_all(&s, -1.5, 0.0, 0.75);
     check_edge(&s, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, 1.0}); /* the second ridge is beyond its end */
     move_all(&s, -0.25, 0.0, 0.75);
@@ -438,10 +438,10 @@ static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
     scene_close(&s);
     edge = open_edge(&rubbed, -1.5, 0.0, &rough_roof, 1);
     edge->n_closed = 1;
-    edge->closed[0] = (contact_touch){.feature = 0, .sign = -1};
+    edge->closed[0] = (contact_point){.feature = 0, .slide = -1};
     move_all(&rubbed, -1.5, 0.0, 0.75);
     check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, -0.75});
-    edge->closed[0] = (contact_touch){.feature = 0, .sign = 0, .place = 0.75};
+    edge->closed[0] = (contact_point){.feature = 0, .slide = 0, .place = 0.75};
     check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 6.0, 1.0}); /* 0.5 * 20 - 4 */
     scene_close(&rubbed);
 }
@@ -450,10 +450,10 @@ static void an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap(void *
 {
     scene s;
     (void)state;
-    contact_site *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
+    contact_candidate *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
     edge->n_closed = 2;
-    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
-    edge->closed[1] = (contact_touch){.feature = 1, .sign = 1};
+    edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
+    edge->closed[1] = (contact_point){.feature = 1, .slide = 1};
     check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.25 + skin, 1.0});
     move_all(&s, -1.15, 0.0, 0.0); /* the second is 0.1 m from the end, the first 0.85 m */
     check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.1 + skin, 1.0});
@@ -468,17 +468,17 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
     const int passed[6] = {-1, 0, 0, 1, 0, 0};
     scene s;
     (void)state;
-    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    contact_candidate *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
     edge->n_closed = 1;
-    edge->closed[0] = (contact_touch){.feature = 0, .sign = 1};
+    edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
     for (int k = 0; k < 6; k++) {
         move_all(&s, x[k], 0.0, u[k]);
-        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), passed[k]);
+        assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, s.y, scene_v(&s)), passed[k]);
     }
-    s.c.sites.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
+    s.c.set.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
     for (int k = 0; k < 2; k++) {
         move_all(&s, k == 0 ? 1.01 * skin : -2.0 - 1.01 * skin, 0.0, 0.0);
-        assert_int_equal(site_end_passed(&s.c.sites.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
+        assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
     }
     scene_close(&s);
 }
@@ -490,7 +490,7 @@ static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **stat
     const double x[4] = {-1.99, -1.9, -0.01, -0.1}, gap[4] = {1.0, -0.03, 1.0, -0.03};
     scene s;
     (void)state;
-    contact_site *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
+    contact_candidate *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
     assert_int_equal(edge->next, 2);
     assert_int_equal(edge->previous, 2);
     for (int k = 0; k < 4; k++) {
@@ -504,7 +504,7 @@ static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(v
 {
     scene s;
     (void)state;
-    contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     check_edge(&s, edge, (double[]){0.25 + skin, 1.0, 1.0, 1.0});
     for (int k = 0; k < 2; k++) {
         edge->behind[k] = 0;
@@ -549,17 +549,17 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
         scene s;
         dem_index nearest;
         open_ragged(&s, &seed, false);
-        const contact_scene *world = &s.c.sites.scene;
-        const contact_site site = free_site();
+        const contact_scene *world = &s.c.set.scene;
+        const contact_candidate candidate = free_site();
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
-        const contact_spot here = site_spot(&site, x);
-        const double clear = site_clearance(world, &site, &here, &nearest) - 10.0 * skin;
+        const candidate_positions here = candidate_place(&candidate, x);
+        const double clear = candidate_clearance(world, &candidate, &here, &nearest) - 10.0 * skin;
         assert_int_equal(nearest, obstacles_gap(&world->model->obstacles, here.a, 10.0 * skin, -1, -1).segment);
         for (int q = 0; q < 50; q++) {
             const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
             const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
-            const contact_spot there = {to, to, to, to};
-            assert_true(site_gap(world, &site, &there).distance >= clear - way - 1e-15 || clear < way);
+            const candidate_positions there = {to, to, to, to};
+            assert_true(candidate_gap(world, &candidate, &there).distance >= clear - way - 1e-15 || clear < way);
             inside += way < clear;
         }
         scene_close(&s);
@@ -577,18 +577,18 @@ static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
         scene s;
         dem_index nearest;
         open_ragged(&s, &seed, true);
-        const contact_scene *world = &s.c.sites.scene;
-        const contact_site edge = s.c.sites.list[scene_edge(&s, 0, 1)];
+        const contact_scene *world = &s.c.set.scene;
+        const contact_candidate edge = s.c.set.list[scene_edge(&s, 0, 1)];
         const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
         const double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
-        const contact_spot here = site_spot(&edge, at);
-        const double clear = site_clearance(world, &edge, &here, &nearest);
+        const candidate_positions here = candidate_place(&edge, at);
+        const double clear = candidate_clearance(world, &edge, &here, &nearest);
         for (int q = 0; q < 50; q++) {
             double to[6], way = 0.0;
             for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
             for (int i = 0; i < 2; i++) way = fmax(way, vec2_norm(vec2_sub(vec2_at(to, i), vec2_at(at, i))));
-            const contact_spot there = site_spot(&edge, to);
-            assert_true(site_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
+            const candidate_positions there = candidate_place(&edge, to);
+            assert_true(candidate_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
             inside += way < clear;
         }
         scene_close(&s);
@@ -603,11 +603,11 @@ static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(v
     scene s;
     dem_index nearest;
     (void)state;
-    const contact_site *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
+    const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 4; k++) {
         move_all(&s, -1.5, y[k], 0.0);
-        const contact_spot spot = site_spot(edge, s.y);
-        assert_close(site_clearance(&s.c.sites.scene, edge, &spot, &nearest), clear[k], 1e-14);
+        const candidate_positions spot = candidate_place(edge, s.y);
+        assert_close(candidate_clearance(&s.c.set.scene, edge, &spot, &nearest), clear[k], 1e-14);
     }
     scene_close(&s);
 }
@@ -617,12 +617,12 @@ static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
 {
     scene s;
     (void)state;
-    const contact_site *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
-    const contact_spot spot = site_spot(edge, s.y);
-    assert_int_equal(site_gap(&s.c.sites.scene, edge, &spot).feature, -1);
-    assert_true(site_around(&s.c.sites.scene, edge, &spot, 0.5).feature >= 0);
-    assert_false(site_around(&s.c.sites.scene, edge, &spot, 0.29).feature >= 0);
-    assert_false(site_around(&s.c.sites.scene, edge, &spot, 0.39).feature >= 0);
+    const contact_candidate *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
+    const candidate_positions spot = candidate_place(edge, s.y);
+    assert_int_equal(candidate_gap(&s.c.set.scene, edge, &spot).feature, -1);
+    assert_true(candidate_around(&s.c.set.scene, edge, &spot, 0.5).feature >= 0);
+    assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.29).feature >= 0);
+    assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.39).feature >= 0);
     scene_close(&s);
 }
 

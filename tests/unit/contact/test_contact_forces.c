@@ -17,10 +17,10 @@ static void check_vector(vec2 actual, double x, double y, double tolerance)
     assert_close(actual.y, y, tolerance);
 }
 
-static void regroup(bench *b, reactions *r)
+static void regroup(bench *b, contact_forces *r)
 {
-    assert_ok(reactions_create(r, &b->scene, b->sites, b->n_sites));
-    assert_ok(reactions_regroup(r));
+    assert_ok(contact_forces_create(r, &b->scene, b->candidates, b->n_candidates));
+    assert_ok(contact_forces_regroup(r));
 }
 
 /* ---- groups ---- */
@@ -33,7 +33,7 @@ static void open_row(bench *b, dem_index n)
     for (dem_index i = 0; i + 1 < n; i++) bench_edge(b, i, i + 1);
 }
 
-static void check_group(const reactions *r, dem_index group, dem_index n, const dem_index *members)
+static void check_group(const contact_forces *r, dem_index group, dem_index n, const dem_index *members)
 {
     assert_true(group < r->n_groups);
     assert_int_equal(r->row[group + 1] - r->row[group], n);
@@ -46,13 +46,13 @@ static void check_group(const reactions *r, dem_index group, dem_index n, const 
 static void without_closed_contacts_there_are_no_groups(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 4);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 0);
     assert_int_equal(r.row[0], 0);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
     assert_null(r.band);
 }
 
@@ -61,7 +61,7 @@ static void nodes_that_no_closed_edge_joins_are_groups_of_their_own(void **state
 {
     static const dem_index members[3] = {0, 1, 3};
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 4);
     bench_touch(&b, 1, 0, 1.5, 1);
@@ -70,7 +70,7 @@ static void nodes_that_no_closed_edge_joins_are_groups_of_their_own(void **state
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 3);
     for (int g = 0; g < 3; g++) check_group(&r, g, 1, &members[g]);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* Of the row 0 .. 6 edges 0-1, 1-2 and 4-5 touch, and nodes 2, 3 and 5. Members come in the order of the boundary, a
@@ -79,7 +79,7 @@ static void edges_that_share_nodes_and_nodes_at_their_ends_are_one_group(void **
 {
     static const dem_index first[3] = {7, 8, 2}, second[1] = {3}, third[2] = {11, 5};
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 7);
     bench_touch(&b, 7, 0, 0.5, 1);
@@ -93,33 +93,33 @@ static void edges_that_share_nodes_and_nodes_at_their_ends_are_one_group(void **
     check_group(&r, 0, 3, first);
     check_group(&r, 1, 1, second);
     check_group(&r, 2, 2, third);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 static void opening_a_contact_splits_its_group(void **state)
 {
     static const dem_index whole[3] = {4, 5, 6}, left[1] = {4}, right[1] = {6};
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 4);
     for (dem_index k = 4; k < 7; k++) bench_touch(&b, k, 0, 0.5, 1);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 1);
     check_group(&r, 0, 3, whole);
-    b.sites[5].n_closed = 0;
-    assert_ok(reactions_regroup(&r));
+    b.candidates[5].n_closed = 0;
+    assert_ok(contact_forces_regroup(&r));
     assert_int_equal(r.n_groups, 2);
     check_group(&r, 0, 1, left);
     check_group(&r, 1, 1, right);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 static void a_closed_ring_is_one_group(void **state)
 {
     static const dem_index members[4] = {3, 4, 5, 0};
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 3);
     bench_edge(&b, 2, 0);
@@ -127,7 +127,7 @@ static void a_closed_ring_is_one_group(void **state)
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 1);
     check_group(&r, 0, 3, members);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* ---- by hand ---- */
@@ -139,20 +139,20 @@ static void a_node_on_an_incline_slides_or_sticks(void **state)
     (void)state;
     for (int sign = -1; sign <= 1; sign++) {
         bench b;
-        reactions r;
+        contact_forces r;
         double a[2] = {0.0, -10.0};
         bench_open(&b, 1);
         bench_mass(&b, 0, 2.0);
         bench_touch(&b, 0, 1, M_PI / 3.0, sign); /* falls to the right; the tangent points down the slope */
         regroup(&b, &r);
-        reactions_hold(&r, b.x, b.v, a);
+        contact_forces_hold(&r, b.x, b.v, a);
         const double friction = sign == 0 ? -along : -sign * 0.3 * normal;
         const double left = sign == 0 ? 0.0 : (along + friction) / 2.0;
         /* rounding of forces of order 10 */
         assert_close(r.force[0][0].normal, normal, 1e-14);
         assert_close(r.force[0][0].tangent, friction, 1e-14);
         check_vector(vec2_at(a, 0), left * cos(M_PI / 6.0), -left * sin(M_PI / 6.0), 1e-14);
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
 }
 
@@ -160,21 +160,21 @@ static void a_node_on_an_incline_slides_or_sticks(void **state)
 static void a_corner_holds_its_node_with_two_normal_forces(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     double a[2] = {2.0, -10.0};
     (void)state;
     bench_open(&b, 1);
     bench_mass(&b, 0, 3.0);
     bench_corner(&b, 0, 0.25 * M_PI, 0.75 * M_PI);
     regroup(&b, &r);
-    reactions_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, b.x, b.v, a);
     /* rounding of forces of order 30 */
     assert_close(r.force[0][0].normal, 3.0 * 8.0 / sqrt(2.0), 1e-14);
     assert_close(r.force[0][1].normal, 3.0 * 12.0 / sqrt(2.0), 1e-14);
     assert_close(r.force[0][0].tangent, 0.0, 0.0);
     assert_close(r.force[0][1].tangent, 0.0, 0.0);
     check_vector(vec2_at(a, 0), 0.0, 0.0, 0.0);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* An edge of 1 and 4 kg lies level with a vertex under its quarter: W = (3/4)^2/1 + (1/4)^2/4 = 37/64, N = g/W; with
@@ -183,20 +183,20 @@ static void an_edge_balances_on_a_vertex(void **state)
 {
     const double force = 9.25 * 64.0 / 37.0;
     bench b;
-    reactions r;
+    contact_forces r;
     double a[4] = {0.0, -9.25, 0.0, -9.25};
     (void)state;
     open_row(&b, 2);
     bench_mass(&b, 1, 4.0);
     bench_touch(&b, 2, 1, 0.25, 1);
     regroup(&b, &r);
-    reactions_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, b.x, b.v, a);
     /* rounding of forces of order 10 */
     assert_close(r.force[2][0].normal, force, 1e-14);
     assert_close(r.force[2][0].tangent, -0.3 * force, 1e-14);
     check_vector(vec2_at(a, 0), -0.3 * 0.75 * force, -9.25 + 0.75 * force, 1e-14);
     check_vector(vec2_at(a, 1), -0.3 * 0.0625 * force, -9.25 + 0.0625 * force, 1e-14);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* Steps of 0.1 s: what has drifted is drawn back with beta = 1/s, -(2 v + beta off) along both. The edge lies on the x
@@ -204,21 +204,21 @@ static void an_edge_balances_on_a_vertex(void **state)
 static void a_sticking_edge_that_has_drifted_is_accelerated_back(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     double a[4] = {3.0, -10.0, 5.0, 2.0};
     (void)state;
     open_row(&b, 2);
     b.scene.rule.max_step = 0.1;
     for (dem_index i = 0; i < 2; i++) vec2_put(b.v, i, (vec2){-0.05, 0.3});
-    contact_touch *touch = bench_touch(&b, 2, 0, 0.5, 0);
-    b.vertices[touch->feature].at = (vec2){0.52, -0.01};
+    contact_point *point = bench_touch(&b, 2, 0, 0.5, 0);
+    b.vertices[point->feature].at = (vec2){0.52, -0.01};
     regroup(&b, &r);
-    reactions_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, b.x, b.v, a);
     /* rounding of accelerations of order 10; 2 kg move with P, at (4, -4) m/s^2 without the force */
     check_vector(vec2_scale(0.5, vec2_add(vec2_at(a, 0), vec2_at(a, 1))), 0.12, -0.61, 1e-14);
     assert_close(r.force[2][0].normal, 2.0 * (-0.61 + 4.0), 1e-14);
     assert_close(r.force[2][0].tangent, 2.0 * (0.12 - 4.0), 1e-14);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* Both ends of a level edge lie on level segments and a vertex is under it: three contacts for two motions. The one
@@ -226,7 +226,7 @@ static void a_sticking_edge_that_has_drifted_is_accelerated_back(void **state)
 static void a_contact_that_the_others_hold_already_gets_no_force(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     double a[4] = {0.0, -10.0, 0.0, -10.0};
     (void)state;
     open_row(&b, 2);
@@ -235,51 +235,51 @@ static void a_contact_that_the_others_hold_already_gets_no_force(void **state)
     bench_touch(&b, 1, 0, 0.5 * M_PI, 1);
     bench_touch(&b, 2, 0, 0.75, 1);
     regroup(&b, &r);
-    reactions_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, b.x, b.v, a);
     /* rounding of forces of order 40 over the place of the vertex */
     assert_close(r.force[1][0].normal, 0.0, 0.0);
     assert_close(r.force[2][0].normal, 30.0 / 0.75, 1e-13);
     assert_close(r.force[0][0].normal, 10.0 - 0.25 * 40.0, 1e-13);
     for (int i = 0; i < 4; i++) assert_close(a[i], 0.0, 1e-13);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* ---- the same constraints, written out ---- */
 
-/* A closed contact as the documentation of touch_frame has it. */
+/* A closed contact as the documentation of contact_frame has it. */
 typedef struct link {
-    dem_index site, node[2];
+    dem_index candidate, node[2];
     double weight[2], keep, friction;
     vec2 normal, tangent;
-    int n, q, sign;
+    int n, q, slide;
     bool held;
 } link;
 
 static link link_of(const bench *b, dem_index k, int q)
 {
-    const contact_site *site = &b->sites[k];
-    const contact_touch *touch = &site->closed[q];
-    const segment *s = &b->segments[touch->feature];
+    const contact_candidate *candidate = &b->candidates[k];
+    const contact_point *point = &candidate->closed[q];
+    const segment *s = &b->segments[point->feature];
     const dem_obstacle *o = &b->list[s->obstacle];
-    link l = {.site = k, .q = q, .node = {site->node, -1}, .weight = {1.0, 0.0}, .n = 1};
-    l.sign = touch->sign;
-    l.held = touch->held;
+    link l = {.candidate = k, .q = q, .node = {candidate->node, -1}, .weight = {1.0, 0.0}, .n = 1};
+    l.slide = point->slide;
+    l.held = point->held;
     l.friction = o->friction_law == DEM_FRICTION_COULOMB ? o->friction : 0.0;
     l.normal = s->normal;
-    if (site_is_edge(site)) {
-        const vec2 start = vec2_at(b->x, site->node), along = vec2_sub(vec2_at(b->x, site->other), start);
-        const vec2 to = vec2_sub(b->vertices[touch->feature].at, start);
+    if (candidate_is_edge(candidate)) {
+        const vec2 start = vec2_at(b->x, candidate->node), along = vec2_sub(vec2_at(b->x, candidate->other), start);
+        const vec2 to = vec2_sub(b->vertices[point->feature].at, start);
         const double square = vec2_dot(along, along), length = sqrt(square);
-        const double place = touch->sign == 0 ? touch->place : vec2_dot(to, along) / square;
+        const double place = point->slide == 0 ? point->place : vec2_dot(to, along) / square;
         l.n = 2;
-        l.node[1] = site->other;
+        l.node[1] = candidate->other;
         l.weight[0] = 1.0 - place;
         l.weight[1] = place;
         l.normal = (vec2){-along.y / length, along.x / length};
-        const vec2 va = vec2_at(b->v, site->node), vb = vec2_at(b->v, site->other);
+        const vec2 va = vec2_at(b->v, candidate->node), vb = vec2_at(b->v, candidate->other);
         const vec2 at = vec2_along(va, place, vec2_sub(vb, va)); /* velocity of the point */
         const double omega = vec2_cross(along, vec2_sub(vb, va)) / square;
-        if (touch->sign != 0) l.keep = 2.0 * omega * vec2_dot(at, along) / length;
+        if (point->slide != 0) l.keep = 2.0 * omega * vec2_dot(at, along) / length;
     }
     l.tangent = (vec2){l.normal.y, -l.normal.x};
     return l;
@@ -288,8 +288,8 @@ static link link_of(const bench *b, dem_index k, int q)
 static int list_links(const bench *b, link *list)
 {
     int n = 0;
-    for (dem_index k = 0; k < b->n_sites; k++)
-        for (int q = 0; q < b->sites[k].n_closed; q++) list[n++] = link_of(b, k, q);
+    for (dem_index k = 0; k < b->n_candidates; k++)
+        for (int q = 0; q < b->candidates[k].n_closed; q++) list[n++] = link_of(b, k, q);
     return n;
 }
 
@@ -316,7 +316,7 @@ static size_t write_out(const bench *b, const link *list, int n_links, const dou
     for (size_t c = 0; c < (size_t)n_links; c++) {
         const link *l = &list[c];
         const size_t force = n_a + 2 * c;
-        const bool sticks = l->sign == 0 && !l->held;
+        const bool sticks = l->slide == 0 && !l->held;
         for (int p = 0; p < l->n; p++)
             for (size_t e = 0; e < 2; e++) {
                 const size_t i = 2 * (size_t)l->node[p] + e;
@@ -331,7 +331,7 @@ static size_t write_out(const bench *b, const link *list, int n_links, const dou
         rhs[force + 1] = 0.0;
         if (sticks) continue;
         gsl_matrix_set(m, force + 1, force + 1, 1.0);
-        gsl_matrix_set(m, force + 1, force, l->held ? 0.0 : l->sign * l->friction);
+        gsl_matrix_set(m, force + 1, force, l->held ? 0.0 : l->slide * l->friction);
     }
     return n;
 }
@@ -419,7 +419,7 @@ static void mix_next(mix *w)
     const bool ring = chance(w, 0.5);
     for (dem_index i = 0; i < n - !ring; i++)
         if (b->inverse_mass[i] != 0.0 || b->inverse_mass[(i + 1) % n] != 0.0) bench_edge(b, i, (i + 1) % n);
-    for (dem_index k = 0; k < b->n_sites; k++) k < n ? close_node(w, k) : close_edge(w, k);
+    for (dem_index k = 0; k < b->n_candidates; k++) k < n ? close_node(w, k) : close_edge(w, k);
     w->n_links = list_links(b, w->list);
 }
 
@@ -438,10 +438,10 @@ static bool mix_solve(mix *w, double *solution)
     return ratio < worst_ratio;
 }
 
-static void check_forces(const mix *w, const reactions *r, const double *expected)
+static void check_forces(const mix *w, const contact_forces *r, const double *expected)
 {
     for (int c = 0; c < w->n_links; c++) {
-        const reaction f = r->force[w->list[c].site][w->list[c].q];
+        const contact_force f = r->force[w->list[c].candidate][w->list[c].q];
         assert_close(f.normal, expected[2 * c], dense_tolerance);
         assert_close(f.tangent, expected[2 * c + 1], dense_tolerance);
     }
@@ -452,7 +452,7 @@ static void tally(const mix *w, int kinds[2][4])
 {
     for (int c = 0; c < w->n_links; c++) {
         const link *l = &w->list[c];
-        kinds[l->n - 1][l->held ? 3 : 1 + l->sign]++;
+        kinds[l->n - 1][l->held ? 3 : 1 + l->slide]++;
     }
 }
 
@@ -463,25 +463,25 @@ static void forces_and_accelerations_agree_with_a_dense_solution(void **state)
     (void)state;
     for (int k = 0; k < 4000; k++) {
         double solution[MOST_UNKNOWNS];
-        reactions r;
+        contact_forces r;
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         const dem_index n_a = 2 * w.b.model.lattice.n_nodes;
         regroup(&w.b, &r);
-        reactions_hold(&r, w.b.x, w.b.v, w.a);
+        contact_forces_hold(&r, w.b.x, w.b.v, w.a);
         for (dem_index i = 0; i < n_a; i++) assert_close(w.a[i], solution[i], dense_tolerance);
         check_forces(&w, &r, solution + n_a);
         tally(&w, kinds);
         n_solved++;
         for (dem_index g = 0; g < r.n_groups; g++) n_coupled += r.row[g + 1] - r.row[g] > 2;
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
     assert_true(n_solved > 1000 && n_coupled > 500);
     for (int q = 0; q < 4; q++) assert_true(kinds[0][q] > 200 && kinds[1][q] > 200);
     gsl_rng_free(w.rng);
 }
 
-/* The free accelerations of gravity and drag, taken by reactions_solve from the model itself. */
+/* The free accelerations of gravity and drag, taken by contact_forces_solve from the model itself. */
 static void solving_a_group_starts_from_the_accelerations_of_the_model(void **state)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
@@ -489,7 +489,7 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
     (void)state;
     for (int k = 0; k < 500; k++) {
         double solution[MOST_UNKNOWNS];
-        reactions r;
+        contact_forces r;
         mix_next(&w);
         w.b.scene.rule.load = (forces){.gravity = {3.0, -7.0}, .mass_damping = 0.5};
         for (dem_index i = 0; i < w.b.model.lattice.n_nodes; i++) {
@@ -499,10 +499,10 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
         }
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);
-        for (dem_index g = 0; g < r.n_groups; g++) reactions_solve(&r, g, w.b.x, w.b.v);
+        for (dem_index g = 0; g < r.n_groups; g++) contact_forces_solve(&r, g, w.b.x, w.b.v);
         check_forces(&w, &r, solution + 2 * w.b.model.lattice.n_nodes);
         n_solved++;
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
     assert_true(n_solved > 100);
     gsl_rng_free(w.rng);
@@ -515,18 +515,18 @@ static void what_is_held_has_the_acceleration_asked_for(void **state)
     (void)state;
     for (int k = 0; k < 2000; k++) {
         double solution[MOST_UNKNOWNS];
-        reactions r;
+        contact_forces r;
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);
-        reactions_hold(&r, w.b.x, w.b.v, w.a);
+        contact_forces_hold(&r, w.b.x, w.b.v, w.a);
         for (int c = 0; c < w.n_links; c++) {
             const link *l = &w.list[c];
             assert_close(part_of(l, w.a, l->normal), l->keep, dense_tolerance);
-            if (l->sign == 0) assert_close(part_of(l, w.a, l->tangent), 0.0, dense_tolerance);
+            if (l->slide == 0) assert_close(part_of(l, w.a, l->tangent), 0.0, dense_tolerance);
             n_checked++;
         }
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
     assert_true(n_checked > 1000);
     gsl_rng_free(w.rng);
@@ -535,18 +535,18 @@ static void what_is_held_has_the_acceleration_asked_for(void **state)
 /* Sites in another order -- nodes among nodes, edges among edges -- with the same contacts. */
 static void shuffle(gsl_rng *rng, const bench *from, bench *to, dem_index *place)
 {
-    const dem_index n = from->model.n_sites;
+    const dem_index n = from->model.n_contact_nodes;
     memcpy(to->mass, from->mass, sizeof to->mass);
     memcpy(to->inverse_mass, from->inverse_mass, sizeof to->inverse_mass);
     memcpy(to->x, from->x, sizeof to->x);
     memcpy(to->v, from->v, sizeof to->v);
     memcpy(to->segments, from->segments, sizeof to->segments);
     memcpy(to->vertices, from->vertices, sizeof to->vertices);
-    for (dem_index k = 0; k < from->n_sites; k++) place[k] = k;
+    for (dem_index k = 0; k < from->n_candidates; k++) place[k] = k;
     gsl_ran_shuffle(rng, place, (size_t)n, sizeof *place);
-    gsl_ran_shuffle(rng, place + n, (size_t)(from->n_sites - n), sizeof *place);
-    for (dem_index k = 0; k < from->n_sites; k++) to->sites[place[k]] = from->sites[k];
-    to->n_sites = from->n_sites;
+    gsl_ran_shuffle(rng, place + n, (size_t)(from->n_candidates - n), sizeof *place);
+    for (dem_index k = 0; k < from->n_candidates; k++) to->candidates[place[k]] = from->candidates[k];
+    to->n_candidates = from->n_candidates;
 }
 
 static void the_order_in_which_sites_are_listed_does_not_matter(void **state)
@@ -557,7 +557,7 @@ static void the_order_in_which_sites_are_listed_does_not_matter(void **state)
         double solution[MOST_UNKNOWNS], a[2 * BENCH_NODES];
         dem_index place[BENCH_SITES];
         bench other;
-        reactions r, q;
+        contact_forces r, q;
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         bench_open(&other, w.b.model.lattice.n_nodes);
@@ -566,16 +566,17 @@ static void the_order_in_which_sites_are_listed_does_not_matter(void **state)
         regroup(&w.b, &r);
         regroup(&other, &q);
         assert_int_equal(q.n_groups, r.n_groups);
-        reactions_hold(&r, w.b.x, w.b.v, w.a);
-        reactions_hold(&q, w.b.x, w.b.v, a);
+        contact_forces_hold(&r, w.b.x, w.b.v, w.a);
+        contact_forces_hold(&q, w.b.x, w.b.v, a);
         for (dem_index i = 0; i < 2 * w.b.model.lattice.n_nodes; i++) assert_close(a[i], w.a[i], dense_tolerance);
         for (int c = 0; c < w.n_links; c++) {
-            const reaction f = r.force[w.list[c].site][w.list[c].q], g = q.force[place[w.list[c].site]][w.list[c].q];
+            const contact_force f = r.force[w.list[c].candidate][w.list[c].q],
+                                g = q.force[place[w.list[c].candidate]][w.list[c].q];
             assert_close(g.normal, f.normal, dense_tolerance);
             assert_close(g.tangent, f.tangent, dense_tolerance);
         }
-        reactions_destroy(&r);
-        reactions_destroy(&q);
+        contact_forces_destroy(&r);
+        contact_forces_destroy(&q);
     }
     gsl_rng_free(w.rng);
 }
@@ -585,10 +586,10 @@ static void the_order_in_which_sites_are_listed_does_not_matter(void **state)
 /* Velocities up to 1.4 m/s: rounding, over the square root of what is taken as redundant. */
 static const double stop_tolerance = 1e-9;
 
-static void stop_all(mix *w, reactions *r, double *v)
+static void stop_all(mix *w, contact_forces *r, double *v)
 {
     memcpy(v, w->b.v, sizeof w->b.v);
-    for (dem_index g = 0; g < r->n_groups; g++) reactions_stop(r, g, w->b.x, v);
+    for (dem_index g = 0; g < r->n_groups; g++) contact_forces_stop(r, g, w->b.x, v);
 }
 
 /* Also where contacts are redundant: rest is always allowed. */
@@ -599,17 +600,17 @@ static void after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks(
     (void)state;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES];
-        reactions r;
+        contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         stop_all(&w, &r, v);
         for (int c = 0; c < w.n_links; c++) {
             const link *l = &w.list[c];
             assert_close(part_of(l, v, l->normal), 0.0, stop_tolerance);
-            if (l->sign == 0) assert_close(part_of(l, v, l->tangent), 0.0, stop_tolerance);
+            if (l->slide == 0) assert_close(part_of(l, v, l->tangent), 0.0, stop_tolerance);
             n_checked++;
         }
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
     assert_true(n_checked > 10000);
     gsl_rng_free(w.rng);
@@ -623,7 +624,7 @@ static void a_stop_takes_the_energy_of_the_change_and_gives_none(void **state)
     (void)state;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES], before = 0.0, after = 0.0, change = 0.0, largest = 1.0;
-        reactions r;
+        contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         stop_all(&w, &r, v);
@@ -634,13 +635,13 @@ static void a_stop_takes_the_energy_of_the_change_and_gives_none(void **state)
             change += 0.5 * w.b.mass[i] * vec2_dot(dv, dv);
         }
         for (int c = 0; c < w.n_links; c++) {
-            const reaction f = r.force[w.list[c].site][w.list[c].q];
+            const contact_force f = r.force[w.list[c].candidate][w.list[c].q];
             largest = fmax(largest, fmax(fabs(f.normal), fabs(f.tangent)));
         }
         /* rounding of impulses, which nearly redundant contacts make large, times what that leaves of velocities */
         assert_close(after + change, before, 1e-13 * largest * largest);
         assert_true(after <= before * (1.0 + 1e-14)); /* rounding of sums */
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
     gsl_rng_free(w.rng);
 }
@@ -653,16 +654,16 @@ static void impulses_account_for_the_momentum_of_every_node(void **state)
     (void)state;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES], given[2 * BENCH_NODES] = {0.0}, largest = 1.0;
-        reactions r;
+        contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
-        reactions_hold(&r, w.b.x, w.b.v, w.a); /* forces are not taken for impulses */
+        contact_forces_hold(&r, w.b.x, w.b.v, w.a); /* forces are not taken for impulses */
         stop_all(&w, &r, v);
         for (int c = 0; c < w.n_links; c++) {
             const link *l = &w.list[c];
-            const reaction f = r.force[l->site][l->q];
+            const contact_force f = r.force[l->candidate][l->q];
             const vec2 impulse = vec2_along(vec2_scale(f.normal, l->normal), f.tangent, l->tangent);
-            if (l->sign != 0 && !l->held) assert_close(f.tangent, 0.0, 1e-15); /* rounding of impulses of order 1 */
+            if (l->slide != 0 && !l->held) assert_close(f.tangent, 0.0, 1e-15); /* rounding of impulses of order 1 */
             largest = fmax(largest, vec2_norm(impulse));
             for (int p = 0; p < l->n; p++)
                 vec2_put(given, l->node[p], vec2_along(vec2_at(given, l->node[p]), l->weight[p], impulse));
@@ -675,7 +676,7 @@ static void impulses_account_for_the_momentum_of_every_node(void **state)
             /* rounding of some impulses, which nearly redundant contacts make large */
             check_vector(vec2_at(given, i), change.x, change.y, 1e-14 * largest);
         }
-        reactions_destroy(&r);
+        contact_forces_destroy(&r);
     }
     gsl_rng_free(w.rng);
 }
@@ -684,7 +685,7 @@ static void impulses_account_for_the_momentum_of_every_node(void **state)
 static void stopping_one_group_leaves_the_others_alone(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     double v[8];
     (void)state;
     open_row(&b, 4);
@@ -694,14 +695,14 @@ static void stopping_one_group_leaves_the_others_alone(void **state)
     bench_touch(&b, 3, 0, 0.5 * M_PI, 1);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 2);
-    reactions_stop(&r, 0, b.x, v);
+    contact_forces_stop(&r, 0, b.x, v);
     /* an edge that turns about its middle has nothing left */
     for (int i = 0; i < 4; i++) assert_close(v[i], 0.0, 1e-15); /* rounding of velocities of order 1 */
     assert_memory_equal(v + 4, b.v + 4, 4 * sizeof *v);
-    reactions_stop(&r, 1, b.x, v);
+    contact_forces_stop(&r, 1, b.x, v);
     check_vector(vec2_at(v, 2), 0.3, -1.0, 0.0);
     check_vector(vec2_at(v, 3), 0.3, 0.0, 1e-16); /* the cosine of pi/2 */
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* ---- shifts ---- */
@@ -711,22 +712,22 @@ static void stopping_one_group_leaves_the_others_alone(void **state)
 static void a_shift_closes_the_gap_with_the_light_node_moving_more(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 2);
     bench_mass(&b, 1, 3.0);
-    contact_touch *touch = bench_touch(&b, 2, 1, 0.5, 1);
-    b.vertices[touch->feature].at.y = -0.1;
+    contact_point *point = bench_touch(&b, 2, 1, 0.5, 1);
+    b.vertices[point->feature].at.y = -0.1;
     regroup(&b, &r);
-    const double *shift = reactions_shift(&r, 0, b.x, b.v);
+    const double *shift = contact_forces_shift(&r, 0, b.x, b.v);
     /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 0), 0.0, -0.15, 1e-16);
     check_vector(vec2_at(shift, 1), 0.0, -0.05, 1e-16);
     b.inverse_mass[0] = 0.0;
-    shift = reactions_shift(&r, 0, b.x, b.v);
+    shift = contact_forces_shift(&r, 0, b.x, b.v);
     check_vector(vec2_at(shift, 0), 0.0, 0.0, 0.0);
     check_vector(vec2_at(shift, 1), 0.0, -0.2, 1e-16);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* An upright edge whose lower end sticks to the floor, 0.2 m beside its vertex: both ends go 0.2 m, the lower one along
@@ -734,18 +735,18 @@ static void a_shift_closes_the_gap_with_the_light_node_moving_more(void **state)
 static void a_shift_lets_what_sticks_slide(void **state)
 {
     bench b;
-    reactions r;
+    contact_forces r;
     (void)state;
     open_row(&b, 2);
     vec2_put(b.x, 1, (vec2){0.0, 1.0});
     bench_touch(&b, 0, 1, 0.5 * M_PI, 0);
-    contact_touch *touch = bench_touch(&b, 2, 1, 0.5, 0);
-    b.vertices[touch->feature].at.x = 0.2;
+    contact_point *point = bench_touch(&b, 2, 1, 0.5, 0);
+    b.vertices[point->feature].at.x = 0.2;
     regroup(&b, &r);
-    const double *shift = reactions_shift(&r, 0, b.x, b.v);
+    const double *shift = contact_forces_shift(&r, 0, b.x, b.v);
     check_vector(vec2_at(shift, 0), 0.2, 0.0, 1e-16); /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 1), 0.2, 0.0, 1e-16);
-    reactions_destroy(&r);
+    contact_forces_destroy(&r);
 }
 
 /* Moves every feature by `size` (m); returns the largest gap after the shift over the square of the shift, 1/m. */
@@ -753,7 +754,7 @@ static double left_after_shift(const mix *w, double size)
 {
     double x[2 * BENCH_NODES], largest = 0.0, change = 0.0;
     bench b;
-    reactions r;
+    contact_forces r;
     bench_open(&b, w->b.model.lattice.n_nodes);
     dem_index place[BENCH_SITES];
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -766,18 +767,18 @@ static double left_after_shift(const mix *w, double size)
     regroup(&b, &r);
     memcpy(x, b.x, sizeof x);
     for (dem_index g = 0; g < r.n_groups; g++) {
-        const double *shift = reactions_shift(&r, g, b.x, b.v);
+        const double *shift = contact_forces_shift(&r, g, b.x, b.v);
         for (dem_index p = r.row[g]; p < r.row[g + 1]; p++) {
-            const contact_site *s = &b.sites[r.members[p]];
+            const contact_candidate *s = &b.candidates[r.members[p]];
             vec2_put(x, s->node, vec2_add(vec2_at(b.x, s->node), vec2_at(shift, s->node)));
-            if (site_is_edge(s)) vec2_put(x, s->other, vec2_add(vec2_at(b.x, s->other), vec2_at(shift, s->other)));
+            if (candidate_is_edge(s)) vec2_put(x, s->other, vec2_add(vec2_at(b.x, s->other), vec2_at(shift, s->other)));
         }
     }
     for (dem_index i = 0; i < 2 * w->b.model.lattice.n_nodes; i++) change = fmax(change, fabs(x[i] - b.x[i]));
-    for (dem_index k = 0; k < b.n_sites; k++)
-        for (int q = 0; q < b.sites[k].n_closed; q++)
-            largest = fmax(largest, fabs(touch_frame_at(&b.scene, &b.sites[k], q, x, b.v).gap));
-    reactions_destroy(&r);
+    for (dem_index k = 0; k < b.n_candidates; k++)
+        for (int q = 0; q < b.candidates[k].n_closed; q++)
+            largest = fmax(largest, fabs(contact_frame_at(&b.scene, &b.candidates[k], q, x, b.v).gap));
+    contact_forces_destroy(&r);
     gsl_rng_free(rng);
     return change > 0.0 ? largest / (change * change) : 0.0;
 }

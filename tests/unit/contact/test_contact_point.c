@@ -23,7 +23,7 @@ static void the_frame_of_a_node_is_that_of_its_segment(void **state)
     b.segments[2] = (segment){.start = {1.0, 2.0}, .normal = {-0.6, 0.8}, .tangent = {0.8, 0.6}, .length = 5.0};
     vec2_put(b.x, 1, (vec2){1.0 + 1.6 - 0.3, 2.0 + 1.2 + 0.4}); /* 2 along, 0.5 up */
     vec2_put(b.v, 1, (vec2){3.0, -7.0});
-    const touch_frame f = touch_frame_at(&b.scene, &b.sites[1], 0, b.x, b.v);
+    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[1], 0, b.x, b.v);
     assert_int_equal(f.n, 1);
     assert_int_equal(f.node[0], 1);
     assert_close(f.weight[0], 1.0, 0.0);
@@ -32,7 +32,7 @@ static void the_frame_of_a_node_is_that_of_its_segment(void **state)
     check_vector(f.velocity, 3.0, -7.0, 0.0);
     assert_close(f.gap, 0.5, 1e-15); /* rounding of positions of order 1 */
     assert_close(f.place, 2.0, 1e-15);
-    assert_close(touch_noise(&f, b.v), 0.0, 0.0);
+    assert_close(contact_point_noise(&f, b.v), 0.0, 0.0);
     assert_close(f.turning, 0.0, 0.0);
     assert_close(f.keep[0], 0.0, 0.0);
     assert_close(f.keep[1], 0.0, 0.0);
@@ -55,7 +55,7 @@ static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void 
     const dem_index edge = bench_edge(&b, 0, 1);
     const dem_index feature = bench_touch(&b, edge, 0, 0.0, -1)->feature;
     b.vertices[feature].at = (vec2){0.75, 2.0};
-    const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
     assert_int_equal(f.n, 2);
     assert_int_equal(f.node[0], 0);
     assert_int_equal(f.node[1], 1);
@@ -81,7 +81,7 @@ static void a_fixed_node_has_no_mobility(void **state)
     vec2_put(b.x, 1, (vec2){1.0, 0.0});
     const dem_index edge = bench_edge(&b, 0, 1);
     bench_touch(&b, edge, 0, 0.5, 1);
-    assert_close(touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v).mobility, 0.25, 0.0);
+    assert_close(contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v).mobility, 0.25, 0.0);
 }
 
 /* The edge lies on the x axis, the vertex 0.02 m ahead of where it sticks and 0.01 m below; beta = 1/s for steps of
@@ -95,17 +95,17 @@ static void a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps(voi
     vec2_put(b.x, 1, (vec2){1.0, 0.0});
     for (int i = 0; i < 2; i++) vec2_put(b.v, i, (vec2){-0.05, 0.3});
     const dem_index edge = bench_edge(&b, 0, 1);
-    contact_touch *touch = bench_touch(&b, edge, 0, 0.5, 0);
-    b.vertices[touch->feature].at = (vec2){0.52, -0.01};
-    touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    contact_point *point = bench_touch(&b, edge, 0, 0.5, 0);
+    b.vertices[point->feature].at = (vec2){0.52, -0.01};
+    contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
     assert_close(f.keep[0], -(2.0 * 0.3 + 0.01), 1e-15); /* rounding of terms of order 1 */
     assert_close(f.keep[1], -(2.0 * -0.05 - 0.02), 1e-15);
-    touch->sign = 1;
-    f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    point->slide = 1;
+    f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
     assert_close(f.keep[0], -(2.0 * 0.3 + 0.01), 1e-15); /* it does not turn */
     vec2_put(b.v, 0, (vec2){-0.05, 0.3 - 0.52});         /* by 1 rad/s now, about a point that moves as before */
     vec2_put(b.v, 1, (vec2){-0.05, 0.3 + 0.48});
-    f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+    f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
     assert_close(f.turning, -0.1, 1e-15);
     assert_close(f.keep[0], -0.1 - (2.0 * 0.3 + 0.01), 1e-15);
 }
@@ -169,8 +169,8 @@ static void move_anyhow(gsl_rng *rng, ode_problem *m, bench *b, dem_index edge, 
     vec2_put(b->x, 1, m->b[0]);
     vec2_put(b->v, 0, m->a[1]);
     vec2_put(b->v, 1, m->b[1]);
-    b->sites[edge].closed[0].place = place;
-    b->vertices[b->sites[edge].closed[0].feature].at = vec2_along(m->a[0], place, vec2_sub(m->b[0], m->a[0]));
+    b->candidates[edge].closed[0].place = place;
+    b->vertices[b->candidates[edge].closed[0].feature].at = vec2_along(m->a[0], place, vec2_sub(m->b[0], m->a[0]));
 }
 
 /* g' = v_P.N and s' = -v_P.t/L; with the accelerations of the ends g'' = a_P.N - keep: 0 if a_P.N is what is asked. */
@@ -187,9 +187,9 @@ static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void
         ode_problem m;
         seen first, second;
         move_anyhow(rng, &m, &b, edge, gsl_rng_uniform(rng));
-        b.sites[edge].closed[0].sign = k % 2 == 0 ? 1 : -1; /* has no say in it */
-        const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
-        const vec2 at = b.vertices[b.sites[edge].closed[0].feature].at;
+        b.candidates[edge].closed[0].slide = k % 2 == 0 ? 1 : -1; /* has no say in it */
+        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+        const vec2 at = b.vertices[b.candidates[edge].closed[0].feature].at;
         const vec2 a = vec2_along(vec2_scale(2.0 * f.weight[0], m.a[2]), 2.0 * f.weight[1], m.b[2]);
         differentiate(&m, at, &first, &second);
         assert_close(f.gap, look(&m, at, 0.0).height, 1e-15); /* rounding of positions of order 1 */
@@ -221,15 +221,15 @@ static void a_sticking_contact_asks_for_no_acceleration(void **state)
         move_anyhow(rng, &m, &b, edge, place);
         for (int q = 1; q < 4; q++) m.b[q] = vec2_scale(-(1.0 - place) / place, m.a[q]); /* P does not move */
         vec2_put(b.v, 1, m.b[1]);
-        const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
-        differentiate(&m, b.vertices[b.sites[edge].closed[0].feature].at, &first, &second);
+        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+        differentiate(&m, b.vertices[b.candidates[edge].closed[0].feature].at, &first, &second);
         /* P stays where it is, so there is rounding only */
         assert_close(first.height, 0.0, difference_tolerance);
         assert_close(second.height, 0.0, difference_tolerance);
         assert_close(first.place, 0.0, difference_tolerance);
         assert_true(vec2_norm(f.velocity) <=
-                    touch_noise(&f, b.v)); /* what rounding leaves of it, and that is little: */
-        assert_true(touch_noise(&f, b.v) > 0.0 && touch_noise(&f, b.v) < 1e-12);
+                    contact_point_noise(&f, b.v)); /* what rounding leaves of it, and that is little: */
+        assert_true(contact_point_noise(&f, b.v) > 0.0 && contact_point_noise(&f, b.v) < 1e-12);
         assert_close(f.turning, 0.0, 0.0);
         assert_close(f.keep[0], 0.0, 1e-90); /* 1/max_step */
         assert_close(f.keep[1], 0.0, 1e-90);
@@ -249,14 +249,15 @@ static void a_sticking_contact_keeps_its_place(void **state)
     for (int k = 0; k < 100; k++) {
         ode_problem m;
         move_anyhow(rng, &m, &b, edge, 0.375);
-        b.vertices[b.sites[edge].closed[0].feature].at = (vec2){any(rng), any(rng)};
-        const touch_frame f = touch_frame_at(&b.scene, &b.sites[edge], 0, b.x, b.v);
+        b.vertices[b.candidates[edge].closed[0].feature].at = (vec2){any(rng), any(rng)};
+        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
         const vec2 at = vec2_add(vec2_scale(0.625, m.a[0]), vec2_scale(0.375, m.b[0]));
         assert_close(f.place, 0.375, 0.0);
         assert_close(f.weight[0], 0.625, 0.0);
         assert_close(f.weight[1], 0.375, 0.0);
         /* rounding of lengths of order 1 */
-        assert_close(f.gap, vec2_dot(vec2_sub(at, b.vertices[b.sites[edge].closed[0].feature].at), f.normal), 1e-15);
+        assert_close(f.gap, vec2_dot(vec2_sub(at, b.vertices[b.candidates[edge].closed[0].feature].at), f.normal),
+                     1e-15);
     }
     gsl_rng_free(rng);
 }
@@ -272,12 +273,12 @@ static void a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there(void
     b.segments[3].obstacle = 2;
     b.segments[5].obstacle = 1;
     b.vertices[3] = (obstacle_vertex){.before = 5, .after = 0};
-    assert_int_equal(touch_segment(&b.scene, &b.sites[0], 3), 3);
-    assert_int_equal(touch_segment(&b.scene, &b.sites[edge], 3), 5);
-    assert_ptr_equal(touch_obstacle(&b.scene, &b.sites[0], 3), &b.list[2]);
-    assert_ptr_equal(touch_obstacle(&b.scene, &b.sites[edge], 3), &b.list[1]);
-    assert_false(site_is_edge(&b.sites[0]));
-    assert_true(site_is_edge(&b.sites[edge]));
+    assert_int_equal(contact_point_segment(&b.scene, &b.candidates[0], 3), 3);
+    assert_int_equal(contact_point_segment(&b.scene, &b.candidates[edge], 3), 5);
+    assert_ptr_equal(contact_point_obstacle(&b.scene, &b.candidates[0], 3), &b.list[2]);
+    assert_ptr_equal(contact_point_obstacle(&b.scene, &b.candidates[edge], 3), &b.list[1]);
+    assert_false(candidate_is_edge(&b.candidates[0]));
+    assert_true(candidate_is_edge(&b.candidates[edge]));
     assert_close(scene_margin(&b.scene), 1e-5, 1e-20); /* ten skins, rounded */
     b.scene.rule.n_quadratures = 7;
     assert_int_equal(scene_velocities(&b.scene), 2 * (2 + 7));
@@ -289,9 +290,9 @@ static void only_coulombs_law_has_sustained_friction(void **state)
     (void)state;
     bench_open(&b, 1);
     for (dem_index s = 0; s < 3; s++) b.segments[s].obstacle = s;
-    assert_close(touch_friction(&b.scene, &b.sites[0], 0), 0.0, 0.0);
-    assert_close(touch_friction(&b.scene, &b.sites[0], 1), 0.3, 0.0);
-    assert_close(touch_friction(&b.scene, &b.sites[0], 2), 0.0, 0.0); /* (10) */
+    assert_close(contact_point_friction(&b.scene, &b.candidates[0], 0), 0.0, 0.0);
+    assert_close(contact_point_friction(&b.scene, &b.candidates[0], 1), 0.3, 0.0);
+    assert_close(contact_point_friction(&b.scene, &b.candidates[0], 2), 0.0, 0.0); /* (10) */
 }
 
 static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
@@ -301,11 +302,11 @@ static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
     bench_open(&b, 3);
     vec2_put(b.x, 1, (vec2){0.25, 0.5});
     vec2_put(b.x, 2, (vec2){4.25, 0.5});
-    contact_touch *node = bench_touch(&b, 1, 2, 0.5 * M_PI, 1);
+    contact_point *node = bench_touch(&b, 1, 2, 0.5 * M_PI, 1);
     node->force = 7.0;
     node->friction = -3.0;
     b.segments[2].index = 40;
-    dem_contact c = touch_describe(&b.scene, &b.sites[1], 0, b.x);
+    dem_contact c = contact_point_describe(&b.scene, &b.candidates[1], 0, b.x);
     assert_int_equal(c.n_nodes, 1);
     assert_int_equal(c.nodes[0], 1);
     assert_int_equal(c.obstacle, 2);
@@ -316,11 +317,11 @@ static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
     check_vector((vec2){c.normal[0], c.normal[1]}, 0.0, 1.0, 1e-16); /* the cosine of pi/2 */
     assert_close(c.force, 7.0, 0.0);
     assert_close(c.friction, -3.0, 0.0);
-    node->sign = 0;
-    assert_int_equal(touch_describe(&b.scene, &b.sites[1], 0, b.x).state, DEM_CONTACT_STICK);
-    node->sign = 1;
+    node->slide = 0;
+    assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, b.x).state, DEM_CONTACT_STICK);
+    node->slide = 1;
     node->held = true;
-    assert_int_equal(touch_describe(&b.scene, &b.sites[1], 0, b.x).state, DEM_CONTACT_STICK);
+    assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, b.x).state, DEM_CONTACT_STICK);
 }
 
 static void the_second_contact_of_an_edge_tells_of_its_own_vertex(void **state)
@@ -333,7 +334,7 @@ static void the_second_contact_of_an_edge_tells_of_its_own_vertex(void **state)
     const dem_index edge = bench_edge(&b, 1, 2);
     bench_touch(&b, edge, 0, 0.5, 1);
     bench_touch(&b, edge, 1, 0.75, -1)->force = 9.0;
-    const dem_contact c = touch_describe(&b.scene, &b.sites[edge], 1, b.x);
+    const dem_contact c = contact_point_describe(&b.scene, &b.candidates[edge], 1, b.x);
     assert_int_equal(c.n_nodes, 2);
     assert_int_equal(c.nodes[0], 1);
     assert_int_equal(c.nodes[1], 2);

@@ -33,7 +33,7 @@ static void open_square(scene *s, const dem_obstacle *obstacles, dem_index n)
 
 static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
 {
-    assert_ok(sites_close(&s->c.sites, k, (contact_touch){.feature = feature, .sign = sign}));
+    assert_ok(contact_set_close(&s->c.set, k, (contact_point){.feature = feature, .slide = sign}));
 }
 
 /* ---- the list ---- */
@@ -43,13 +43,13 @@ static void nodes_come_first_and_then_edges_that_know_their_neighbours(void **st
     scene s;
     (void)state;
     open_square(&s, roofs, 2);
-    const contact_sites *c = &s.c.sites;
+    const contact_set *c = &s.c.set;
     assert_int_equal(c->n, 8);
     for (dem_index k = 0; k < 4; k++) {
         assert_int_equal(c->list[k].node, k);
-        assert_false(site_is_edge(&c->list[k]));
+        assert_false(candidate_is_edge(&c->list[k]));
         assert_int_equal(c->of_node[k], k);
-        const contact_site *edge = &c->list[scene_edge(&s, k, (k + 1) % 4)];
+        const contact_candidate *edge = &c->list[scene_edge(&s, k, (k + 1) % 4)];
         assert_int_equal(edge->previous, (k + 3) % 4);
         assert_int_equal(edge->next, (k + 2) % 4);
     }
@@ -64,16 +64,16 @@ static void nodes_come_first_and_then_edges_that_know_their_neighbours(void **st
 static void edges_are_sites_only_where_there_are_vertices_and_if_asked_for(void **state)
 {
     scene flat, s;
-    contact without;
+    automaton without;
     (void)state;
     open_square(&flat, &plane, 1);
     open_square(&s, roofs, 2);
-    assert_int_equal(flat.c.sites.n, 4);
-    contact_rule rule = s.c.sites.scene.rule;
+    assert_int_equal(flat.c.set.n, 4);
+    contact_rule rule = s.c.set.scene.rule;
     rule.vertices = false;
-    assert_ok(contact_create(&without, s.model, &rule));
-    assert_int_equal(without.sites.n, 4);
-    contact_destroy(&without);
+    assert_ok(automaton_create(&without, s.model, &rule));
+    assert_int_equal(without.set.n, 4);
+    automaton_destroy(&without);
     scene_close(&flat);
     scene_close(&s);
 }
@@ -88,9 +88,9 @@ static void a_node_that_may_not_touch_has_no_site(void **state)
     support_lattice(&lattice, 2, x, masses, 1, (dem_index[]){0, 1}, 1.0, 1.0, fixed);
     scene_start(&s, &lattice, &plane, 1);
     dem_lattice_free(&lattice);
-    assert_int_equal(s.c.sites.n, 1);
-    assert_int_equal(s.c.sites.of_node[0], -1);
-    assert_int_equal(s.c.sites.of_node[1], 0);
+    assert_int_equal(s.c.set.n, 1);
+    assert_int_equal(s.c.set.of_node[0], -1);
+    assert_int_equal(s.c.set.of_node[1], 0);
     scene_close(&s);
 }
 
@@ -102,23 +102,23 @@ static void closing_appends_and_opening_keeps_the_other(void **state)
     (void)state;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
-    contact_site *edge = &s.c.sites.list[k];
-    edge->asleep = true;
+    contact_candidate *edge = &s.c.set.list[k];
+    edge->inactive = true;
     close_contact(&s, k, 0, 1);
-    assert_false(edge->asleep);
+    assert_false(edge->inactive);
     close_contact(&s, k, 1, -1);
     assert_int_equal(edge->n_closed, 2);
-    assert_int_equal(s.c.sites.reactions.n_groups, 1);
-    assert_ok(sites_open(&s.c.sites, k, 0));
+    assert_int_equal(s.c.set.forces.n_groups, 1);
+    assert_ok(contact_set_open(&s.c.set, k, 0));
     assert_int_equal(edge->n_closed, 1);
     assert_int_equal(edge->closed[0].feature, 1);
-    assert_int_equal(edge->closed[0].sign, -1);
-    assert_ok(sites_open(&s.c.sites, k, 0));
+    assert_int_equal(edge->closed[0].slide, -1);
+    assert_ok(contact_set_open(&s.c.set, k, 0));
     assert_int_equal(edge->n_closed, 0);
-    assert_int_equal(s.c.sites.reactions.n_groups, 0);
+    assert_int_equal(s.c.set.forces.n_groups, 0);
     close_contact(&s, k, 0, 1);
     close_contact(&s, k, 1, -1);
-    assert_ok(sites_open(&s.c.sites, k, 1));
+    assert_ok(contact_set_open(&s.c.set, k, 1));
     assert_int_equal(edge->n_closed, 1);
     assert_int_equal(edge->closed[0].feature, 0);
     scene_close(&s);
@@ -130,34 +130,34 @@ static void contacts_that_share_nodes_are_one_group(void **state)
     scene s;
     (void)state;
     open_square(&s, roofs, 2);
-    const contact_sites *c = &s.c.sites;
+    const contact_set *c = &s.c.set;
     const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2), high = scene_edge(&s, 2, 3);
     close_contact(&s, 0, 0, 1);
-    assert_false(sites_coupled(c, 0));
-    assert_true(sites_coupled(c, low)); /* though it is open itself */
-    assert_false(sites_coupled(c, right));
+    assert_false(contact_set_coupled(c, 0));
+    assert_true(contact_set_coupled(c, low)); /* though it is open itself */
+    assert_false(contact_set_coupled(c, right));
     close_contact(&s, low, 0, 1);
     close_contact(&s, high, 1, 1);
-    assert_int_equal(c->reactions.n_groups, 2);
-    assert_int_equal(c->reactions.group[0], c->reactions.group[low]);
-    assert_int_not_equal(c->reactions.group[high], c->reactions.group[low]);
-    assert_true(sites_coupled(c, 0));
-    assert_true(sites_coupled(c, 1)); /* a free node of a closed edge */
-    assert_true(sites_coupled(c, right));
-    assert_false(sites_coupled(c, high));
+    assert_int_equal(c->forces.n_groups, 2);
+    assert_int_equal(c->forces.group[0], c->forces.group[low]);
+    assert_int_not_equal(c->forces.group[high], c->forces.group[low]);
+    assert_true(contact_set_coupled(c, 0));
+    assert_true(contact_set_coupled(c, 1)); /* a free node of a closed edge */
+    assert_true(contact_set_coupled(c, right));
+    assert_false(contact_set_coupled(c, high));
     close_contact(&s, right, 1, 1);
-    assert_int_equal(c->reactions.n_groups, 1);
-    assert_int_equal(c->reactions.row[1] - c->reactions.row[0], 4);
-    assert_true(sites_coupled(c, high));
+    assert_int_equal(c->forces.n_groups, 1);
+    assert_int_equal(c->forces.row[1] - c->forces.row[0], 4);
+    assert_true(contact_set_coupled(c, high));
     scene_close(&s);
 }
 
 /* ---- corners ---- */
 
-static void check_touch(const contact_touch *touch, bool held, int sign)
+static void check_touch(const contact_point *point, bool held, int sign)
 {
-    assert_int_equal(touch->held, held);
-    assert_int_equal(touch->sign, sign);
+    assert_int_equal(point->held, held);
+    assert_int_equal(point->slide, sign);
 }
 
 /* One that stays when the other opens is at rest: with friction it sticks, without it slides. */
@@ -167,15 +167,15 @@ static void a_node_on_two_segments_is_held_by_both(void **state)
     for (int k = 0; k < 2; k++) {
         scene s;
         open_square(&s, k == 0 ? &groove : &rough_groove, 1);
-        contact_site *site = &s.c.sites.list[0];
+        contact_candidate *candidate = &s.c.set.list[0];
         close_contact(&s, 0, 0, k == 0 ? 1 : 0);
-        check_touch(&site->closed[0], false, k == 0 ? 1 : 0);
+        check_touch(&candidate->closed[0], false, k == 0 ? 1 : 0);
         close_contact(&s, 0, 1, -1);
-        check_touch(&site->closed[0], true, 1);
-        check_touch(&site->closed[1], true, 1);
-        assert_ok(sites_open(&s.c.sites, 0, 0));
-        assert_int_equal(site->closed[0].feature, 1);
-        check_touch(&site->closed[0], false, k == 0 ? 1 : 0);
+        check_touch(&candidate->closed[0], true, 1);
+        check_touch(&candidate->closed[1], true, 1);
+        assert_ok(contact_set_open(&s.c.set, 0, 0));
+        assert_int_equal(candidate->closed[0].feature, 1);
+        check_touch(&candidate->closed[0], false, k == 0 ? 1 : 0);
         scene_close(&s);
     }
 }
@@ -190,14 +190,14 @@ static void a_vertex_on_two_edges_that_meet_is_held_by_both(void **state)
         const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2);
         close_contact(&s, low, feature, -1);
         close_contact(&s, right, 1 - feature, 1);
-        check_touch(&s.c.sites.list[low].closed[0], false, -1); /* two different ones are no corner */
-        check_touch(&s.c.sites.list[right].closed[0], false, 1);
+        check_touch(&s.c.set.list[low].closed[0], false, -1); /* two different ones are no corner */
+        check_touch(&s.c.set.list[right].closed[0], false, 1);
         close_contact(&s, right, feature, -1);
-        check_touch(&s.c.sites.list[low].closed[0], true, 1);
-        check_touch(&s.c.sites.list[right].closed[0], false, 1);
-        check_touch(&s.c.sites.list[right].closed[1], true, 1);
-        assert_ok(sites_open(&s.c.sites, right, 1));
-        check_touch(&s.c.sites.list[low].closed[0], false, feature == 1 ? 0 : 1); /* the second roof is rough */
+        check_touch(&s.c.set.list[low].closed[0], true, 1);
+        check_touch(&s.c.set.list[right].closed[0], false, 1);
+        check_touch(&s.c.set.list[right].closed[1], true, 1);
+        assert_ok(contact_set_open(&s.c.set, right, 1));
+        check_touch(&s.c.set.list[low].closed[0], false, feature == 1 ? 0 : 1); /* the second roof is rough */
         scene_close(&s);
     }
 }
@@ -210,8 +210,8 @@ static void a_vertex_on_opposite_edges_is_not_held(void **state)
     const dem_index low = scene_edge(&s, 0, 1), high = scene_edge(&s, 2, 3);
     close_contact(&s, low, 0, 1);
     close_contact(&s, high, 0, 1);
-    check_touch(&s.c.sites.list[low].closed[0], false, 1);
-    check_touch(&s.c.sites.list[high].closed[0], false, 1);
+    check_touch(&s.c.set.list[low].closed[0], false, 1);
+    check_touch(&s.c.set.list[high].closed[0], false, 1);
     scene_close(&s);
 }
 
@@ -222,11 +222,11 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     scene s;
     (void)state;
     open_square(&s, roofs, 2);
-    contact_site *list = s.c.sites.list;
+    contact_candidate *list = s.c.set.list;
     const dem_index before = scene_edge(&s, 0, 1), after = scene_edge(&s, 1, 2), far = scene_edge(&s, 2, 3);
-    for (dem_index k = 0; k < s.c.sites.n; k++) list[k].asleep = true;
-    sites_go_behind(&s.c.sites, 1, 1);
-    assert_int_equal(s.c.sites.books.counts.behind, 1);
+    for (dem_index k = 0; k < s.c.set.n; k++) list[k].inactive = true;
+    contact_set_pass_behind(&s.c.set, 1, 1);
+    assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(list[1].behind[0], 1);
     assert_int_equal(list[before].behind[0], -1);
     assert_int_equal(list[before].behind[1], 1);
@@ -234,10 +234,10 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     assert_int_equal(list[after].behind[1], -1);
     assert_int_equal(list[far].behind[0], -1);
     assert_int_equal(list[far].behind[1], -1);
-    assert_false(list[1].asleep || list[before].asleep || list[after].asleep);
-    assert_true(list[far].asleep);
-    sites_go_behind(&s.c.sites, 1, -1);
-    assert_int_equal(s.c.sites.books.counts.behind, 0);
+    assert_false(list[1].inactive || list[before].inactive || list[after].inactive);
+    assert_true(list[far].inactive);
+    contact_set_pass_behind(&s.c.set, 1, -1);
+    assert_int_equal(s.c.set.ledger.counts.behind, 0);
     assert_int_equal(list[before].behind[1], -1);
     assert_int_equal(list[after].behind[0], -1);
     scene_close(&s);
@@ -258,11 +258,11 @@ static void a_move_books_the_energy_that_it_puts_in(void **state)
     dem_lattice_free(&lattice);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
-    s.c.sites.books.projection = 1.0;
-    sites_move(&s.c.sites, 1, (vec2){0.0, -0.25}, s.y);
+    s.c.set.ledger.projection = 1.0;
+    contact_set_move(&s.c.set, 1, (vec2){0.0, -0.25}, s.y);
     assert_close(s.y[2], 0.0, 0.0);
     assert_close(s.y[3], 1.25, 0.0);
-    assert_close(s.c.sites.books.projection, 1.0 - 5.0 - 9.375, 1e-13);
+    assert_close(s.c.set.ledger.projection, 1.0 - 5.0 - 9.375, 1e-13);
     scene_close(&s);
 }
 
@@ -277,14 +277,14 @@ static void the_force_on_a_contact_is_elastic_and_weight(void **state)
     support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
     scene_start(&s, &lattice, &plane, 1);
     dem_lattice_free(&lattice);
-    s.c.sites.scene.rule.load.gravity[0] = 0.5;
+    s.c.set.scene.rule.load.gravity[0] = 0.5;
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
     close_contact(&s, 0, 0, 1);
-    sites_weigh(&s.c.sites, 0, s.y, scene_v(&s));
-    const contact_touch *touch = &s.c.sites.list[0].closed[0];
-    assert_close(touch->force, 30.0 - 50.0, 1e-13);
-    assert_close(touch->friction, 0.0, 0.0);
+    contact_set_solve_forces(&s.c.set, 0, s.y, scene_v(&s));
+    const contact_point *point = &s.c.set.list[0].closed[0];
+    assert_close(point->force, 30.0 - 50.0, 1e-13);
+    assert_close(point->friction, 0.0, 0.0);
     scene_close(&s);
 }
 
@@ -302,10 +302,10 @@ static void a_sliding_edge_stores_force_and_friction(void **state)
         scene_put(&s, i, at.x + 1.0 - fraction, at.y, u, 0.0);
     }
     close_contact(&s, k, 1, -1);
-    sites_weigh(&s.c.sites, k, s.y, scene_v(&s));
-    const contact_touch *touch = &s.c.sites.list[k].closed[0];
-    assert_close(touch->force, g / W, 1e-13);
-    assert_close(touch->friction, 0.5 * g / W, 1e-13);
+    contact_set_solve_forces(&s.c.set, k, s.y, scene_v(&s));
+    const contact_point *point = &s.c.set.list[k].closed[0];
+    assert_close(point->force, g / W, 1e-13);
+    assert_close(point->friction, 0.5 * g / W, 1e-13);
     scene_close(&s);
 }
 
@@ -317,8 +317,8 @@ static void an_event_of_a_node_tells_where_it_is_and_how_it_moves(void **state)
     (void)state;
     open_square(&s, &rough_groove, 1);
     scene_put(&s, 2, 3.0, 3.0, 0.5, -0.25);
-    const contact_moment now = {.t = 0.5, .x = s.y, .v = scene_v(&s)};
-    dem_event event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_PASS, &now);
+    const contact_instant now = {.t = 0.5, .x = s.y, .v = scene_v(&s)};
+    dem_event event = contact_set_event(&s.c.set, 2, 1, DEM_EVENT_PASS, &now);
     assert_close(event.t, 0.5, 0.0);
     assert_int_equal(event.kind, DEM_EVENT_PASS);
     assert_int_equal(event.state, DEM_CONTACT_FREE);
@@ -331,13 +331,13 @@ static void an_event_of_a_node_tells_where_it_is_and_how_it_moves(void **state)
                                event.before[1], event.after[0], event.after[1],  event.weight,    event.energy};
     for (int k = 0; k < 10; k++) assert_close(actual[k], expected[k], 1e-15);
     close_contact(&s, 2, 1, 1);
-    event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_SLIP, &now);
+    event = contact_set_event(&s.c.set, 2, 1, DEM_EVENT_SLIP, &now);
     assert_int_equal(event.state, DEM_CONTACT_SLIP);
-    s.c.sites.list[2].closed[0].sign = 0;
-    event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_STICK, &now);
+    s.c.set.list[2].closed[0].slide = 0;
+    event = contact_set_event(&s.c.set, 2, 1, DEM_EVENT_STICK, &now);
     assert_int_equal(event.state, DEM_CONTACT_STICK);
     close_contact(&s, 2, 0, 1); /* held */
-    event = sites_event(&s.c.sites, 2, 1, DEM_EVENT_CLOSE, &now);
+    event = contact_set_event(&s.c.set, 2, 1, DEM_EVENT_CLOSE, &now);
     assert_int_equal(event.state, DEM_CONTACT_STICK);
     scene_close(&s);
 }
@@ -352,8 +352,8 @@ static void an_event_of_an_edge_tells_the_vertex_and_the_weight_of_its_second_no
     const dem_index k = scene_edge(&s, 0, 1);
     scene_put(&s, 0, 0.25, 0.0, 0.5, 0.0);
     scene_put(&s, 1, 1.25, 0.0, 0.5, -1.0);
-    const contact_moment now = {.t = 0.25, .x = s.y, .v = scene_v(&s)};
-    const dem_event event = sites_event(&s.c.sites, k, 1, DEM_EVENT_RELEASE, &now);
+    const contact_instant now = {.t = 0.25, .x = s.y, .v = scene_v(&s)};
+    const dem_event event = contact_set_event(&s.c.set, k, 1, DEM_EVENT_RELEASE, &now);
     assert_int_equal(event.node, 0);
     assert_int_equal(event.other, 1);
     assert_int_equal(event.obstacle, 1);

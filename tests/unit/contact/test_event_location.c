@@ -22,22 +22,22 @@ static void open_node(scene *s, double x, double y, double u, double v)
 {
     const double at[2] = {x, y};
     scene_open(s, 1, at, masses, 0, NULL, &plane, 1);
-    s->c.sites.scene.rule.skin = skin;
+    s->c.set.scene.rule.skin = skin;
     s->y[2] = u;
     s->y[3] = v;
 }
 
 static double crossing(const scene *s, dem_index k, const dense_output *p)
 {
-    return search_crossing(&s->c.sites.scene, &s->c.sites.list[k], p, p->t0);
+    return event_location_crossing(&s->c.set.scene, &s->c.set.list[k], p, p->t0);
 }
 
 static void times_are_located_to_a_hundred_units_of_rounding(void **state)
 {
     const dense_output p = {.t0 = -3.0, .t1 = -2.5}, q = {.t0 = 6.0, .t1 = 8.0};
     (void)state;
-    assert_close(search_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
-    assert_close(search_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
+    assert_close(event_location_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
+    assert_close(event_location_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
 }
 
 /* ---- a free node ---- */
@@ -118,10 +118,10 @@ static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **st
     scene_flight f;
     (void)state;
     scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
-    s.c.sites.scene.rule.skin = skin;
+    s.c.set.scene.rule.skin = skin;
     scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
-    s.c.sites.list[0].clear = 0.05;
-    s.c.sites.list[0].clear_at[0] = vec2_at(at, 0);
+    s.c.set.list[0].clear = 0.05;
+    s.c.set.list[0].clear_at[0] = vec2_at(at, 0);
     scene_fly(&s, nothing, 0.0, 1.0, &f);
     assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * skin, 1e-13);
     scene_close(&s);
@@ -136,7 +136,7 @@ static void a_plate_between_two_ends_that_recede_is_found(void **state)
     scene_flight f;
     (void)state;
     scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
-    s.c.sites.scene.rule.skin = skin;
+    s.c.set.scene.rule.skin = skin;
     scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
     scene_fly(&s, nothing, 0.0, 0.5, &f);
     assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + skin), 1e-13);
@@ -160,7 +160,7 @@ static void a_site_out_of_reach_never_crosses(void **state)
 static dem_index open_edge(scene *s, double y)
 {
     scene_open_triangle(s, masses, -1.5, y, &roof, 1);
-    s->c.sites.scene.rule.skin = skin;
+    s->c.set.scene.rule.skin = skin;
     return scene_edge(s, 0, 1);
 }
 
@@ -216,7 +216,7 @@ static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(voi
     scene_flight f;
     (void)state;
     scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
-    s.c.sites.scene.rule.skin = skin;
+    s.c.set.scene.rule.skin = skin;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
     scene_fly(&s, nothing, 0.0, 1.0, &f);
     assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + skin, 1e-13);
@@ -232,7 +232,7 @@ static void a_dip_at_one_end_of_a_turning_edge_is_found(void **state)
     scene_flight f;
     (void)state;
     scene_open_triangle(&s, masses, -1.8, low - depth, &roof, 1);
-    s.c.sites.scene.rule.skin = skin;
+    s.c.set.scene.rule.skin = skin;
     scene_put(&s, 1, 0.2, low - depth, 0.0, -a * b);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 8.0 * 0.036, &f); /* samples at 0.072 and 0.108 */
     const double found = crossing(&s, scene_edge(&s, 0, 1), &f.path);
@@ -247,21 +247,21 @@ static double first_due(scene *s, dem_index k, scene_flight *f)
 {
     double y[4 * SCENE_NODES];
     const double *v = y + 2 * s->model->lattice.n_nodes;
-    reactions *r = &s->c.sites.reactions;
-    assert_ok(sites_regroup(&s->c.sites));
-    const double found = search_due(r, &s->c.sites.list[k], &f->path, f->path.t0, f->scratch);
+    contact_forces *r = &s->c.set.forces;
+    assert_ok(contact_set_regroup(&s->c.set));
+    const double found = event_location_change(r, &s->c.set.list[k], &f->path, f->path.t0, f->scratch);
     for (int after = 0; after < 2; after++) { /* due there, and not a little before */
-        dense_output_state(&f->path, found - (1 - after) * 4.0 * search_resolution(&f->path), y);
-        reactions_solve(r, r->group[k], y, v);
-        assert_int_equal(site_due(&s->c.sites.scene, &s->c.sites.list[k], r->force[k], y, v), after);
+        dense_output_state(&f->path, found - (1 - after) * 4.0 * event_location_resolution(&f->path), y);
+        contact_forces_solve(r, r->group[k], y, v);
+        assert_int_equal(candidate_due(&s->c.set.scene, &s->c.set.list[k], r->force[k], y, v), after);
     }
     return found;
 }
 
 static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
 {
-    contact_site *site = &s->c.sites.list[k];
-    site->closed[site->n_closed++] = (contact_touch){.feature = feature, .sign = sign};
+    contact_candidate *candidate = &s->c.set.list[k];
+    candidate->closed[candidate->n_closed++] = (contact_point){.feature = feature, .slide = sign};
 }
 
 /* Slides from x = 3 with 2 m/s: beyond the end by the skin after half a second and the time for that. */
@@ -299,14 +299,14 @@ static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **
     scene_flight f;
     (void)state;
     scene_open_triangle(&s, masses, -1.5, 0.0, roof_and_ledge, 2);
-    s.c.sites.scene.rule.skin = skin;
+    s.c.set.scene.rule.skin = skin;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, 0.0});
     const dem_index k = scene_edge(&s, 0, 1);
     close_contact(&s, 0, 2, 1);
     close_contact(&s, k, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.35, &f);
     assert_close(first_due(&s, 0, &f), 1.25, 200.0 * DBL_EPSILON * 1.7);
-    assert_int_equal(s.c.sites.reactions.group[0], s.c.sites.reactions.group[k]);
+    assert_int_equal(s.c.set.forces.group[0], s.c.set.forces.group[k]);
     scene_close(&s);
 }
 
@@ -324,10 +324,10 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
     scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
     scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
     close_contact(&s, scene_edge(&s, 0, 1), 0, 1);
-    assert_ok(sites_regroup(&s.c.sites));
+    assert_ok(contact_set_regroup(&s.c.set));
     dense_output_state(&f.path, 0.3, y);
     for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
-    search_state(&s.c.sites.reactions, 0, &f.path, 0.3, f.scratch);
+    event_location_state(&s.c.set.forces, 0, &f.path, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);
     scene_close(&s);
 }

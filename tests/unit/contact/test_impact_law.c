@@ -35,7 +35,7 @@ static impact_surface rough(vec2 normal, double restitution, double friction, de
 static vec2 rebound(const impact_surface *surface, int n, vec2 v)
 {
     vec2 kick[2] = {{77.0, 77.0}, {0.0, 0.0}};
-    const vec2 after = impact_rebound(surface, n, v, kick);
+    const vec2 after = impact_law_rebound(surface, n, v, kick);
     const double corner = n == 2 ? fabs(vec2_cross(surface[0].normal, surface[1].normal)) : 1.0;
     const vec2 sum = vec2_add(kick[0], n == 2 ? kick[1] : (vec2){0.0, 0.0});
     check_vector(sum, after.x - v.x, after.y - v.y, 1e-14 / corner);
@@ -82,11 +82,11 @@ static void hops_kept_up_by_the_depth_of_impacts_reach_their_height(void **state
             speed = rebound(&level, 1, (vec2){0.0, -arrives}).y;
         }
         /* rounding of heights up to 4 m, kept up by 1/(1 - eta^2) */
-        assert_close(impact_kept_up(&level), 0.5 * speed * speed, 1e-14);
+        assert_close(impact_law_kept_up(&level), 0.5 * speed * speed, 1e-14);
     }
     const impact_surface springy = smooth(0.0, 1.0, 0.995), elastic = smooth(0.0, 1.0, 1.0);
-    assert_close(impact_kept_up(&springy), 50.0, 0.0);
-    assert_close(impact_kept_up(&elastic), 0.0, 0.0);
+    assert_close(impact_law_kept_up(&springy), 50.0, 0.0);
+    assert_close(impact_law_kept_up(&elastic), 0.0, 0.0);
 }
 
 /* ---- two surfaces ---- */
@@ -173,16 +173,16 @@ static void in_a_corner_friction_acts_where_one_wall_acts_alone(void **state)
     vec2 kick[2];
     (void)state;
     /* rounding of velocities of order 1 in all */
-    check_vector(impact_rebound(walls, 2, (vec2){-1.0, -2.0}, kick), -0.7, 1.0, 1e-15); /* 0.1 of 3 m/s */
+    check_vector(impact_law_rebound(walls, 2, (vec2){-1.0, -2.0}, kick), -0.7, 1.0, 1e-15); /* 0.1 of 3 m/s */
     check_vector(kick[0], 0.3, 3.0, 1e-15);
     check_vector(kick[1], 0.0, 0.0, 0.0);
-    check_vector(impact_rebound(walls, 2, (vec2){2.0, 1.0}, kick), -0.5, 0.6, 1e-15);
+    check_vector(impact_law_rebound(walls, 2, (vec2){2.0, 1.0}, kick), -0.5, 0.6, 1e-15);
     check_vector(kick[0], 0.0, 0.0, 0.0);
     check_vector(kick[1], -2.5, -0.4, 1e-15);
-    check_vector(impact_rebound(walls, 2, (vec2){2.0, -4.0}, kick), -0.5, 2.0, 0.0);
+    check_vector(impact_law_rebound(walls, 2, (vec2){2.0, -4.0}, kick), -0.5, 2.0, 0.0);
     check_vector(kick[0], 0.0, 6.0, 0.0);
     check_vector(kick[1], -2.5, 0.0, 0.0);
-    check_vector(impact_rebound(walls, 2, (vec2){-2.0, 4.0}, kick), -2.0, 4.0, 0.0);
+    check_vector(impact_law_rebound(walls, 2, (vec2){-2.0, 4.0}, kick), -2.0, 4.0, 0.0);
     check_vector(kick[0], 0.0, 0.0, 0.0);
     check_vector(kick[1], 0.0, 0.0, 0.0);
 }
@@ -196,7 +196,7 @@ static void the_kicks_of_an_acute_corner_have_the_smaller_restitution(void **sta
     vec2 kick[2];
     (void)state;
     /* rounding of velocities of order 1 over the sine of the corner, 0.39 */
-    check_vector(impact_rebound(wedge, 2, v, kick), -0.25 * v.x, -0.25 * v.y, 1e-14);
+    check_vector(impact_law_rebound(wedge, 2, v, kick), -0.25 * v.x, -0.25 * v.y, 1e-14);
     check_vector(kick[0], 2.5 * n[0].x, 2.5 * n[0].y, 1e-14);
     check_vector(kick[1], 3.75 * n[1].x, 3.75 * n[1].y, 1e-14);
 }
@@ -328,8 +328,8 @@ static void exchanging_the_walls_exchanges_the_kicks(void **state)
         sweep_next(&w);
         sweep_friction(&w);
         const impact_surface reverse[2] = {w.s[1], w.s[0]};
-        const vec2 after = impact_rebound(w.s, 2, w.v, kick);
-        check_vector(impact_rebound(reverse, 2, w.v, other), after.x, after.y, swept_tolerance);
+        const vec2 after = impact_law_rebound(w.s, 2, w.v, kick);
+        check_vector(impact_law_rebound(reverse, 2, w.v, other), after.x, after.y, swept_tolerance);
         for (int q = 0; q < 2; q++) check_vector(other[q], kick[1 - q].x, kick[1 - q].y, swept_tolerance);
     }
     gsl_rng_free(w.rng);
@@ -356,11 +356,11 @@ static void a_surface_holds_what_presses_on_it(void **state)
     const impact_surface level = smooth(0.0, 1.0, 0.5);
     double reaction[2] = {77.0, 77.0};
     (void)state;
-    assert_int_equal(impact_holding(&level, 1, (vec2){3.0, -4.0}, reaction), 1);
+    assert_int_equal(impact_law_holding(&level, 1, (vec2){3.0, -4.0}, reaction), 1);
     assert_close(reaction[0], 4.0, 0.0);
-    assert_int_equal(impact_holding(&level, 1, (vec2){3.0, 4.0}, reaction), 0);
+    assert_int_equal(impact_law_holding(&level, 1, (vec2){3.0, 4.0}, reaction), 0);
     assert_close(reaction[0], 0.0, 0.0);
-    assert_int_equal(impact_holding(&level, 1, (vec2){3.0, 0.0}, reaction), 0);
+    assert_int_equal(impact_law_holding(&level, 1, (vec2){3.0, 0.0}, reaction), 0);
 }
 
 static void the_walls_of_a_corner_hold_together_or_alone(void **state)
@@ -368,14 +368,14 @@ static void the_walls_of_a_corner_hold_together_or_alone(void **state)
     const impact_surface walls[2] = {smooth(0.0, 1.0, 0.5), smooth(-1.0, 0.0, 0.25)};
     double reaction[2];
     (void)state;
-    assert_int_equal(impact_holding(walls, 2, (vec2){2.0, -4.0}, reaction), 3);
+    assert_int_equal(impact_law_holding(walls, 2, (vec2){2.0, -4.0}, reaction), 3);
     assert_close(reaction[0], 4.0, 0.0);
     assert_close(reaction[1], 2.0, 0.0);
-    assert_int_equal(impact_holding(walls, 2, (vec2){-2.0, -4.0}, reaction), 1);
-    assert_int_equal(impact_holding(walls, 2, (vec2){2.0, 4.0}, reaction), 2);
+    assert_int_equal(impact_law_holding(walls, 2, (vec2){-2.0, -4.0}, reaction), 1);
+    assert_int_equal(impact_law_holding(walls, 2, (vec2){2.0, 4.0}, reaction), 2);
     assert_close(reaction[0], 0.0, 0.0);
     assert_close(reaction[1], 2.0, 0.0);
-    assert_int_equal(impact_holding(walls, 2, (vec2){-2.0, 4.0}, reaction), 0);
+    assert_int_equal(impact_law_holding(walls, 2, (vec2){-2.0, 4.0}, reaction), 0);
 }
 
 /* Complementarity: no reaction pulls, what is left does not press inwards, and a wall that reacts has nothing left
@@ -388,7 +388,7 @@ static void reactions_and_what_is_left_are_complementary(void **state)
     for (int k = 0; k < 20000; k++) {
         double reaction[2];
         sweep_next(&w);
-        const int holding = impact_holding(w.s, 2, w.v, reaction);
+        const int holding = impact_law_holding(w.s, 2, w.v, reaction);
         const vec2 left = vec2_along(vec2_along(w.v, reaction[0], w.s[0].normal), reaction[1], w.s[1].normal);
         n_of[holding]++;
         for (int q = 0; q < 2; q++) {

@@ -21,17 +21,17 @@ static dem_obstacle obstacle(dem_index n_points, const double *points, double et
                           .friction_law = DEM_FRICTION_COULOMB};
 }
 
-static contact_moment moment(scene *s, contact_listener *listener)
+static contact_instant moment(scene *s, event_listener *listener)
 {
-    *listener = (contact_listener){scene_note, s};
-    return (contact_moment){.t = 0.5, .x = s->y, .v = scene_v(s), .listener = listener};
+    *listener = (event_listener){scene_note, s};
+    return (contact_instant){.t = 0.5, .x = s->y, .v = scene_v(s), .listener = listener};
 }
 
 static void hit(scene *s, dem_index k, dem_index n, dem_index first, dem_index second)
 {
-    contact_listener listener;
-    contact_moment now = moment(s, &listener);
-    assert_ok(strike(&s->c.sites, k, (contact_hit){(int)n, {first, second}}, &now));
+    event_listener listener;
+    contact_instant now = moment(s, &listener);
+    assert_ok(impact_solve(&s->c.set, k, (impact_target){(int)n, {first, second}}, &now));
 }
 
 static vec2 velocity(scene *s, dem_index i)
@@ -87,9 +87,9 @@ static void coulomb_friction_takes_at_most_its_share_of_the_normal_impulse(void 
         assert_close(s.events[0].impulse[0], 2.0 * (after[k] - u[k]), 1e-15);
         assert_close(s.events[0].impulse[1], 12.0, 1e-15);
         assert_close(s.events[0].energy, u[k] * u[k] + 16.0 - after[k] * after[k] - 4.0, 1e-14);
-        assert_close(s.c.sites.books.friction_impulse[0], 2.0 * (after[k] - u[k]), 1e-15);
-        assert_close(s.c.sites.books.friction_impulse[1], 0.0, 1e-15);
-        assert_close(s.c.sites.books.impact, s.events[0].energy, 0.0);
+        assert_close(s.c.set.ledger.friction_impulse[0], 2.0 * (after[k] - u[k]), 1e-15);
+        assert_close(s.c.set.ledger.friction_impulse[1], 0.0, 1e-15);
+        assert_close(s.c.set.ledger.impact, s.events[0].energy, 0.0);
         scene_close(&s);
     }
 }
@@ -106,9 +106,9 @@ static void a_plastic_impact_closes_a_contact_that_slides_or_sticks(void **state
         open_node(&s, &rough, 1, u[k], -4.0);
         hit(&s, 0, 1, 0, 0);
         scene_check(&s, 0, 0.25, 0.0, after[k], 0.0);
-        assert_int_equal(s.c.sites.list[0].n_closed, 1);
-        assert_int_equal(s.c.sites.list[0].closed[0].sign, sign[k]);
-        assert_int_equal(s.c.sites.books.counts.closings, 1);
+        assert_int_equal(s.c.set.list[0].n_closed, 1);
+        assert_int_equal(s.c.set.list[0].closed[0].slide, sign[k]);
+        assert_int_equal(s.c.set.ledger.counts.closings, 1);
         assert_int_equal(s.n_events, 1);
         assert_int_equal(s.events[0].state, sign[k] == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
         scene_close(&s);
@@ -122,11 +122,11 @@ static void what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_giv
     scene s;
     (void)state;
     open_node(&s, &rough, 1, 3.0, -4.0);
-    s.c.sites.scene.rule.rest_speed = 10.0;
+    s.c.set.scene.rule.rest_speed = 10.0;
     hit(&s, 0, 1, 0, 0);
     scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
-    assert_int_equal(s.c.sites.list[0].n_closed, 1);
-    check_vec(vec2_at(s.c.sites.books.impulse, 0), -2.0, 8.0, 1e-14);
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    check_vec(vec2_at(s.c.set.ledger.impulse, 0), -2.0, 8.0, 1e-14);
     scene_close(&s);
 }
 
@@ -140,11 +140,11 @@ static void a_hop_of_less_than_twice_the_window_is_rest(void **state)
         const bool rests = k % 2 == 0;
         scene s;
         open_node(&s, &smooth, 1, 0.0, rests ? -0.0198 : -0.0202);
-        s.c.sites.scene.rule.window = 1e-3;
-        s.c.sites.scene.rule.rest_speed = k < 2 ? 0.0 : 1e-3;
+        s.c.set.scene.rule.window = 1e-3;
+        s.c.set.scene.rule.rest_speed = k < 2 ? 0.0 : 1e-3;
         hit(&s, 0, 1, 0, 0);
         scene_check(&s, 0, 0.25, 0.0, 0.0, rests ? 0.0 : 0.0101);
-        assert_int_equal(s.c.sites.list[0].n_closed, rests);
+        assert_int_equal(s.c.set.list[0].n_closed, rests);
         scene_close(&s);
     }
 }
@@ -161,8 +161,8 @@ static void a_node_that_is_laid_down_closes_without_an_impact(void **state)
     assert_int_equal(s.n_events, 1);
     assert_int_equal(s.events[0].kind, DEM_EVENT_CLOSE);
     assert_int_equal(s.events[0].state, DEM_CONTACT_SLIP);
-    assert_int_equal(s.c.sites.books.counts.impacts, 0);
-    assert_int_equal(s.c.sites.books.counts.closings, 1);
+    assert_int_equal(s.c.set.ledger.counts.impacts, 0);
+    assert_int_equal(s.c.set.ledger.counts.closings, 1);
     scene_close(&s);
 }
 
@@ -175,14 +175,14 @@ static void a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it(voi
     for (int k = 0; k < 2; k++) {
         scene s;
         open_node(&s, corner, 2, 3.0, -4.0);
-        s.c.sites.scene.rule.load.gravity[0] = k == 0 ? 1.0 : 0.0;
+        s.c.set.scene.rule.load.gravity[0] = k == 0 ? 1.0 : 0.0;
         scene_put(&s, 0, 2.0 + 0.5 * skin, -0.5 * skin, 3.0, -4.0);
         hit(&s, 0, 2, 0, 1);
         scene_check(&s, 0, 2.0, 0.0, 0.0, 0.0);
-        assert_int_equal(s.c.sites.list[0].n_closed, k == 0 ? 2 : 1);
-        assert_int_equal(s.c.sites.list[0].closed[0].held, k == 0);
-        assert_close(s.c.sites.books.impulse[1], 8.0, 1e-15);
-        assert_close(s.c.sites.books.impulse[2], -6.0, 1e-15);
+        assert_int_equal(s.c.set.list[0].n_closed, k == 0 ? 2 : 1);
+        assert_int_equal(s.c.set.list[0].closed[0].held, k == 0);
+        assert_close(s.c.set.ledger.impulse[1], 8.0, 1e-15);
+        assert_close(s.c.set.ledger.impulse[2], -6.0, 1e-15);
         scene_close(&s);
     }
 }
@@ -196,13 +196,13 @@ static void what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a
     const int n[5] = {1, 2, 2, 1, 1};
     const dem_index first[5] = {1, 1, 2, 0, 1}; /* speeds -v.n at 0: (u/4 + 1)/1.03 of the slope and 1 of the level */
     scene s;
-    contact_listener listener;
+    event_listener listener;
     (void)state;
     open_node(&s, &bent, 1, 0.0, 0.0);
     for (int k = 0; k < 5; k++) {
         scene_put(&s, 0, x[k], -0.5 * skin, u[k], -1.0);
-        const contact_moment now = moment(&s, &listener);
-        const contact_hit met = strike_met(&s.c.sites, 0, &now);
+        const contact_instant now = moment(&s, &listener);
+        const impact_target met = impact_target_of_node(&s.c.set, 0, &now);
         assert_int_equal(met.n, n[k]);
         assert_int_equal(met.feature[0], first[k]);
         if (n[k] == 2) assert_int_equal(met.feature[1], 3 - first[k]);
@@ -219,12 +219,12 @@ static void neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross
     scene s;
     (void)state;
     open_node(&s, three, 3, 0.0, 0.0);
-    const contact_sites *c = &s.c.sites;
-    assert_true(strike_corner(c, 0, 1, (vec2){3.9 * skin, 0.0}, skin));
-    assert_false(strike_corner(c, 0, 1, (vec2){4.1 * skin, 0.0}, skin));
-    assert_true(strike_corner(c, 1, 2, (vec2){2.0, 0.0}, skin));
-    assert_true(strike_corner(c, 2, 1, (vec2){2.0, 0.0}, skin));
-    assert_false(strike_corner(c, 1, 3, (vec2){1.0, 0.0}, skin));
+    const contact_set *c = &s.c.set;
+    assert_true(impact_is_corner(c, 0, 1, (vec2){3.9 * skin, 0.0}, skin));
+    assert_false(impact_is_corner(c, 0, 1, (vec2){4.1 * skin, 0.0}, skin));
+    assert_true(impact_is_corner(c, 1, 2, (vec2){2.0, 0.0}, skin));
+    assert_true(impact_is_corner(c, 2, 1, (vec2){2.0, 0.0}, skin));
+    assert_false(impact_is_corner(c, 1, 3, (vec2){1.0, 0.0}, skin));
     scene_close(&s);
 }
 
@@ -234,14 +234,14 @@ static void an_impact_can_be_as_deep_as_events_are_located(void **state)
     const double located = 1000.0 * DBL_EPSILON * 0.51;
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     scene s;
-    contact_listener listener;
+    event_listener listener;
     (void)state;
     scene_open_triangle(&s, masses, -0.5, 0.0, &roof, 1);
     scene_put(&s, 0, -0.5, 0.0, 3e6, -4e6);
     scene_put(&s, 1, 1.5, 0.0, 6e6, 8e6);
-    const contact_moment now = moment(&s, &listener);
-    assert_close(strike_depth(&s.c.sites, 0, &now), 2.0 * skin + 5e6 * located, 1e-19);
-    assert_close(strike_depth(&s.c.sites, scene_edge(&s, 0, 1), &now), 2.0 * skin + 1e7 * located, 1e-19);
+    const contact_instant now = moment(&s, &listener);
+    assert_close(impact_depth(&s.c.set, 0, &now), 2.0 * skin + 5e6 * located, 1e-19);
+    assert_close(impact_depth(&s.c.set, scene_edge(&s, 0, 1), &now), 2.0 * skin + 1e7 * located, 1e-19);
     scene_close(&s);
 }
 
@@ -290,10 +290,10 @@ static void an_edge_on_a_vertex_shares_its_impulse_by_the_place(void **state)
         check_vec(vec2_at(s.events[0].after, 0), 0.5, -0.5 * vn, 1e-14);
         assert_close(s.events[0].weight, q, 1e-15);
         assert_close(s.events[0].energy, before - kinetic(&s), 1e-13);
-        assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-13);
-        check_vec(vec2_at(s.c.sites.books.impulse, 0), 0.0, J, 1e-14);
-        assert_int_equal(s.c.sites.books.counts.vertex_impacts, 1);
-        assert_int_equal(s.c.sites.list[edge].n_closed, 0);
+        assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-13);
+        check_vec(vec2_at(s.c.set.ledger.impulse, 0), 0.0, J, 1e-14);
+        assert_int_equal(s.c.set.ledger.counts.vertex_impacts, 1);
+        assert_int_equal(s.c.set.list[edge].n_closed, 0);
         scene_close(&s);
     }
 }
@@ -319,10 +319,10 @@ static void friction_on_a_vertex_has_coulombs_limit(void **state)
         check_vec(velocity(&s, 0), v0.x, v0.y, 1e-14);
         check_vec(velocity(&s, 1), v1.x, v1.y, 1e-14);
         check_vec(vec2_sub(momentum(&s), p), impulse.x, impulse.y, 1e-12);
-        check_vec(vec2_at(s.c.sites.books.impulse, 0), impulse.x, impulse.y, 1e-14);
-        check_vec(vec2_at(s.c.sites.books.friction_impulse, 0), Jt * t.x, Jt * t.y, 1e-14);
-        assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-13);
-        assert_true(s.c.sites.books.impact > 0.0);
+        check_vec(vec2_at(s.c.set.ledger.impulse, 0), impulse.x, impulse.y, 1e-14);
+        check_vec(vec2_at(s.c.set.ledger.friction_impulse, 0), Jt * t.x, Jt * t.y, 1e-14);
+        assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-13);
+        assert_true(s.c.set.ledger.impact > 0.0);
         scene_close(&s);
     }
 }
@@ -355,18 +355,18 @@ static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
         const dem_index edge = open_edge(&s, &roof, q, 0.0);
         for (dem_index i = 0; i < 3; i++) scene_put(&s, i, s.y[2 * i], s.y[2 * i + 1] - skin, -0.5, -1.0);
         hit(&s, edge, 1, 0, 0);
-        const contact_touch *touch = &s.c.sites.list[edge].closed[0];
+        const contact_point *point = &s.c.set.list[edge].closed[0];
         assert_close(s.y[1], skin * (0.75 / W - 1.0), 1e-17);
         assert_close(s.y[3], skin * (0.25 / 3.0 / W - 1.0), 1e-17);
-        const touch_frame f = touch_frame_at(&s.c.sites.scene, &s.c.sites.list[edge], 0, s.y, scene_v(&s));
+        const contact_frame f = contact_frame_at(&s.c.set.scene, &s.c.set.list[edge], 0, s.y, scene_v(&s));
         const double slid = vec2_dot((vec2){-0.5, -1.0}, f.tangent); /* the lift has turned it a little */
         assert_close(f.gap, 0.0, 1e-17);
         assert_close(vec2_dot(f.velocity, f.normal), 0.0, 1e-15);
         assert_close(vec2_dot(f.velocity, f.tangent), k == 0 ? slid : 0.0, 1e-15);
-        assert_int_equal(s.c.sites.list[edge].n_closed, 1);
-        assert_int_equal(touch->sign, k == 0 ? -1 : 0);
-        if (k == 1) assert_close(touch->place, q, 1e-12);
-        assert_int_equal(s.c.sites.books.counts.closings, 1);
+        assert_int_equal(s.c.set.list[edge].n_closed, 1);
+        assert_int_equal(point->slide, k == 0 ? -1 : 0);
+        if (k == 1) assert_close(point->place, q, 1e-12);
+        assert_int_equal(s.c.set.ledger.counts.closings, 1);
         assert_int_equal(s.events[0].state, k == 0 ? DEM_CONTACT_SLIP : DEM_CONTACT_STICK);
         scene_close(&s);
     }
@@ -380,15 +380,15 @@ static void what_closes_on_a_vertex_has_not_rebounded(void **state)
     scene s;
     (void)state;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
-    s.c.sites.scene.rule.rest_speed = 10.0;
+    s.c.set.scene.rule.rest_speed = 10.0;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
     const double before = kinetic(&s);
     hit(&s, edge, 1, 0, 0);
     check_vec(velocity(&s, 0), 2.0 - 0.75 * 0.25 * J, -1.0 + 0.75 * J, 1e-13);
     check_vec(velocity(&s, 1), 2.0 - 0.25 * 0.25 * J / 3.0, -1.0 + 0.25 * J / 3.0, 1e-13);
-    check_vec(vec2_at(s.c.sites.books.impulse, 0), -0.25 * J, J, 1e-13);
-    assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-13);
-    assert_int_equal(s.c.sites.list[edge].n_closed, 1);
+    check_vec(vec2_at(s.c.set.ledger.impulse, 0), -0.25 * J, J, 1e-13);
+    assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-13);
+    assert_int_equal(s.c.set.list[edge].n_closed, 1);
     assert_int_equal(s.n_impacts, 1);
     scene_close(&s);
 }
@@ -402,10 +402,10 @@ static void a_turning_edge_that_slides_towards_the_vertex_stays_on_it(void **sta
     for (int k = 0; k < 2; k++) {
         scene s;
         const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
-        s.c.sites.scene.rule.load.gravity[1] = 0.0;
+        s.c.set.scene.rule.load.gravity[1] = 0.0;
         for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){k == 0 ? -0.9 : 0.9, -1.0});
         hit(&s, edge, 1, 0, 0);
-        assert_int_equal(s.c.sites.list[edge].n_closed, k == 0);
+        assert_int_equal(s.c.set.list[edge].n_closed, k == 0);
         scene_close(&s);
     }
 }
@@ -418,10 +418,10 @@ static dem_index open_clamp(scene *s, double fraction, double eta, double mu)
     static const double plate_points[4] = {8.0, 0.0, -8.0, 0.0}; /* faces down */
     const dem_obstacle clamp[2] = {obstacle(3, roof_points, eta, mu), obstacle(2, plate_points, eta, mu)};
     scene_open_triangle(s, masses, -2.0 * fraction, 0.0, clamp, 2);
-    s->c.sites.scene.rule.load.gravity[1] = 0.0;
+    s->c.set.scene.rule.load.gravity[1] = 0.0;
     vec2_put(scene_v(s), 1, (vec2){0.0, -1.0});
     vec2_put(scene_v(s), 2, (vec2){0.0, -1.0});
-    assert_ok(sites_close(&s->c.sites, 0, (contact_touch){.feature = 2, .sign = 1}));
+    assert_ok(contact_set_close(&s->c.set, 0, (contact_point){.feature = 2, .slide = 1}));
     return scene_edge(s, 0, 1);
 }
 
@@ -439,9 +439,9 @@ static void a_plastic_group_stops_what_approaches(void **state)
         check_vec(velocity(&s, 0), 0.0, 0.0, 1e-10); /* sweeps end at 1e-11 of 1 m/s at the point */
         check_vec(velocity(&s, 1), 0.0, 0.0, 1e-10);
         check_vec(velocity(&s, 2), 0.0, -1.0, 0.0);
-        check_vec(vec2_at(s.c.sites.books.impulse, 0), 0.0, J, 1e-9);
-        check_vec(vec2_at(s.c.sites.books.impulse, 1), 0.0, -(1.0 - fraction[k]) * J, 1e-9);
-        assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-12);
+        check_vec(vec2_at(s.c.set.ledger.impulse, 0), 0.0, J, 1e-9);
+        check_vec(vec2_at(s.c.set.ledger.impulse, 1), 0.0, -(1.0 - fraction[k]) * J, 1e-9);
+        assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-12);
         assert_int_equal(s.n_impacts, 2); /* both struck, the node first */
         assert_int_equal(s.impacts[0].other, -1);
         assert_int_equal(s.impacts[1].other, 1);
@@ -461,10 +461,10 @@ static void an_elastic_group_keeps_its_energy_and_leaves_no_approach(void **stat
         const vec2 p = momentum(&s);
         hit(&s, edge, 1, 0, 0);
         assert_close(kinetic(&s), before, 1e-12);
-        assert_close(s.c.sites.books.impact, 0.0, 1e-12);
+        assert_close(s.c.set.ledger.impact, 0.0, 1e-12);
         assert_true(velocity(&s, 0).y <= 1e-11);
         assert_true((1.0 - q) * velocity(&s, 0).y + q * velocity(&s, 1).y >= -1e-11);
-        const vec2 given = vec2_add(vec2_at(s.c.sites.books.impulse, 0), vec2_at(s.c.sites.books.impulse, 1));
+        const vec2 given = vec2_add(vec2_at(s.c.set.ledger.impulse, 0), vec2_at(s.c.set.ledger.impulse, 1));
         check_vec(vec2_sub(momentum(&s), p), given.x, given.y, 1e-12);
         scene_close(&s);
     }
@@ -480,11 +480,11 @@ static void a_group_with_friction_books_what_it_loses(void **state)
     const double before = kinetic(&s);
     const vec2 p = momentum(&s);
     hit(&s, edge, 1, 0, 0);
-    const vec2 given = vec2_add(vec2_at(s.c.sites.books.impulse, 0), vec2_at(s.c.sites.books.impulse, 1));
+    const vec2 given = vec2_add(vec2_at(s.c.set.ledger.impulse, 0), vec2_at(s.c.set.ledger.impulse, 1));
     check_vec(vec2_sub(momentum(&s), p), given.x, given.y, 1e-12);
     assert_true(given.x < -0.01);
-    assert_true(s.c.sites.books.impact > 0.01);
-    assert_close(s.c.sites.books.impact, before - kinetic(&s), 1e-12);
+    assert_true(s.c.set.ledger.impact > 0.01);
+    assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-12);
     assert_true(velocity(&s, 0).y <= 1e-11 && 0.4 * velocity(&s, 0).y + 0.6 * velocity(&s, 1).y >= -1e-11);
     scene_close(&s);
 }
@@ -500,20 +500,20 @@ static void a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it(void **state)
     scene_open_triangle(&s, masses, -1.5, 0.0, both, 2);
     scene_put(&s, 0, -1.5, 0.3 * skin, 0.5, 0.0);
     scene_put(&s, 1, 0.5, -1.5 * skin, 0.5, -1.0);
-    assert_ok(sites_close(&s.c.sites, 0, (contact_touch){.feature = 2, .sign = 1}));
+    assert_ok(contact_set_close(&s.c.set, 0, (contact_point){.feature = 2, .slide = 1}));
     hit(&s, scene_edge(&s, 0, 1), 1, 0, 0);
     check_vec(velocity(&s, 0), 0.5, 0.25 * J, 1e-11); /* the square of the slope that putting them back leaves, 1e-6 */
     check_vec(velocity(&s, 1), 0.5, -1.0 + 0.75 * J / 3.0, 1e-11);
     assert_close(s.y[1], 0.0, 1e-15);
     assert_close(0.25 * s.y[1] + 0.75 * s.y[3], 0.0, 1e-15);
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
     assert_int_equal(s.n_events, 2);
     assert_int_equal(s.events[0].kind, DEM_EVENT_RELEASE); /* in the order of sites */
     assert_int_equal(s.events[0].node, 0);
     assert_int_equal(s.events[0].other, -1);
     assert_int_equal(s.events[1].kind, DEM_EVENT_IMPACT);
     assert_int_equal(s.events[1].other, 1);
-    assert_int_equal(s.c.sites.books.counts.releases, 1);
+    assert_int_equal(s.c.set.ledger.counts.releases, 1);
     scene_close(&s);
 }
 
@@ -523,22 +523,22 @@ static void an_early_reflection_leaves_a_node_where_it_is(void **state)
 {
     const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
     const contact_gap gap = {0.1, 0, 0.0, {0.0, 1.0}};
-    contact_listener listener;
+    event_listener listener;
     scene s;
     (void)state;
     open_node(&s, &rough, 1, 3.0, -4.0);
     scene_put(&s, 0, 0.25, 0.1, 3.0, -4.0);
-    contact_moment now = moment(&s, &listener);
-    strike_early(&s.c.sites, 0, &gap, &now);
+    contact_instant now = moment(&s, &listener);
+    impact_early(&s.c.set, 0, &gap, &now);
     scene_check(&s, 0, 0.25, 0.1, 1.5, 2.0);
-    assert_int_equal(s.c.sites.list[0].n_closed, 0);
-    assert_int_equal(s.c.sites.books.counts.early, 1);
-    assert_int_equal(s.c.sites.books.counts.impacts, 1);
-    check_vec(vec2_at(s.c.sites.books.impulse, 0), -3.0, 12.0, 1e-14);
+    assert_int_equal(s.c.set.list[0].n_closed, 0);
+    assert_int_equal(s.c.set.ledger.counts.early, 1);
+    assert_int_equal(s.c.set.ledger.counts.impacts, 1);
+    check_vec(vec2_at(s.c.set.ledger.impulse, 0), -3.0, 12.0, 1e-14);
     check_vec(vec2_at(s.impacts[0].impulse, 0), -3.0, 12.0, 1e-14);
     check_vec(vec2_at(s.impacts[0].after, 0), 1.5, 2.0, 1e-15);
     assert_close(s.impacts[0].energy, 25.0 - 6.25, 1e-14);
-    assert_close(s.c.sites.books.projection, 0.0, 0.0);
+    assert_close(s.c.set.ledger.projection, 0.0, 0.0);
     scene_close(&s);
 }
 
@@ -547,15 +547,15 @@ static void an_early_reflection_goes_along_the_normal_of_the_gap(void **state)
 {
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
     const contact_gap gap = {0.1, 0, 0.0, {0.6, 0.8}};
-    contact_listener listener;
+    event_listener listener;
     scene s;
     (void)state;
     open_node(&s, &smooth, 1, 0.0, -5.0);
-    contact_moment now = moment(&s, &listener);
-    strike_early(&s.c.sites, 0, &gap, &now);
+    contact_instant now = moment(&s, &listener);
+    impact_early(&s.c.set, 0, &gap, &now);
     check_vec(velocity(&s, 0), 3.6, -0.2, 1e-14);
     check_vec(vec2_at(s.impacts[0].normal, 0), 0.6, 0.8, 0.0);
-    check_vec(vec2_at(s.c.sites.books.friction_impulse, 0), 0.0, 0.0, 1e-14);
+    check_vec(vec2_at(s.c.set.ledger.friction_impulse, 0), 0.0, 0.0, 1e-14);
     scene_close(&s);
 }
 
@@ -564,19 +564,19 @@ static void an_early_reflection_of_an_edge_shares_its_impulse_too(void **state)
     const double q = 0.25, J = 1.5 / mobility(q);
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     const contact_gap gap = {0.1, 0, q, {0.0, 1.0}};
-    contact_listener listener;
+    event_listener listener;
     scene s;
     (void)state;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
     for (dem_index i = 0; i < 3; i++) scene_put(&s, i, s.y[2 * i], s.y[2 * i + 1] + 0.1, 0.5, -1.0);
     const double before = kinetic(&s);
-    contact_moment now = moment(&s, &listener);
-    strike_early(&s.c.sites, edge, &gap, &now);
+    contact_instant now = moment(&s, &listener);
+    impact_early(&s.c.set, edge, &gap, &now);
     check_vec(velocity(&s, 0), 0.5, -1.0 + 0.75 * J, 1e-14);
     check_vec(velocity(&s, 1), 0.5, -1.0 + 0.25 * J / 3.0, 1e-14);
     assert_close(s.impacts[0].energy, before - kinetic(&s), 1e-13);
     assert_close(s.impacts[0].weight, q, 1e-14);
-    assert_int_equal(s.c.sites.books.counts.vertex_impacts, 1);
+    assert_int_equal(s.c.set.ledger.counts.vertex_impacts, 1);
     scene_close(&s);
 }
 
@@ -600,16 +600,16 @@ static void a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side(void **s
     (void)state;
     for (int k = 0; k < 15; k++) {
         scene s;
-        contact_listener listener;
+        event_listener listener;
         dem_index at = -7;
         open_side(&s, &roof, x[k % 5], y[k / 5], 0.0);
-        const contact_moment now = moment(&s, &listener);
-        const dem_index side = strike_side(&s.c.sites, 1, &now, &at);
+        const contact_instant now = moment(&s, &listener);
+        const dem_index side = impact_target_edge(&s.c.set, 1, &now, &at);
         if (k % 5 < 3) {
             assert_true(side == scene_edge(&s, 0, 1) || side == scene_edge(&s, 1, 2));
             assert_int_equal(at, 0);
             vec2_put(scene_v(&s), 1, (vec2){0.0, 0.5});
-            assert_int_equal(strike_side(&s.c.sites, 1, &now, &at), -1);
+            assert_int_equal(impact_target_edge(&s.c.set, 1, &now, &at), -1);
         } else {
             assert_int_equal(side, -1);
         }
@@ -622,22 +622,22 @@ static void a_sharp_corner_of_the_body_on_an_apex_is_a_node(void **state)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     scene s;
-    contact_listener listener;
+    event_listener listener;
     dem_index at;
     (void)state;
     open_side(&s, &roof, 0.0, 0.0, 0.9);
-    const contact_moment now = moment(&s, &listener);
-    assert_true(strike_side(&s.c.sites, 1, &now, &at) >= 0); /* sides at 42 degrees, flanks at 45 */
+    const contact_instant now = moment(&s, &listener);
+    assert_true(impact_target_edge(&s.c.set, 1, &now, &at) >= 0); /* sides at 42 degrees, flanks at 45 */
     scene_close(&s);
     open_side(&s, &roof, 0.0, 0.0, 0.99);
-    const contact_moment later = moment(&s, &listener);
-    assert_true(strike_side(&s.c.sites, 1, &later, &at) >= 0);
+    const contact_instant later = moment(&s, &listener);
+    assert_true(impact_target_edge(&s.c.set, 1, &later, &at) >= 0);
     scene_close(&s);
     const double flat_points[6] = {-4.0, -3.0, 0.0, 0.0, 4.0, -3.0};
     const dem_obstacle flat = obstacle(3, flat_points, 0.5, 0.0);
     open_side(&s, &flat, 0.0, 0.0, 0.9);
-    const contact_moment last = moment(&s, &listener);
-    assert_int_equal(strike_side(&s.c.sites, 1, &last, &at), -1);
+    const contact_instant last = moment(&s, &listener);
+    assert_int_equal(impact_target_edge(&s.c.set, 1, &last, &at), -1);
     scene_close(&s);
 }
 
@@ -653,20 +653,20 @@ static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
     (void)state;
     for (int k = 0; k < 4; k++) {
         scene s;
-        contact_listener listener;
+        event_listener listener;
         open_side(&s, &roof, 0.0, 0.0, -0.25);
-        if (k == 3) s.c.sites.scene.rule.load.gravity[1] = g;
+        if (k == 3) s.c.set.scene.rule.load.gravity[1] = g;
         vec2_put(scene_v(&s), 1, (vec2){0.0, v[k]});
-        const contact_moment now = moment(&s, &listener);
+        const contact_instant now = moment(&s, &listener);
         const dem_index left = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2);
-        assert_int_equal(strike_notch(&s.c.sites, left, right, &now), rests[k]);
-        assert_int_equal(strike_notch(&s.c.sites, right, left, &now), rests[k]);
+        assert_int_equal(impact_rests_in_notch(&s.c.set, left, right, &now), rests[k]);
+        assert_int_equal(impact_rests_in_notch(&s.c.set, right, left, &now), rests[k]);
         scene_close(&s);
         open_side(&s, &roof, 0.0, 0.0, 0.0); /* a side that does not bend in is no notch */
-        const contact_moment flat = moment(&s, &listener);
+        const contact_instant flat = moment(&s, &listener);
         vec2_put(scene_v(&s), 1, (vec2){0.0, 0.0});
-        s.c.sites.scene.rule.load.gravity[0] = 5.0;
-        assert_false(strike_notch(&s.c.sites, scene_edge(&s, 0, 1), scene_edge(&s, 1, 2), &flat));
+        s.c.set.scene.rule.load.gravity[0] = 5.0;
+        assert_false(impact_rests_in_notch(&s.c.set, scene_edge(&s, 0, 1), scene_edge(&s, 1, 2), &flat));
         scene_close(&s);
     }
 }

@@ -23,9 +23,9 @@ static dem_status hear(void *context, const dem_event *event)
 
 static void a_new_book_is_empty(void **state)
 {
-    contact_books b;
+    contact_ledger b;
     (void)state;
-    assert_ok(books_create(&b, 3));
+    assert_ok(ledger_create(&b, 3));
     for (int k = 0; k < 6; k++) {
         assert_close(b.impulse[k], 0.0, 0.0);
         assert_close(b.friction_impulse[k], 0.0, 0.0);
@@ -33,43 +33,43 @@ static void a_new_book_is_empty(void **state)
     assert_close(b.impact, 0.0, 0.0);
     assert_close(b.projection, 0.0, 0.0);
     assert_int_equal(b.counts.impacts + b.counts.closings + b.counts.releases, 0);
-    books_destroy(&b);
+    ledger_destroy(&b);
     assert_null(b.impulse);
-    assert_ok(books_create(&b, 0)); /* a model may have no obstacles */
-    books_destroy(&b);
+    assert_ok(ledger_create(&b, 0)); /* a model may have no obstacles */
+    ledger_destroy(&b);
 }
 
 static void impulses_add_up_for_each_obstacle_by_itself(void **state)
 {
     static const double impulse[6] = {1.0, -2.0, 0.0, 0.0, 4.0, 8.0}, friction[6] = {0.5, 0.25, 0.0, 0.0, -1.0, 2.0};
-    contact_books b;
+    contact_ledger b;
     (void)state;
-    assert_ok(books_create(&b, 3));
-    books_add_impulse(&b, 0, (vec2){1.0, -2.0}, (vec2){0.5, 0.25});
-    books_add_impulse(&b, 2, (vec2){1.0, 3.0}, (vec2){-2.0, 1.5});
-    books_add_impulse(&b, 2, (vec2){3.0, 5.0}, (vec2){1.0, 0.5});
+    assert_ok(ledger_create(&b, 3));
+    ledger_add_impulse(&b, 0, (vec2){1.0, -2.0}, (vec2){0.5, 0.25});
+    ledger_add_impulse(&b, 2, (vec2){1.0, 3.0}, (vec2){-2.0, 1.5});
+    ledger_add_impulse(&b, 2, (vec2){3.0, 5.0}, (vec2){1.0, 0.5});
     for (int k = 0; k < 6; k++) {
         assert_close(b.impulse[k], impulse[k], 0.0); /* sums of small binary fractions are exact */
         assert_close(b.friction_impulse[k], friction[k], 0.0);
     }
-    books_destroy(&b);
+    ledger_destroy(&b);
 }
 
-static void enter(contact_books *b, dem_event_kind kind, dem_index other, int times)
+static void enter(contact_ledger *b, dem_event_kind kind, dem_index other, int times)
 {
-    const contact_listener deaf = {0};
-    contact_moment now = {.listener = &deaf};
+    const event_listener deaf = {0};
+    contact_instant now = {.listener = &deaf};
     const dem_event event = {.kind = kind, .other = other};
-    for (int k = 0; k < times; k++) books_enter(b, &event, &now);
+    for (int k = 0; k < times; k++) ledger_enter(b, &event, &now);
     assert_int_equal(now.told, DEM_OK);
 }
 
 /* Every kind another number of times, so that no two can be exchanged unseen. */
 static void every_kind_of_event_has_its_count(void **state)
 {
-    contact_books b;
+    contact_ledger b;
     (void)state;
-    assert_ok(books_create(&b, 1));
+    assert_ok(ledger_create(&b, 1));
     enter(&b, DEM_EVENT_IMPACT, -1, 3);
     enter(&b, DEM_EVENT_IMPACT, 0, 2); /* node 0 is a node: an edge on a vertex */
     enter(&b, DEM_EVENT_RELEASE, -1, 7);
@@ -84,24 +84,24 @@ static void every_kind_of_event_has_its_count(void **state)
     assert_int_equal(b.counts.passings, 17);
     assert_int_equal(b.counts.closings, 0);
     assert_int_equal(b.counts.early + b.counts.late + b.counts.events, 0); /* counted elsewhere */
-    books_destroy(&b);
+    ledger_destroy(&b);
 }
 
 static void a_close_event_is_told_but_counted_where_it_is_done(void **state)
 {
     const dem_event event = {.kind = DEM_EVENT_CLOSE, .other = 4};
     hearer h = {0};
-    const contact_listener listener = {hear, &h};
-    contact_moment now = {.listener = &listener};
+    const event_listener listener = {hear, &h};
+    contact_instant now = {.listener = &listener};
     const dem_counts none = {0};
-    contact_books b;
+    contact_ledger b;
     (void)state;
-    assert_ok(books_create(&b, 1));
-    books_enter(&b, &event, &now);
+    assert_ok(ledger_create(&b, 1));
+    ledger_enter(&b, &event, &now);
     assert_memory_equal(&b.counts, &none, sizeof none);
     assert_int_equal(h.n_heard, 1);
     assert_ptr_equal(h.heard[0], &event);
-    books_destroy(&b);
+    ledger_destroy(&b);
 }
 
 /* The later ones are heard all the same, and do not replace the first. */
@@ -109,20 +109,20 @@ static void the_first_status_other_than_ok_is_kept(void **state)
 {
     const dem_event event = {.kind = DEM_EVENT_SLIP, .other = -1};
     hearer h = {.says = {DEM_OK, DEM_STOPPED, DEM_ERROR_IO, DEM_OK}};
-    const contact_listener listener = {hear, &h};
-    contact_moment now = {.listener = &listener};
-    contact_books b;
+    const event_listener listener = {hear, &h};
+    contact_instant now = {.listener = &listener};
+    contact_ledger b;
     (void)state;
-    assert_ok(books_create(&b, 1));
-    books_enter(&b, &event, &now);
+    assert_ok(ledger_create(&b, 1));
+    ledger_enter(&b, &event, &now);
     assert_int_equal(now.told, DEM_OK);
     for (int k = 1; k < SCRIPT; k++) {
-        books_enter(&b, &event, &now);
+        ledger_enter(&b, &event, &now);
         assert_int_equal(now.told, DEM_STOPPED);
     }
     assert_int_equal(h.n_heard, SCRIPT);
     assert_int_equal(b.counts.slips, SCRIPT);
-    books_destroy(&b);
+    ledger_destroy(&b);
 }
 
 int main(void)

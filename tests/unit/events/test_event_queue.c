@@ -16,8 +16,8 @@ static const double g = 10.0, skin = 1e-10, mass = 2.0;
 /* Masses over a floor, and a step of them. */
 typedef struct rig {
     dem_model *model;
-    contact c;
-    queue q;
+    automaton c;
+    event_queue q;
     dem_index n, n_all;
     double y0[most_state], f0[most_state], y1[most_state], f1[most_state], state[most_state];
     dense_output path;
@@ -38,10 +38,10 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     *r = (rig){.n = lattice->n_nodes, .n_all = lattice->n_nodes + 4};
     assert_true(r->n <= most_nodes);
     assert_ok(dem_model_create(&r->model, lattice, &plane, 1));
-    assert_ok(contact_create(&r->c, r->model, &rule));
-    assert_ok(queue_create(&r->q, &r->c,
-                           &(patch_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0, NULL},
-                           error != NULL));
+    assert_ok(automaton_create(&r->c, r->model, &rule));
+    assert_ok(event_queue_create(
+        &r->q, &r->c, &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0, NULL},
+        error != NULL));
 }
 
 /* n free masses at heights y, in a row along x. */
@@ -65,15 +65,15 @@ static void open_masses(rig *r, dem_index n, const double *y, double eta, double
 
 static void close_rig(rig *r)
 {
-    queue_destroy(&r->q);
-    contact_destroy(&r->c);
+    event_queue_destroy(&r->q);
+    automaton_destroy(&r->c);
     dem_model_destroy(r->model);
 }
 
 static void take_up(rig *r, double t0, double h)
 {
     r->path = (dense_output){r->n_all, t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
-    queue_start(&r->q, &r->path, r->y1, r->f1, r->state);
+    event_queue_start(&r->q, &r->path, r->y1, r->f1, r->state);
 }
 
 /* A step of length h in free fall, which the quintic follows exactly. */
@@ -100,15 +100,15 @@ static double time_of_fall(double y)
 
 static void show(rig *r, double t)
 {
-    assert_ok(queue_show(&r->q, t));
+    assert_ok(event_queue_show(&r->q, t));
 }
 
 /* ---- all that a step changes ---- */
 
 typedef struct snapshot {
     double y1[most_state], f1[most_state], state[most_state], impulse[4];
-    contact_site sites[most_nodes];
-    contact_books books;
+    contact_candidate candidates[most_nodes];
+    contact_ledger ledger;
     dem_index n_groups, idle, n_events, n_stops;
     dem_event events[64];
 } snapshot;
@@ -120,10 +120,10 @@ static snapshot take_snapshot(rig *r, double t)
     memcpy(s.y1, r->y1, sizeof s.y1);
     memcpy(s.f1, r->f1, sizeof s.f1);
     dense_output_state(&r->path, t, s.state);
-    memcpy(s.impulse, r->c.sites.books.impulse, sizeof s.impulse);
-    memcpy(s.sites, r->c.sites.list, (size_t)r->n * sizeof s.sites[0]);
-    memcpy(&s.books, &r->c.sites.books, sizeof s.books);
-    s.n_groups = r->c.sites.reactions.n_groups;
+    memcpy(s.impulse, r->c.set.ledger.impulse, sizeof s.impulse);
+    memcpy(s.candidates, r->c.set.list, (size_t)r->n * sizeof s.candidates[0]);
+    memcpy(&s.ledger, &r->c.set.ledger, sizeof s.ledger);
+    s.n_groups = r->c.set.forces.n_groups;
     s.idle = r->c.idle;
     s.n_stops = r->q.n_stops;
     s.n_events = r->q.n_events;
@@ -138,8 +138,8 @@ static void assert_same(const snapshot *a, const snapshot *b)
     assert_memory_equal(a->f1, b->f1, sizeof a->f1);
     assert_memory_equal(a->state, b->state, sizeof a->state);
     assert_memory_equal(a->impulse, b->impulse, sizeof a->impulse);
-    assert_memory_equal(a->sites, b->sites, sizeof a->sites);
-    assert_memory_equal(&a->books, &b->books, sizeof a->books);
+    assert_memory_equal(a->candidates, b->candidates, sizeof a->candidates);
+    assert_memory_equal(&a->ledger, &b->ledger, sizeof a->ledger);
     assert_memory_equal(a->events, b->events, sizeof a->events);
     assert_memory_equal(a, b, sizeof *a); /* and the numbers */
 }
@@ -226,7 +226,7 @@ static void a_step_without_events_is_left_as_it_is(void **state)
     const snapshot after = take_snapshot(&r, 1.05);
     assert_same(&after, &before);
     assert_int_equal(r.q.n_stops, 0);
-    assert_close(queue_error(&r.q), 0.0, 0.0);
+    assert_close(event_queue_error(&r.q), 0.0, 0.0);
     close_rig(&r);
 }
 
@@ -242,8 +242,8 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
     show(&r, now);
     dense_output_state(&r.path, now, y);
     assert_int_equal(r.q.n_events, 1);
-    assert_int_equal(r.c.sites.books.counts.impacts, 1);
-    assert_close(r.c.sites.books.impulse[1], mass * 1.5 * g * t, 1e-12);
+    assert_int_equal(r.c.set.ledger.counts.impacts, 1);
+    assert_close(r.c.set.ledger.impulse[1], mass * 1.5 * g * t, 1e-12);
     assert_close(y[1], v * (now - t) - 0.5 * g * (now - t) * (now - t), 1e-14);
     assert_close(y[2 * r.n_all + 1], v - g * (now - t), 1e-13);
     assert_close(y[3], 0.04 - 0.5 * g * now * now, 1e-15);
@@ -254,7 +254,7 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
     assert_close(y[2 * r.n_all + 1], v, 1e-13);
     show(&r, nextafter(r.q.events[0].t, 0.0));
     assert_int_equal(r.q.n_events, 0);
-    assert_int_equal(r.c.sites.books.counts.impacts, 0);
+    assert_int_equal(r.c.set.ledger.counts.impacts, 0);
     show(&r, 0.5 * t);
     dense_output_state(&r.path, 0.5 * t, y);
     assert_close(y[1], 0.02 - 0.125 * g * t * t, 1e-15);
@@ -280,8 +280,8 @@ static void any_way_to_a_time_gives_the_same_bits(void **state)
             show(&r, way[k]);
             snapshot there = take_snapshot(&direct, way[k]), here = take_snapshot(&r, way[k]);
             assert_true(there.n_events > 0 || way[k] < 0.05);
-            there.books.impulse = here.books.impulse; /* elsewhere in memory */
-            there.books.friction_impulse = here.books.friction_impulse;
+            there.ledger.impulse = here.ledger.impulse; /* elsewhere in memory */
+            there.ledger.friction_impulse = here.ledger.friction_impulse;
             assert_same(&here, &there);
             close_rig(&direct);
         }
@@ -302,10 +302,10 @@ static void undoing_brings_every_bit_back(void **state)
         const snapshot after = take_snapshot(&r, 0.1);
         assert_memory_not_equal(&after, &before, sizeof before);
         assert_true(after.n_groups > 0 || eta > 0);
-        queue_undo(&r.q);
+        event_queue_undo(&r.q);
         const snapshot undone = take_snapshot(&r, 0.1);
         assert_same(&undone, &before);
-        queue_undo(&r.q);
+        event_queue_undo(&r.q);
         const snapshot twice = take_snapshot(&r, 0.1);
         assert_same(&twice, &before);
         close_rig(&r);
@@ -478,10 +478,10 @@ static void an_error_beyond_what_is_allowed_ends_the_step(void **state)
         const snapshot before = take_snapshot(&r, 0.1);
         show(&r, 0.16);
         assert_int_equal(r.q.n_events, k == 0 ? 1 : 2);
-        assert_true(k != 0 || queue_error(&r.q) > 1.0);
-        assert_true(k != 1 || (queue_error(&r.q) > 0.0 && queue_error(&r.q) < 1.0));
-        assert_true(k != 2 || queue_error(&r.q) == 0.0);
-        queue_undo(&r.q);
+        assert_true(k != 0 || event_queue_error(&r.q) > 1.0);
+        assert_true(k != 1 || (event_queue_error(&r.q) > 0.0 && event_queue_error(&r.q) < 1.0));
+        assert_true(k != 2 || event_queue_error(&r.q) == 0.0);
+        event_queue_undo(&r.q);
         const snapshot undone = take_snapshot(&r, 0.1);
         assert_same(&undone, &before);
         dem_lattice_free(&lattice);
@@ -501,11 +501,13 @@ static void what_events_have_done_bounds_the_next_step(void **state)
         rig r;
         open_pair(&r, &lattice, tolerance);
         swing(&r, &lattice, 0.16);
-        assert_true(isinf(queue_reach(&r.q)) != 0);
+        assert_true(isinf(event_queue_reach(&r.q)) != 0);
         show(&r, 0.16);
-        if (k == 0) error = queue_error(&r.q);
-        if (k == 1) assert_true(queue_error(&r.q) < 1.0 && queue_reach(&r.q) < 0.16 && queue_reach(&r.q) > 0.08);
-        if (k == 2) assert_true(isinf(queue_reach(&r.q)) != 0);
+        if (k == 0) error = event_queue_error(&r.q);
+        if (k == 1)
+            assert_true(event_queue_error(&r.q) < 1.0 && event_queue_reach(&r.q) < 0.16 &&
+                        event_queue_reach(&r.q) > 0.08);
+        if (k == 2) assert_true(isinf(event_queue_reach(&r.q)) != 0);
         dem_lattice_free(&lattice);
         close_rig(&r);
     }
@@ -518,12 +520,12 @@ static void a_storm_can_be_taken_back(void **state)
     rig r;
     (void)state;
     open_masses(&r, 2, heights, 0.9, 0.0);
-    r.c.sites.scene.rule.max_impacts = 3;
+    r.c.set.scene.rule.max_impacts = 3;
     fall(&r, 0.0, 0.2);
     const snapshot before = take_snapshot(&r, 0.1);
-    assert_int_equal(queue_show(&r.q, 0.2), DEM_ERROR_CONTACT);
+    assert_int_equal(event_queue_show(&r.q, 0.2), DEM_ERROR_CONTACT);
     assert_non_null(strstr(dem_status_message(), "more than 3 contact events"));
-    queue_undo(&r.q);
+    event_queue_undo(&r.q);
     const snapshot undone = take_snapshot(&r, 0.1);
     assert_same(&undone, &before);
     close_rig(&r);
@@ -539,17 +541,17 @@ static void the_next_step_begins_anew(void **state)
     fall(&r, 0.0, 0.1);
     show(&r, 0.1);
     assert_int_equal(r.q.n_events, 1);
-    const dem_index n_impacts = r.c.sites.books.counts.impacts;
+    const dem_index n_impacts = r.c.set.ledger.counts.impacts;
     memcpy(r.y0, r.y1, sizeof r.y0);
     fall(&r, 0.1, 0.03);
     assert_int_equal(r.q.n_events, 0);
     assert_int_equal(r.q.n_stops, 0);
     show(&r, 0.13);
     assert_int_equal(r.q.n_events, 1);
-    assert_int_equal(r.c.sites.books.counts.impacts, n_impacts + 1);
+    assert_int_equal(r.c.set.ledger.counts.impacts, n_impacts + 1);
     assert_close(r.q.events[0].t, 2.0 * t, 1e-9);
-    queue_undo(&r.q);
-    assert_int_equal(r.c.sites.books.counts.impacts, n_impacts);
+    event_queue_undo(&r.q);
+    assert_int_equal(r.c.set.ledger.counts.impacts, n_impacts);
     close_rig(&r);
 }
 

@@ -26,30 +26,30 @@ typedef struct step {
     kind kind;
     dem_model *model;
     boundary_conditions b;
-    contact c, before; /* contacts as they are, and as they were */
+    automaton c, before; /* contacts as they are, and as they were */
     dem_index n, n_all;
     double h;
     double *y0, *f0, *y1, *f1, *state, *first, *last;
     dense_output path;
     changed_motion changed;
-    patch patch;
+    local_correction correction;
 } step;
 
 /* ---- the whole body ---- */
 
 /* Derivative of a state, of nodes and books. */
-static void derive(const step *s, contact *c, double t, const double *y, double *f)
+static void derive(const step *s, automaton *c, double t, const double *y, double *f)
 {
-    const forces *load = &c->sites.scene.rule.load;
+    const forces *load = &c->set.scene.rule.load;
     const dem_index n = 2 * s->n_all, n_obstacles = s->model->obstacles.n;
     const double *v = y + n;
     double *a = f + n, *rate = a + 2 * s->n;
     memcpy(f, v, (size_t)n * sizeof *f);
     for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
-    contact_constrain(c, y, a);
+    automaton_constrain(c, y, a);
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 0; k < 4 * n_obstacles + 4; k++) rate[k] = 0.0;
-    contact_account(c, y, rate);
+    automaton_add_rates(c, y, rate);
     rate[4 * n_obstacles + 1] = diagnostics_damping_power(s->model, load, y, v);
     rate[4 * n_obstacles + 2] = work;
     rate[4 * n_obstacles + 3] = 1.0;
@@ -169,8 +169,8 @@ static void make_contacts(step *s)
                                         .mass_damping = s->kind.mass_damping,
                                         .boundaries = s->kind.drives ? &s->b : NULL,
                                         .clock = 2 * s->n_all - 1}};
-    assert_ok(contact_create(&s->c, s->model, &rule));
-    assert_ok(contact_create(&s->before, s->model, &rule));
+    assert_ok(automaton_create(&s->c, s->model, &rule));
+    assert_ok(automaton_create(&s->before, s->model, &rule));
 }
 
 /* Stretched, sheared and bent by some percent, at speeds of some m/s. */
@@ -199,16 +199,17 @@ static void open_step(step *s, kind k)
     s->y0 = zeros(s), s->f0 = zeros(s), s->y1 = zeros(s), s->f1 = zeros(s);
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
-    assert_ok(patch_create(&s->patch, &s->c.sites, &(patch_rule){5, position_error, velocity_error, s->b.held}));
+    assert_ok(local_correction_create(&s->correction, &s->c.set,
+                                      &(local_correction_rule){5, position_error, velocity_error, s->b.held}));
     assert_ok(changed_motion_create(&s->changed, s->n_all));
 }
 
 static void close_step(step *s)
 {
-    patch_destroy(&s->patch);
+    local_correction_destroy(&s->correction);
     changed_motion_destroy(&s->changed);
-    contact_destroy(&s->c);
-    contact_destroy(&s->before);
+    automaton_destroy(&s->c);
+    automaton_destroy(&s->before);
     boundary_conditions_free(&s->b);
     dem_model_destroy(s->model);
     double *const arrays[] = {s->y0, s->f0, s->y1, s->f1, s->state, s->first, s->last};
@@ -235,16 +236,16 @@ static void go(step *s)
                              .parabolic = s->kind.parabolic,
                              .changed = &s->changed};
     changed_motion_start(&s->changed, s->path.t1, s->y1, s->f1);
-    contact_expect(&s->c, &s->path, s->state);
+    automaton_begin_step(&s->c, &s->path, s->state);
     free(error);
 }
 
 /* Closes a contact now, and before if it was there. */
 static void touch(step *s, dem_index k, dem_index feature, int sign, bool was_there)
 {
-    const contact_touch touch = {.feature = feature, .sign = sign, .place = 0.4};
-    assert_ok(sites_close(&s->c.sites, k, touch));
-    if (was_there) assert_ok(sites_close(&s->before.sites, k, touch));
+    const contact_point point = {.feature = feature, .slide = sign, .place = 0.4};
+    assert_ok(contact_set_close(&s->c.set, k, point));
+    if (was_there) assert_ok(contact_set_close(&s->before.set, k, point));
 }
 
 /* ---- one event ---- */
@@ -258,8 +259,9 @@ static void count_rings(const step *s, int *ring, int most)
             for (dem_index q = sp->row[i]; q < sp->row[i + 1] && ring[i] == r - 1; q++)
                 if (ring[sp->neighbour[q]] < 0) ring[sp->neighbour[q]] = r;
         for (dem_index i = 0; i < s->n; i++)
-            for (dem_index j = 0; j < s->n && ring[i] == r && sites_group_at(&s->c.sites, i) >= 0; j++)
-                if (ring[j] < 0 && sites_group_at(&s->c.sites, j) == sites_group_at(&s->c.sites, i)) ring[j] = r;
+            for (dem_index j = 0; j < s->n && ring[i] == r && contact_set_group_at(&s->c.set, i) >= 0; j++)
+                if (ring[j] < 0 && contact_set_group_at(&s->c.set, j) == contact_set_group_at(&s->c.set, i))
+                    ring[j] = r;
     }
 }
 
@@ -304,20 +306,20 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
 }
 
 /* A velocity jumps at node i at a share of the step, and contacts are what the caller made them meanwhile. */
-static void begin(step *s, dem_index site, double share)
+static void begin(step *s, dem_index candidate, double share)
 {
-    assert_ok(patch_open(&s->patch, &s->path, site, start + share * s->h, s->state));
+    assert_ok(local_correction_open(&s->correction, &s->path, candidate, start + share * s->h, s->state));
 }
 
-static void finish(step *s, dem_index site, vec2 shift, vec2 jump)
+static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
 {
     const size_t size = 4 * (size_t)s->n_all * sizeof(double);
-    const dem_index i = s->c.sites.list[site].node;
+    const dem_index i = s->c.set.list[candidate].node;
     double *was = zeros(s), *change = zeros(s), *estimate = zeros(s), error;
     int *ring = malloc((size_t)s->n * sizeof *ring);
     dem_index *turned = malloc((size_t)s->n * sizeof *turned);
     assert_true(ring != NULL && turned != NULL);
-    for (dem_index j = 0; j < s->n; j++) ring[j] = j == i || j == s->c.sites.list[site].other ? 0 : -1;
+    for (dem_index j = 0; j < s->n; j++) ring[j] = j == i || j == s->c.set.list[candidate].other ? 0 : -1;
     for (dem_index e = s->model->surface.row[i]; e < s->model->surface.row[i + 1] && s->kind.ridges; e++)
         for (int end = 0; end < 2; end++) ring[s->model->surface.ends[2 * s->model->surface.at[e] + end]] = 0;
     count_rings(s, ring, s->kind.damping_time > 0.0 ? 7 : 4);
@@ -327,11 +329,11 @@ static void finish(step *s, dem_index site, vec2 shift, vec2 jump)
     vec2_put(s->state, s->n_all + i, vec2_add(vec2_at(s->state, s->n_all + i), jump));
     memcpy(turned, s->changed.place, (size_t)s->n * sizeof *turned);
     memcpy(was, s->y1, size);
-    apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->patch.t, s->path.t1 - s->patch.t, change, estimate);
-    assert_ok(patch_close(&s->patch, &s->path, &s->changed, s->state, &error));
+    apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->correction.t, s->path.t1 - s->correction.t, change, estimate);
+    assert_ok(local_correction_close(&s->correction, &s->path, &s->changed, s->state, &error));
     check_change(s, was, change, 1.0 + vec2_norm(jump));
     const int n_last = check_rings(s, ring, was, change, turned);
-    assert_true(n_last > 0 || s->patch.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
+    assert_true(n_last > 0 || s->correction.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
     assert_close(error, norm_of(s, estimate), 1e-7 * error + 1e-18);
     free(ring);
     free(turned);
@@ -345,8 +347,8 @@ static void check_derivative(step *s)
 {
     double *f = zeros(s);
     derive(s, &s->c, s->path.t1, s->y1, f);
-    for (dem_index j = 0; j < s->patch.ball.end[s->patch.ball.n_rings - 2]; j++)
-        for (dem_index k = 2 * s->patch.ball.nodes[j].i; k < 2 * s->patch.ball.nodes[j].i + 2; k++) {
+    for (dem_index j = 0; j < s->correction.near.end[s->correction.near.n_rings - 2]; j++)
+        for (dem_index k = 2 * s->correction.near.nodes[j].i; k < 2 * s->correction.near.nodes[j].i + 2; k++) {
             assert_close(s->f1[k], f[k], 1e-13 * (1.0 + fabs(f[k])));
             assert_close(s->f1[2 * s->n_all + k], f[2 * s->n_all + k], 1e-10 * s->model->omega_max);
         }
@@ -363,7 +365,7 @@ static const kind plain = {.nu = 1.0 / 3.0};
 
 static dem_index lower_node(const step *s, double x)
 {
-    return s->c.sites.of_node[node_near(s, x, 0.0)];
+    return s->c.set.of_node[node_near(s, x, 0.0)];
 }
 
 /* Anywhere on the lower edge, a corner too, early and late in the step. */
@@ -449,7 +451,7 @@ static void contacts_near_by_hold_and_rub(void **state)
         go(&s);
         begin(&s, k, 0.35);
         if (after == 2)
-            assert_ok(sites_open(&s.c.sites, k, 0));
+            assert_ok(contact_set_open(&s.c.set, k, 0));
         else
             touch(&s, k, 0, after, false);
         finish(&s, k, nothing, after == 2 ? nothing : (vec2){after == 0 ? -1.0 : 0.5, 4.0});
@@ -478,13 +480,13 @@ static void edges_on_vertices_move_together(void **state)
     step s;
     (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .ridges = true});
-    const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->n_sites;
+    const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->n_contact_nodes;
     dem_index left = -1, right = -1;
-    for (dem_index e = n_nodes; e < s.c.sites.n; e++) {
-        const double a = s.model->lattice.x[2 * s.c.sites.list[e].node],
-                     b = s.model->lattice.x[2 * s.c.sites.list[e].other];
-        if (s.model->lattice.x[2 * s.c.sites.list[e].node + 1] > 1e-9) continue;
-        if (s.model->lattice.x[2 * s.c.sites.list[e].other + 1] > 1e-9) continue;
+    for (dem_index e = n_nodes; e < s.c.set.n; e++) {
+        const double a = s.model->lattice.x[2 * s.c.set.list[e].node],
+                     b = s.model->lattice.x[2 * s.c.set.list[e].other];
+        if (s.model->lattice.x[2 * s.c.set.list[e].node + 1] > 1e-9) continue;
+        if (s.model->lattice.x[2 * s.c.set.list[e].other + 1] > 1e-9) continue;
         if ((a + 0.013) * (b + 0.013) < 0.0) left = e;
         if ((a - 0.014) * (b - 0.014) < 0.0) right = e;
     }
@@ -526,27 +528,27 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, error;
     dem_lattice lattice;
     dem_model *model;
-    contact c;
-    patch near;
+    automaton c;
+    local_correction near;
     changed_motion tr;
     (void)state;
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
     dem_lattice_free(&lattice);
-    assert_ok(contact_create(&c, model, &rule));
-    assert_ok(patch_create(&near, &c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
+    assert_ok(automaton_create(&c, model, &rule));
+    assert_ok(local_correction_create(&near, &c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
     assert_ok(changed_motion_create(&tr, 5));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
     y1[0] = v * h, y1[1] = y0[1] - 0.5 * g * h * h, y1[10] = v, y1[11] = -g * h;
     const dense_output p = {5, 0.0, h, h, y0, f0, y1, f1, false, &tr};
     changed_motion_start(&tr, h, y1, f1);
-    assert_ok(patch_open(&near, &p, 0, at, y));
+    assert_ok(local_correction_open(&near, &p, 0, at, y));
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[11], -g * at, 1e-15);
     y[11] = 0.0;
-    assert_ok(sites_close(&c.sites, 0, (contact_touch){.feature = 0, .sign = 1}));
-    assert_ok(patch_close(&near, &p, &tr, y, &error));
+    assert_ok(contact_set_close(&c.set, 0, (contact_point){.feature = 0, .slide = 1}));
+    assert_ok(local_correction_close(&near, &p, &tr, y, &error));
     assert_close(error, 0.0, 1e-25);
     assert_close(y1[0], v * h - 0.5 * mu * g * tau * tau, 1e-15);
     assert_close(y1[1], 0.0, 1e-15);
@@ -560,9 +562,9 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     assert_close(changed_motion_velocity(&tr, at + 0.5 * tau, 0).x, v - 0.5 * mu * g * tau, 1e-14);
     changed_motion_undo(&tr);
     assert_close(y1[13], 0.0, 0.0);
-    patch_destroy(&near);
+    local_correction_destroy(&near);
     changed_motion_destroy(&tr);
-    contact_destroy(&c);
+    automaton_destroy(&c);
     dem_model_destroy(model);
 }
 
@@ -584,8 +586,8 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     assert_ok(dem_lattice_assemble(&l, &rubber));
     assert_ok(dem_model_create(&s.model, &l, &ground, 1));
     s.n = s.n_all = l.n_nodes;
-    assert_ok(contact_create(&s.c, s.model, &rule));
-    assert_ok(patch_create(&s.patch, &s.c.sites, &(patch_rule){5, 1.0, 1.0, NULL}));
+    assert_ok(automaton_create(&s.c, s.model, &rule));
+    assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
     assert_ok(changed_motion_create(&s.changed, s.n));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);
@@ -598,9 +600,9 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     s.path = (dense_output){s.n, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
     changed_motion_start(&s.changed, h, s.y1, s.f1);
     const dem_index struck = node_near(&s, 0.0, 0.0);
-    assert_ok(patch_open(&s.patch, &s.path, s.c.sites.of_node[struck], at, s.state));
+    assert_ok(local_correction_open(&s.correction, &s.path, s.c.set.of_node[struck], at, s.state));
     s.state[2 * (s.n + struck) + 1] += 5.0;
-    assert_ok(patch_close(&s.patch, &s.path, &s.changed, s.state, &error));
+    assert_ok(local_correction_close(&s.correction, &s.path, &s.changed, s.state, &error));
     triplets_reach(&l, at, s.first);
     s.first[2 * (s.n + struck) + 1] += 5.0;
     triplets_reach(&l, at_inside - at, s.first);

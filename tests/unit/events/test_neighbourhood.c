@@ -10,8 +10,8 @@
 
 typedef struct rig {
     dem_model *model;
-    contact c;
-    ball b;
+    automaton c;
+    neighbourhood b;
     dem_index n;
     double *y, *x, *v, *a; /* [4 n] states and what the ball has of them */
 } rig;
@@ -29,8 +29,8 @@ static void open_rig(rig *r, double poissons_ratio, int n_rings)
     *r = (rig){.n = block.n_nodes};
     assert_ok(dem_model_create(&r->model, &block, &floor, 1));
     const contact_rule rule = {.skin = 1e-9, .max_step = 1e-6, .load = {.gravity = {0.0, -9.81}, .mass_damping = 3.0}};
-    assert_ok(contact_create(&r->c, r->model, &rule));
-    assert_ok(ball_create(&r->b, &r->c.sites, n_rings));
+    assert_ok(automaton_create(&r->c, r->model, &rule));
+    assert_ok(neighbourhood_create(&r->b, &r->c.set, n_rings));
     r->y = calloc(4 * (size_t)r->n, sizeof(double));
     r->x = calloc(3 * 2 * (size_t)r->n, sizeof(double));
     assert_true(r->y != NULL && r->x != NULL);
@@ -45,8 +45,8 @@ static void open_rig(rig *r, double poissons_ratio, int n_rings)
 
 static void close_rig(rig *r)
 {
-    ball_destroy(&r->b);
-    contact_destroy(&r->c);
+    neighbourhood_destroy(&r->b);
+    automaton_destroy(&r->c);
     dem_model_destroy(r->model);
     free(r->y);
     free(r->x);
@@ -55,8 +55,9 @@ static void close_rig(rig *r)
 static dem_index bottom_site(const rig *r)
 {
     dem_index lowest = 0;
-    for (dem_index k = 0; k < r->model->n_sites; k++)
-        if (r->model->lattice.x[2 * r->model->sites[k] + 1] < r->model->lattice.x[2 * r->model->sites[lowest] + 1])
+    for (dem_index k = 0; k < r->model->n_contact_nodes; k++)
+        if (r->model->lattice.x[2 * r->model->contact_nodes[k] + 1] <
+            r->model->lattice.x[2 * r->model->contact_nodes[lowest] + 1])
             lowest = k;
     return lowest + 4;
 }
@@ -87,13 +88,13 @@ static void rings_are_distances(void **state)
     rig r;
     (void)state;
     open_rig(&r, 1.0 / 3.0, 4);
-    const dem_index site = bottom_site(&r);
+    const dem_index candidate = bottom_site(&r);
     for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
-        int *d = distances(&r, r.model->sites[site + turn]);
-        assert_ok(ball_gather(&r.b, site + turn));
+        int *d = distances(&r, r.model->contact_nodes[candidate + turn]);
+        assert_ok(neighbourhood_gather(&r.b, candidate + turn));
         for (dem_index i = 0; i < r.n; i++) {
             assert_int_equal(r.b.number[i] >= 0, d[i] <= 4);
-            for (int ring = 0; ring <= 4; ring++) assert_int_equal(ball_has(&r.b, i, ring), d[i] <= ring);
+            for (int ring = 0; ring <= 4; ring++) assert_int_equal(neighbourhood_has(&r.b, i, ring), d[i] <= ring);
         }
         for (dem_index j = 0; j < r.b.n; j++) assert_int_equal(r.b.number[r.b.nodes[j].i], j);
         free(d);
@@ -104,19 +105,19 @@ static void rings_are_distances(void **state)
 /* As far as two rings. Sums of forces of 1e3 N on 0.02 kg, in another order: 1e-16 times some ten of them. */
 static void check_accelerations(rig *r)
 {
-    const ball_state s = {r->x, r->v, calloc(4 * (size_t)r->n, sizeof(double))};
+    const neighbourhood_state s = {r->x, r->v, calloc(4 * (size_t)r->n, sizeof(double))};
     assert_non_null(s.y);
     for (dem_index j = 0; j < r->b.n; j++) {
         vec2_put(r->x, j, vec2_at(r->y, r->b.nodes[j].i));
         vec2_put(r->v, j, vec2_at(r->y, r->n + r->b.nodes[j].i));
     }
-    ball_put(&r->b, &s, r->b.end[3]);
-    ball_accelerate(&r->b, 2, &s, r->a);
+    neighbourhood_put(&r->b, &s, r->b.end[3]);
+    neighbourhood_accelerate(&r->b, 2, &s, r->a);
     double *all = calloc(2 * (size_t)r->n, sizeof *all);
     assert_non_null(all);
     for (dem_index i = 0; i < r->n; i++)
-        vec2_put(all, i, forces_acceleration(r->model, &r->c.sites.scene.rule.load, i, r->y, r->y + 2 * r->n));
-    reactions_hold(&r->c.sites.reactions, r->y, r->y + 2 * r->n, all);
+        vec2_put(all, i, forces_acceleration(r->model, &r->c.set.scene.rule.load, i, r->y, r->y + 2 * r->n));
+    contact_forces_hold(&r->c.set.forces, r->y, r->y + 2 * r->n, all);
     for (dem_index k = 0; k < 2 * r->b.end[2]; k++) assert_close(r->a[k], all[2 * r->b.nodes[k / 2].i + (k & 1)], 1e-9);
     free(all);
     free(s.y);
@@ -129,7 +130,7 @@ static void accelerations_are_the_models(void **state)
         rig r;
         open_rig(&r, area ? 0.2 : 1.0 / 3.0, 4);
         assert_int_equal(r.b.plain, !area);
-        assert_ok(ball_gather(&r.b, bottom_site(&r)));
+        assert_ok(neighbourhood_gather(&r.b, bottom_site(&r)));
         check_accelerations(&r);
         close_rig(&r);
     }
@@ -140,12 +141,12 @@ static void a_closed_contact_holds_its_node(void **state)
     rig r;
     (void)state;
     open_rig(&r, 1.0 / 3.0, 4);
-    const dem_index site = bottom_site(&r);
-    assert_ok(ball_gather(&r.b, site));
+    const dem_index candidate = bottom_site(&r);
+    assert_ok(neighbourhood_gather(&r.b, candidate));
     assert_int_equal(r.b.n_groups, 0);
-    assert_ok(sites_close(&r.c.sites, site + 1, (contact_touch){.feature = 0, .sign = 1}));
-    assert_ok(sites_close(&r.c.sites, site, (contact_touch){.feature = 0, .sign = 0}));
-    assert_ok(ball_regroup(&r.b));
+    assert_ok(contact_set_close(&r.c.set, candidate + 1, (contact_point){.feature = 0, .slide = 1}));
+    assert_ok(contact_set_close(&r.c.set, candidate, (contact_point){.feature = 0, .slide = 0}));
+    assert_ok(neighbourhood_regroup(&r.b));
     assert_int_equal(r.b.n_groups, 2);
     assert_int_equal(r.b.groups[0].ring, 0);
     assert_int_equal(r.b.groups[1].ring, 1);

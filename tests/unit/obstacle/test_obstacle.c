@@ -381,17 +381,17 @@ static void compare_gaps(const obstacle_set *o, vec2 x, double margin)
 }
 
 /* Returns how many are touched. */
-static int compare_touching(const obstacle_set *o, vec2 x, const obstacle_touch *touch)
+static int compare_touching(const obstacle_set *o, vec2 x, const obstacle_touch *point)
 {
     enum { capacity = 4 };
     dem_index expected[capacity], hits[capacity];
     int n = 0;
     for (dem_index k = 0; k < o->n_segments && n < capacity; k++) {
         const segment *s = &o->segments[k];
-        if (s->obstacle == touch->without || fabs(segment_height(s, x)) > touch->tolerance) continue;
-        if (reaches(s, segment_place(s, x), touch->tolerance, touch->margin)) expected[n++] = k;
+        if (s->obstacle == point->without || fabs(segment_height(s, x)) > point->tolerance) continue;
+        if (reaches(s, segment_place(s, x), point->tolerance, point->margin)) expected[n++] = k;
     }
-    assert_int_equal(obstacles_touching(o, x, touch, hits, capacity), n);
+    assert_int_equal(obstacles_touching(o, x, point, hits, capacity), n);
     for (int k = 0; k < n; k++) assert_int_equal(hits[k], expected[k]);
     return n;
 }
@@ -470,9 +470,9 @@ static void the_tree_finds_what_a_loop_finds_to_the_bit(void **state)
         for (int k = 0; k < 200; k++) {
             const vec2 x = telling_point(rng, &l);
             const double step = 0.1 * vec2_norm(l.axis), margin = k % 2 == 0 ? 0.0 : uniform(rng, 0.0, 3.0) * step;
-            const obstacle_touch touch = {uniform(rng, 0.0, k % 3 == 0 ? 1.0 : 1e-6) * step, margin, k % 5 - 1};
+            const obstacle_touch point = {uniform(rng, 0.0, k % 3 == 0 ? 1.0 : 1e-6) * step, margin, k % 5 - 1};
             compare_gaps(&l.set, x, margin);
-            n_touched += compare_touching(&l.set, x, &touch);
+            n_touched += compare_touching(&l.set, x, &point);
         }
         obstacles_free(&l.set);
     }

@@ -42,7 +42,7 @@ static void close_pair(pair *p)
     dem_model_destroy(p->model);
 }
 
-static void same_site(const contact_site *a, const contact_site *b)
+static void same_site(const contact_candidate *a, const contact_candidate *b)
 {
     assert_int_equal(a->n_closed, b->n_closed);
     assert_int_equal(a->storm, b->storm);
@@ -50,7 +50,7 @@ static void same_site(const contact_site *a, const contact_site *b)
     for (int q = 0; q < 2; q++) assert_int_equal(a->behind[q], b->behind[q]);
     for (int q = 0; q < a->n_closed; q++) {
         assert_int_equal(a->closed[q].feature, b->closed[q].feature);
-        assert_int_equal(a->closed[q].sign, b->closed[q].sign);
+        assert_int_equal(a->closed[q].slide, b->closed[q].slide);
         assert_int_equal(a->closed[q].held, b->closed[q].held);
         assert_close(a->closed[q].place, b->closed[q].place, 0.0);
     }
@@ -58,20 +58,20 @@ static void same_site(const contact_site *a, const contact_site *b)
 
 static void same_memory(const dem_simulation *a, const dem_simulation *b)
 {
-    const contact_sites *c = &a->contact.sites, *d = &b->contact.sites;
+    const contact_set *c = &a->automaton.set, *d = &b->automaton.set;
     const dem_counts n = dem_simulation_counts(a), m = dem_simulation_counts(b);
     for (dem_index k = 0; k < c->n; k++) same_site(&c->list[k], &d->list[k]);
     assert_close(a->t, b->t, 0.0);
     assert_close(a->step, b->step, 0.0);
     assert_close(integrator_next_step(&a->integrator), integrator_next_step(&b->integrator), 0.0);
-    assert_close(c->books.impact, d->books.impact, 0.0);
-    assert_close(c->books.projection, d->books.projection, 0.0);
+    assert_close(c->ledger.impact, d->ledger.impact, 0.0);
+    assert_close(c->ledger.projection, d->ledger.projection, 0.0);
     assert_close(c->straightened, d->straightened, 0.0);
-    assert_int_equal(a->contact.idle, b->contact.idle);
+    assert_int_equal(a->automaton.idle, b->automaton.idle);
     assert_int_equal(a->events, b->events);
     assert_int_equal(a->unlooked, b->unlooked);
     assert_memory_equal(&n, &m, sizeof n);
-    assert_memory_equal(c->books.impulse, d->books.impulse, 4 * sizeof(double));
+    assert_memory_equal(c->ledger.impulse, d->ledger.impulse, 4 * sizeof(double));
     assert_memory_equal(&a->overlap.found, &b->overlap.found, sizeof a->overlap.found);
     assert_memory_equal(a->y, b->y, 2 * (size_t)run_unknowns(a->model) * sizeof *a->y);
 }
@@ -83,13 +83,13 @@ static void everything_comes_back(void **state)
     (void)state;
     open_pair(&p);
     assert_ok(dem_simulation_advance(p.from, 0.05));
-    contact_sites *c = &p.from->contact.sites;
+    contact_set *c = &p.from->automaton.set;
     for (dem_index k = 0; k < c->n; k++)
-        n_stuck += site_is_edge(&c->list[k]) && c->list[k].n_closed > 0 && c->list[k].closed[0].sign == 0 &&
+        n_stuck += candidate_is_edge(&c->list[k]) && c->list[k].n_closed > 0 && c->list[k].closed[0].slide == 0 &&
                    c->list[k].closed[0].place > 0.0;
     assert_true(n_stuck > 0);
     p.from->in_hand = false; /* goes on from the start of the step in hand */
-    p.from->contact.idle = 3;
+    p.from->automaton.idle = 3;
     p.from->unlooked = 5;
     p.from->overlap.found = (dem_overlap){1, 2, 0.25, 3, 4, {5.0, 6.0}};
     c->list[0].storm = 7;
@@ -156,35 +156,35 @@ typedef struct raw_site {
     dem_index k, n_closed, behind[2], storm;
     double storm_start;
     struct {
-        dem_index feature, sign, held;
+        dem_index feature, slide, held;
         double place, force, friction;
     } closed[2];
 } raw_site;
 
-static void refuse_site(pair *p, raw_site site)
+static void refuse_site(pair *p, raw_site candidate)
 {
-    refuse(p, "contacts", &site, sizeof site, "entry 0 of the contacts in the record is impossible");
+    refuse(p, "contacts", &candidate, sizeof candidate, "entry 0 of the contacts in the record is impossible");
 }
 
 static void sites_that_cannot_be_are_refused(void **state)
 {
     pair p;
-    const raw_site good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .sign = 1}}};
+    const raw_site good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .slide = 1}}};
     raw_site bad[2] = {good, good};
     (void)state;
     open_pair(&p);
     assert_ok(recall_put(p.from, p.record));
     assert_ok(dem_record_put(p.record, "contacts", &good, sizeof good));
     assert_ok(recall_get(p.to, p.record));
-    assert_int_equal(p.to->contact.sites.list[0].n_closed, 1);
+    assert_int_equal(p.to->automaton.set.list[0].n_closed, 1);
 #define REFUSE(field, value)                                                                                           \
     do {                                                                                                               \
-        raw_site site = good;                                                                                          \
-        site.field = (value);                                                                                          \
-        refuse_site(&p, site);                                                                                         \
+        raw_site candidate = good;                                                                                     \
+        candidate.field = (value);                                                                                     \
+        refuse_site(&p, candidate);                                                                                    \
     } while (0)
     REFUSE(k, -1);
-    REFUSE(k, p.to->contact.sites.n);
+    REFUSE(k, p.to->automaton.set.n);
     REFUSE(n_closed, 3);
     REFUSE(n_closed, -1);
     REFUSE(behind[0], 1);
@@ -193,7 +193,7 @@ static void sites_that_cannot_be_are_refused(void **state)
     REFUSE(storm_start, INFINITY);
     REFUSE(closed[0].feature, 4);
     REFUSE(closed[0].feature, -1);
-    REFUSE(closed[0].sign, 2);
+    REFUSE(closed[0].slide, 2);
     REFUSE(closed[0].held, 2);
     REFUSE(closed[0].place, NAN);
     REFUSE(closed[0].force, NAN);
