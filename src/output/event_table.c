@@ -5,7 +5,7 @@
 #include "base/status.h"
 #include "base/vec2.h"
 
-/* In the order in which events_record() fills a row. */
+/* In the order in which event_table_record() fills a row. */
 static const table_column columns[] = {
     {"/events/t", HDF5_F64, 0, 1},
     {"/events/weight", HDF5_F64, 0, 1},
@@ -27,19 +27,19 @@ static const table_column columns[] = {
 /* The k-th word is the name of code k. */
 static const char kinds[] = "impact close release slip stick pass", states[] = "free slip stick";
 
-dem_status events_init(table *out)
+dem_status event_table_init(table *out)
 {
     return table_init(out, columns, sizeof columns / sizeof columns[0], NULL);
 }
 
-dem_status events_create(const table *t, const hdf5_file *file)
+dem_status event_table_create(const table *t, const hdf5_file *file)
 {
     TRY(table_create(t, file));
     TRY(hdf5_write_attribute_text(file, "/events/kind", "names", kinds));
     return hdf5_write_attribute_text(file, "/events/state", "names", states);
 }
 
-void events_record(table *t, const dem_event *event)
+void event_table_record(table *t, const dem_event *event)
 {
     const vec2 n = vec2_at(event->normal, 0), p = vec2_at(event->impulse, 0), tangent = {n.y, -n.x};
     const double reals[] = {event->t,

@@ -6,12 +6,12 @@
 #include "output/table.h"
 
 /** Free with table_free(). */
-dem_status events_init(table *out);
+dem_status event_table_init(table *out);
 
 /** Makes the datasets, empty, with the names of the codes as attributes. */
-dem_status events_create(const table *t, const hdf5_file *file);
+dem_status event_table_create(const table *t, const hdf5_file *file);
 
 /** Appends the event as a row. The table's buffer must have room. */
-void events_record(table *t, const dem_event *event);
+void event_table_record(table *t, const dem_event *event);
 
 #endif

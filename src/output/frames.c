@@ -224,7 +224,7 @@ static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_
 dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
 {
     const grid g = {f->n_nodes, f->n_springs, lattice->ends};
-    TRY(grid_write(file, &g, f->deflate));
+    TRY(vtk_grid_write(file, &g, f->deflate));
     TRY(write_nodes(f, file, lattice));
     TRY(create_offsets(file));
     TRY(create_arrays(f, file));

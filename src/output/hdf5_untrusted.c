@@ -16,19 +16,20 @@ static const hsize_t most_deflation = 1032;
 
 enum { most_bytes = 16 /* of a number */ };
 
-dem_status foreign_refuse(const hdf5_file *file, const char *name, const char *reason)
+dem_status hdf5_untrusted_refuse(const hdf5_file *file, const char *name, const char *reason)
 {
     return status_fail(DEM_ERROR_IO, "%s: %s: %s", file->path, name, reason);
 }
 
-void foreign_print(char out[FOREIGN_PRINTABLE], const char *name)
+void hdf5_untrusted_print(char out[HDF5_UNTRUSTED_PRINTABLE], const char *name)
 {
     size_t n = 0;
-    for (; n + 1 < FOREIGN_PRINTABLE && name[n] != '\0'; n++) out[n] = name[n] > ' ' && name[n] <= '~' ? name[n] : '?';
+    for (; n + 1 < HDF5_UNTRUSTED_PRINTABLE && name[n] != '\0'; n++)
+        out[n] = name[n] > ' ' && name[n] <= '~' ? name[n] : '?';
     out[n] = '\0';
 }
 
-dem_status foreign_open(hdf5_file *out, const char *path)
+dem_status hdf5_untrusted_open(hdf5_file *out, const char *path)
 {
     struct stat kind;
     CHECK(stat(path, &kind) != 0 || S_ISREG(kind.st_mode), DEM_ERROR_IO, "%s: is not a regular file", path);
@@ -42,11 +43,11 @@ static dem_status check_link(const hdf5_file *file, const char *name, bool *pres
     H5L_info_t info;
     *present = H5Lexists(file->id, name, H5P_DEFAULT) > 0;
     if (*present && (H5Lget_info(file->id, name, &info, H5P_DEFAULT) < 0 || info.type != H5L_TYPE_HARD))
-        return foreign_refuse(file, name, "is a soft or external link");
+        return hdf5_untrusted_refuse(file, name, "is a soft or external link");
     return DEM_OK;
 }
 
-dem_status foreign_find(const hdf5_file *file, const char *name, bool *present)
+dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *present)
 {
     char way[256];
     CHECK(strlen(name) < sizeof way, DEM_ERROR_IO, "%s: a path of %zu characters is too long", file->path,
@@ -76,8 +77,8 @@ static herr_t take_name(hid_t group, const char *name, const H5L_info_t *info, v
     return l->status == DEM_OK ? 0 : 1;
 }
 
-dem_status foreign_list(const hdf5_file *file, const char *group, dem_status (*take)(void *context, const char *name),
-                        void *context)
+dem_status hdf5_untrusted_list(const hdf5_file *file, const char *group,
+                               dem_status (*take)(void *context, const char *name), void *context)
 {
     listing l = {take, context, DEM_OK};
     const hid_t id = H5Gopen2(file->id, group, H5P_DEFAULT);
@@ -132,16 +133,16 @@ static dem_status check_filters(const hdf5_file *file, const char *name, hid_t l
         const H5Z_filter_t filter = H5Pget_filter2(layout, (unsigned)k, &flags, &n_values, NULL, 0, NULL, NULL);
         deflates += filter == H5Z_FILTER_DEFLATE;
         if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32)
-            return foreign_refuse(file, name, "uses a filter other than deflate, shuffle and fletcher32");
+            return hdf5_untrusted_refuse(file, name, "uses a filter other than deflate, shuffle and fletcher32");
     }
-    return n < 0 || deflates > 1 ? foreign_refuse(file, name, "has filters that cannot be told") : DEM_OK;
+    return n < 0 || deflates > 1 ? hdf5_untrusted_refuse(file, name, "has filters that cannot be told") : DEM_OK;
 }
 
 /* The numbers of a chunk, which is read as a whole; 0 where there are no chunks. */
 static hsize_t count_chunk(hid_t layout)
 {
-    hsize_t extent[FOREIGN_RANK] = {1, 1, 1};
-    if (H5Pget_layout(layout) != H5D_CHUNKED || H5Pget_chunk(layout, FOREIGN_RANK, extent) < 0) return 0;
+    hsize_t extent[HDF5_UNTRUSTED_RANK] = {1, 1, 1};
+    if (H5Pget_layout(layout) != H5D_CHUNKED || H5Pget_chunk(layout, HDF5_UNTRUSTED_RANK, extent) < 0) return 0;
     return extent[0] * extent[1] * extent[2]; /* below 2^32 bytes, says HDF5 */
 }
 
@@ -151,7 +152,7 @@ static dem_status check_size(const hdf5_file *file, const char *name, hid_t data
     (void)H5Fget_filesize(file->id, &in_file);
     const hsize_t stored = H5Dget_storage_size(dataset);
     if (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0))
-        return foreign_refuse(file, name, "claims more data than the file holds");
+        return hdf5_untrusted_refuse(file, name, "claims more data than the file holds");
     return DEM_OK;
 }
 
@@ -163,37 +164,39 @@ static dem_status check_storage(const hdf5_file *file, const char *name, hid_t d
     const hsize_t chunk = n > 0 ? count_chunk(layout) : 0;
     dem_status status;
     if (H5Pget_external_count(layout) != 0)
-        status = foreign_refuse(file, name, "keeps its data in an external file");
+        status = hdf5_untrusted_refuse(file, name, "keeps its data in an external file");
     else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
-        status = foreign_refuse(file, name, "has a virtual or unknown layout");
+        status = hdf5_untrusted_refuse(file, name, "has a virtual or unknown layout");
     else if ((status = check_filters(file, name, layout)) == DEM_OK)
         status = check_size(file, name, dataset, size * (n > chunk ? n : chunk));
     (void)H5Pclose(layout);
     return status;
 }
 
-static void measure_extent(hid_t dataset, foreign_shape *out)
+static void measure_extent(hid_t dataset, hdf5_untrusted_shape *out)
 {
     const hid_t space = H5Dget_space(dataset);
     const int rank = H5Sget_simple_extent_ndims(space);
-    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= FOREIGN_RANK;
-    for (int d = 0; d < FOREIGN_RANK; d++) out->extent[d] = 1;
+    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= HDF5_UNTRUSTED_RANK;
+    for (int d = 0; d < HDF5_UNTRUSTED_RANK; d++) out->extent[d] = 1;
     out->rank = fits && H5Sget_simple_extent_dims(space, out->extent, NULL) >= 0 ? rank : 0;
     (void)H5Sclose(space);
 }
 
-static dem_status count_numbers(const hdf5_file *file, const char *name, const foreign_shape *shape, hsize_t *n)
+static dem_status count_numbers(const hdf5_file *file, const char *name, const hdf5_untrusted_shape *shape, hsize_t *n)
 {
     *n = 1;
-    if (shape->extent[0] > most_rows) return foreign_refuse(file, name, "has more than 2^40 rows");
-    for (int d = 0; d < FOREIGN_RANK; d++) {
-        if (*n > most_numbers / (shape->extent[d] + 1)) return foreign_refuse(file, name, "has more than 2^44 numbers");
+    if (shape->extent[0] > most_rows) return hdf5_untrusted_refuse(file, name, "has more than 2^40 rows");
+    for (int d = 0; d < HDF5_UNTRUSTED_RANK; d++) {
+        if (*n > most_numbers / (shape->extent[d] + 1))
+            return hdf5_untrusted_refuse(file, name, "has more than 2^44 numbers");
         *n *= shape->extent[d];
     }
     return DEM_OK;
 }
 
-static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind, foreign_shape *out)
+static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
+                          hdf5_untrusted_shape *out)
 {
     const hid_t type = H5Dget_type(dataset);
     const hsize_t size = H5Tget_size(type);
@@ -201,14 +204,14 @@ static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset
     hsize_t n = 0;
     out->stored = kind_of(type);
     (void)H5Tclose(type);
-    if (misfit != NULL) return foreign_refuse(file, name, misfit);
+    if (misfit != NULL) return hdf5_untrusted_refuse(file, name, misfit);
     measure_extent(dataset, out);
     if (out->rank == 0) return DEM_OK;
     TRY(count_numbers(file, name, out, &n));
     return check_storage(file, name, dataset, size, n);
 }
 
-dem_status foreign_measure(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_shape *out)
+dem_status hdf5_untrusted_measure(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_shape *out)
 {
     const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
@@ -228,10 +231,10 @@ static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid
 
 /* The cause of a failure is HDF5's only until the next call of it. */
 static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
-                            const foreign_rows *rows, void *data)
+                            const hdf5_untrusted_rows *rows, void *data)
 {
-    const hsize_t start[FOREIGN_RANK] = {rows->first};
-    hsize_t count[FOREIGN_RANK] = {0, 1, 1};
+    const hsize_t start[HDF5_UNTRUSTED_RANK] = {rows->first};
+    hsize_t count[HDF5_UNTRUSTED_RANK] = {0, 1, 1};
     dem_status status = DEM_OK;
     const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
     const int rank = H5Sget_simple_extent_dims(space, count, NULL);
@@ -248,7 +251,8 @@ static dem_status read_rows(const hdf5_file *file, const char *name, hid_t datas
     return status;
 }
 
-dem_status foreign_read(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_rows rows, void *data)
+dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
+                               void *data)
 {
     if (rows.count == 0) return DEM_OK;
     const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
@@ -277,8 +281,8 @@ static dem_status refuse_attribute(const hdf5_file *file, const char *object, co
     return status_fail(DEM_ERROR_IO, "%s: %s: has no attribute %s that is %s", file->path, object, name, what);
 }
 
-dem_status foreign_read_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
-                                  void *value)
+dem_status hdf5_untrusted_read_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
+                                         void *value)
 {
     const hid_t id = open_attribute(file, object, name);
     bool read = false;
@@ -291,8 +295,8 @@ dem_status foreign_read_attribute(const hdf5_file *file, const char *object, con
     return read ? DEM_OK : refuse_attribute(file, object, name, is_real(kind) ? "a number" : "an integer");
 }
 
-dem_status foreign_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
-                                       size_t size)
+dem_status hdf5_untrusted_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
+                                              size_t size)
 {
     const hid_t id = open_attribute(file, object, name);
     bool read = false;

@@ -9,51 +9,53 @@
 #include "output/hdf5_file.h"
 
 enum {
-    FOREIGN_RANK = 3,      /**< at most */
-    FOREIGN_PRINTABLE = 41 /**< bytes */
+    HDF5_UNTRUSTED_RANK = 3,      /**< at most */
+    HDF5_UNTRUSTED_PRINTABLE = 41 /**< bytes */
 };
 
-typedef struct foreign_shape {
-    hdf5_kind stored;             /**< what numbers in the file are, or come nearest to */
-    int rank;                     /**< 0: none of ours */
-    hsize_t extent[FOREIGN_RANK]; /**< 1 beyond the rank */
-} foreign_shape;
+typedef struct hdf5_untrusted_shape {
+    hdf5_kind stored;                    /**< what numbers in the file are, or come nearest to */
+    int rank;                            /**< 0: none of ours */
+    hsize_t extent[HDF5_UNTRUSTED_RANK]; /**< 1 beyond the rank */
+} hdf5_untrusted_shape;
 
 /** Rows of a dataset. */
-typedef struct foreign_rows {
+typedef struct hdf5_untrusted_rows {
     hsize_t first, count;
     hsize_t width; /**< of each row the first so many; 0: all */
-} foreign_rows;
+} hdf5_untrusted_rows;
 
 /** Opens a regular file to read. */
-dem_status foreign_open(hdf5_file *out, const char *path);
+dem_status hdf5_untrusted_open(hdf5_file *out, const char *path);
 
 /** Whether there is an object of this absolute path; soft and external links on the way are refused. */
-dem_status foreign_find(const hdf5_file *file, const char *name, bool *present);
+dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *present);
 
 /** The shape of a dataset of numbers that can be read as `kind`: reals from reals and integers, integers from integers,
  *  HDF5_U8 also from booleans.  \return DEM_ERROR_IO with the name and the reason */
-dem_status foreign_measure(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_shape *out);
+dem_status hdf5_untrusted_measure(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_shape *out);
 
-/** Reads rows that foreign_measure() has seen while the file was open. A number that does not fit is an error. */
-dem_status foreign_read(const hdf5_file *file, const char *name, hdf5_kind kind, foreign_rows rows, void *data);
+/** Reads rows that hdf5_untrusted_measure() has seen while the file was open. A number that does not fit is an error.
+ *  */
+dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
+                               void *data);
 
 /** Reads an attribute that is a single number. */
-dem_status foreign_read_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
-                                  void *value);
+dem_status hdf5_untrusted_read_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
+                                         void *value);
 
 /** Reads an attribute that is a string of fixed length and terminates it. */
-dem_status foreign_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
-                                       size_t size);
+dem_status hdf5_untrusted_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
+                                              size_t size);
 
 /** Calls `take` with the name of everything in a group, in no order, until that fails. */
-dem_status foreign_list(const hdf5_file *file, const char *group, dem_status (*take)(void *context, const char *name),
-                        void *context);
+dem_status hdf5_untrusted_list(const hdf5_file *file, const char *group,
+                               dem_status (*take)(void *context, const char *name), void *context);
 
 /** The beginning of a name, with ? for what cannot be printed. */
-void foreign_print(char out[FOREIGN_PRINTABLE], const char *name);
+void hdf5_untrusted_print(char out[HDF5_UNTRUSTED_PRINTABLE], const char *name);
 
 /** DEM_ERROR_IO: "path: name: reason". */
-dem_status foreign_refuse(const hdf5_file *file, const char *name, const char *reason);
+dem_status hdf5_untrusted_refuse(const hdf5_file *file, const char *name, const char *reason);
 
 #endif

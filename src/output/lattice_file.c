@@ -79,10 +79,10 @@ static size_t item_size(hdf5_kind kind)
 
 static dem_status refuse(const reader *r, const char *name, const char *reason)
 {
-    return foreign_refuse(&r->file, name, reason);
+    return hdf5_untrusted_refuse(&r->file, name, reason);
 }
 
-static dem_status check_extent(reader *r, const struct dataset *d, const foreign_shape *shape)
+static dem_status check_extent(reader *r, const struct dataset *d, const hdf5_untrusted_shape *shape)
 {
     const hsize_t rows = shape->extent[0];
     const int rank = d->width > 1 ? 2 : 1;
@@ -104,20 +104,20 @@ static dem_status check_extent(reader *r, const struct dataset *d, const foreign
 static dem_status read_data(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
-    const foreign_rows all = {0, r->rows[d->of], 0};
+    const hdf5_untrusted_rows all = {0, r->rows[d->of], 0};
     r->data[a] = lattice_zeros((dem_index)(all.count * d->width), item_size(d->kind));
     CHECK_MEMORY(r->data[a]);
-    return foreign_read(&r->file, d->name, d->kind, all, r->data[a]);
+    return hdf5_untrusted_read(&r->file, d->name, d->kind, all, r->data[a]);
 }
 
 static dem_status read_array(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
-    foreign_shape shape;
-    TRY(foreign_find(&r->file, d->name, &r->present[a]));
+    hdf5_untrusted_shape shape;
+    TRY(hdf5_untrusted_find(&r->file, d->name, &r->present[a]));
     if (!r->present[a])
         return d->required && (d->of != SPRINGS || r->springs) ? refuse(r, d->name, "is missing") : DEM_OK;
-    TRY(foreign_measure(&r->file, d->name, d->kind, &shape));
+    TRY(hdf5_untrusted_measure(&r->file, d->name, d->kind, &shape));
     TRY(check_extent(r, d, &shape));
     return r->measure ? DEM_OK : read_data(r, a);
 }
@@ -126,7 +126,7 @@ static dem_status read_array(reader *r, enum array a)
 static dem_status check_name(void *context, const char *name)
 {
     reader *r = context;
-    char known[192] = "", printable[FOREIGN_PRINTABLE];
+    char known[192] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
     size_t n = 0;
     for (int a = 0; a < N_ARRAYS; a++) {
         const char *own = datasets[a].name + sizeof "/lattice";
@@ -136,7 +136,7 @@ static dem_status check_name(void *context, const char *name)
         }
         n += (size_t)snprintf(known + n, sizeof known - n, "%s%s", a == 0 ? "" : ", ", own);
     }
-    foreign_print(printable, name);
+    hdf5_untrusted_print(printable, name);
     return status_fail(DEM_ERROR_IO, "%s: /lattice/%s: is none of the datasets of a lattice: %s", r->file.path,
                        printable, known);
 }
@@ -144,9 +144,9 @@ static dem_status check_name(void *context, const char *name)
 static dem_status read_arrays(reader *r)
 {
     bool present = false;
-    TRY(foreign_find(&r->file, "/lattice", &present));
+    TRY(hdf5_untrusted_find(&r->file, "/lattice", &present));
     if (!present) return refuse(r, "/lattice", "is missing");
-    TRY(foreign_list(&r->file, "/lattice", check_name, r));
+    TRY(hdf5_untrusted_list(&r->file, "/lattice", check_name, r));
     for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
     for (int a = 0; a < N_ARRAYS; a++)
         if (datasets[a].of == TRIANGLES && r->present[a] && !r->present[CORNERS])
@@ -215,7 +215,7 @@ static dem_status check_indices(const dem_lattice *lattice, const char *path)
 
 static dem_status read_file(reader *r, const char *path)
 {
-    TRY(foreign_open(&r->file, path));
+    TRY(hdf5_untrusted_open(&r->file, path));
     return hdf5_close(&r->file, read_arrays(r));
 }
 

@@ -42,27 +42,27 @@ dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
 static dem_status read_law(const hdf5_file *file, const char *group, dem_obstacle *o)
 {
     char law[16];
-    TRY(foreign_read_attribute(file, group, "restitution", HDF5_F64, &o->restitution));
-    TRY(foreign_read_attribute(file, group, "friction", HDF5_F64, &o->friction));
-    TRY(foreign_read_attribute_text(file, group, "friction_law", law, sizeof law));
+    TRY(hdf5_untrusted_read_attribute(file, group, "restitution", HDF5_F64, &o->restitution));
+    TRY(hdf5_untrusted_read_attribute(file, group, "friction", HDF5_F64, &o->friction));
+    TRY(hdf5_untrusted_read_attribute_text(file, group, "friction_law", law, sizeof law));
     if (strcmp(law, "paper") == 0)
         o->friction_law = DEM_FRICTION_PAPER;
     else if (strcmp(law, "coulomb") != 0)
-        return foreign_refuse(file, group, "friction_law is neither coulomb nor paper");
+        return hdf5_untrusted_refuse(file, group, "friction_law is neither coulomb nor paper");
     return DEM_OK;
 }
 
 /* The points are the caller's as soon as they are allocated. */
 static dem_status read_points(const hdf5_file *file, const char *name, dem_obstacle *o)
 {
-    foreign_shape shape;
-    TRY(foreign_measure(file, name, HDF5_F64, &shape));
-    if (shape.rank != 2 || shape.extent[1] != 2) return foreign_refuse(file, name, "is not of shape [n][2]");
+    hdf5_untrusted_shape shape;
+    TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
+    if (shape.rank != 2 || shape.extent[1] != 2) return hdf5_untrusted_refuse(file, name, "is not of shape [n][2]");
     double *points = lattice_zeros((dem_index)shape.extent[0], 2 * sizeof *points);
     CHECK_MEMORY(points);
     o->n_points = (dem_index)shape.extent[0];
     o->points = points;
-    return foreign_read(file, name, HDF5_F64, (foreign_rows){0, shape.extent[0], 0}, points);
+    return hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, shape.extent[0], 0}, points);
 }
 
 static dem_status check(const hdf5_file *file, const char *group, const dem_obstacle *o)
@@ -72,7 +72,7 @@ static dem_status check(const hdf5_file *file, const char *group, const dem_obst
     const dem_status status = dem_obstacle_check(o, segments);
     if (status == DEM_OK || status == DEM_ERROR_MEMORY) return status;
     (void)snprintf(reason, sizeof reason, "%s", dem_status_message());
-    return foreign_refuse(file, group, reason);
+    return hdf5_untrusted_refuse(file, group, reason);
 }
 
 static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_obstacle *out)
@@ -80,8 +80,8 @@ static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_ob
     char points[64];
     bool present = false;
     (void)snprintf(points, sizeof points, "%s/points", group);
-    TRY(foreign_find(file, points, &present));
-    if (!present) return foreign_refuse(file, points, "is missing");
+    TRY(hdf5_untrusted_find(file, points, &present));
+    if (!present) return hdf5_untrusted_refuse(file, points, "is missing");
     TRY(read_points(file, points, out));
     TRY(read_law(file, group, out));
     return check(file, group, out);
@@ -94,7 +94,7 @@ static dem_status read_all(const hdf5_file *file, dem_obstacle **out, dem_index 
     for (bool present = true; present;) {
         char group[48];
         (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)*n);
-        TRY(foreign_find(file, group, &present));
+        TRY(hdf5_untrusted_find(file, group, &present));
         if (!present) break;
         CHECK(grow_array((void **)out, &capacity, *n + 1, sizeof **out), DEM_ERROR_MEMORY, "out of memory");
         (*out)[*n] = (dem_obstacle){0};
@@ -174,7 +174,7 @@ static dem_status write_outline(const hdf5_file *file, const outline *o, int def
 {
     const hdf5_rows points = {GRID "Points", HDF5_F64, 2, {3}, 0, deflate};
     const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
-    TRY(grid_write(file, &o->grid, deflate));
+    TRY(vtk_grid_write(file, &o->grid, deflate));
     TRY(hdf5_write(file, points, (hsize_t)o->grid.n_points, o->points));
     return hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner);
 }

@@ -8,15 +8,15 @@
 #include <stdio.h>
 #include <string.h>
 
-dem_status notes_path(char path[NOTES_PATH], const char *name)
+dem_status provenance_path(char path[PROVENANCE_PATH], const char *name)
 {
     CHECK(*name != '\0' && strpbrk(name, "/.") == NULL && strlen(name) < 64, DEM_ERROR_ARGUMENT,
           "\"%s\" cannot name a note: 1 to 63 characters, none of them / or .", name);
-    (void)snprintf(path, NOTES_PATH, "/provenance/%s", name);
+    (void)snprintf(path, PROVENANCE_PATH, "/provenance/%s", name);
     return DEM_OK;
 }
 
-dem_status notes_put(notes *all, const char *path, const char *text)
+dem_status provenance_put(provenance *all, const char *path, const char *text)
 {
     dem_index k = 0;
     CHECK(grow_array((void **)&all->entries, &all->capacity, all->n + 1, sizeof *all->entries), DEM_ERROR_MEMORY,
@@ -24,7 +24,7 @@ dem_status notes_put(notes *all, const char *path, const char *text)
     char *copy = strdup(text);
     CHECK_MEMORY(copy);
     while (k < all->n && strcmp(all->entries[k].path, path) != 0) k++;
-    notes_entry *entry = &all->entries[k];
+    provenance_entry *entry = &all->entries[k];
     if (k < all->n)
         free(entry->text);
     else
@@ -34,20 +34,20 @@ dem_status notes_put(notes *all, const char *path, const char *text)
     return DEM_OK;
 }
 
-void notes_free(notes *all)
+void provenance_free(provenance *all)
 {
     for (dem_index k = 0; k < all->n; k++) free(all->entries[k].text);
     free(all->entries);
-    *all = (notes){0};
+    *all = (provenance){0};
 }
 
-dem_status notes_write(const notes *all, const hdf5_file *file)
+dem_status provenance_write(const provenance *all, const hdf5_file *file)
 {
     for (dem_index k = 0; k < all->n; k++) TRY(hdf5_write_text(file, all->entries[k].path, all->entries[k].text));
     return DEM_OK;
 }
 
-hsize_t notes_bytes(const notes *all)
+hsize_t provenance_bytes(const provenance *all)
 {
     hsize_t bytes = 0;
     for (dem_index k = 0; k < all->n; k++) bytes += strlen(all->entries[k].text) + 1024; /* and the dataset's header */

@@ -5,28 +5,28 @@
 
 #include "output/hdf5_file.h"
 
-enum { NOTES_PATH = 96 /**< bytes */ };
+enum { PROVENANCE_PATH = 96 /**< bytes */ };
 
-typedef struct notes_entry {
-    char path[NOTES_PATH];
+typedef struct provenance_entry {
+    char path[PROVENANCE_PATH];
     char *text;
-} notes_entry;
+} provenance_entry;
 
-typedef struct notes {
+typedef struct provenance {
     dem_index n, capacity;
-    notes_entry *entries;
-} notes;
+    provenance_entry *entries;
+} provenance;
 
 /** The path of a note in a file; DEM_ERROR_ARGUMENT if it cannot have this name. */
-dem_status notes_path(char path[NOTES_PATH], const char *name);
+dem_status provenance_path(char path[PROVENANCE_PATH], const char *name);
 
-/** Adds a note, or replaces the one of this path; on failure nothing has changed. Free with notes_free(). */
-dem_status notes_put(notes *all, const char *path, const char *text);
-void notes_free(notes *all);
+/** Adds a note, or replaces the one of this path; on failure nothing has changed. Free with provenance_free(). */
+dem_status provenance_put(provenance *all, const char *path, const char *text);
+void provenance_free(provenance *all);
 
-dem_status notes_write(const notes *all, const hdf5_file *file);
+dem_status provenance_write(const provenance *all, const hdf5_file *file);
 
-/** How many bytes notes_write() adds, at most. */
-hsize_t notes_bytes(const notes *all);
+/** How many bytes provenance_write() adds, at most. */
+hsize_t provenance_bytes(const provenance *all);
 
 #endif

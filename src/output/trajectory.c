@@ -14,39 +14,39 @@
 #include <unistd.h>
 
 struct dem_trajectory {
-    reel reel;
+    trajectory_rows rows;
     segments segments;
     int finished;
 };
 
 static const char *path_of(const dem_trajectory *t)
 {
-    return t->segments.names[SEGMENTS_WHOLE];
+    return t->segments.names[PARTS_WHOLE];
 }
 
 static const char *part_of(const dem_trajectory *t)
 {
-    return t->segments.names[SEGMENTS_PART];
+    return t->segments.names[PARTS_PART];
 }
 
 /* ---- following a run ---- */
 
 static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation)
 {
-    TRY(reel_flush(&t->reel, file));
-    return frames_append(&t->reel.frames, file, simulation);
+    TRY(trajectory_rows_flush(&t->rows, file));
+    return frames_append(&t->rows.frames, file, simulation);
 }
 
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
-    frames *f = &t->reel.frames;
+    frames *f = &t->rows.frames;
     dem_state state = {.struct_size = sizeof state};
     hdf5_file file;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
     dem_simulation_state(simulation, &state);
     if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
-    TRY(hdf5_open_write(&file, part_of(t), reel_flush_bytes(&t->reel) + frames_bytes(f)));
+    TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows) + frames_bytes(f)));
     TRY(hdf5_close(&file, append_frame(t, &file, simulation)));
     f->n++;
     f->last = state.t;
@@ -56,14 +56,14 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 static dem_status flush(dem_trajectory *t)
 {
     hdf5_file file;
-    TRY(hdf5_open_write(&file, part_of(t), reel_flush_bytes(&t->reel)));
-    return hdf5_close(&file, reel_flush(&t->reel, &file));
+    TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows)));
+    return hdf5_close(&file, trajectory_rows_flush(&t->rows, &file));
 }
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
-    reel *r = &t->reel;
+    trajectory_rows *r = &t->rows;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
     if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t)); /* no probe has more rows */
     history_record(&r->history, simulation);
@@ -76,8 +76,8 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
     dem_trajectory *t = context;
     (void)simulation;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more events", path_of(t));
-    if (t->reel.events.buffered == TABLE_ROWS) TRY(flush(t));
-    events_record(&t->reel.events, event);
+    if (t->rows.events.buffered == TABLE_ROWS) TRY(flush(t));
+    event_table_record(&t->rows.events, event);
     return DEM_OK;
 }
 
@@ -87,7 +87,7 @@ static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
 
 /* Without gaps: its bytes are those of its numbers. */
 typedef struct memory {
-    int64_t rows[REEL_PROBES];                          /* so far, over all segments */
+    int64_t rows[ROWS_PROBES];                          /* so far, over all segments */
     int64_t n_probes, fields, double_precision, events; /* of the options, which have to be these again */
     double frame_interval;
     double last_frame, last_row; /* s */
@@ -96,7 +96,7 @@ typedef struct memory {
 
 static memory remember(const dem_trajectory *t)
 {
-    const reel *r = &t->reel;
+    const trajectory_rows *r = &t->rows;
     const dem_trajectory_options *o = &r->options;
     memory m = {.n_probes = o->n_probes,
                 .fields = o->fields,
@@ -107,7 +107,7 @@ static memory remember(const dem_trajectory *t)
                 .last_row = r->history.last,
                 .start = r->history.start,
                 .largest = r->history.largest};
-    for (int k = 0; k < REEL_PROBES; k++) m.rows[k] = (int64_t)reel_total(r, k);
+    for (int k = 0; k < ROWS_PROBES; k++) m.rows[k] = (int64_t)trajectory_rows_total(r, k);
     return m;
 }
 
@@ -121,7 +121,7 @@ static dem_status on_record(void *context, const dem_simulation *simulation, dem
     if (n == 0) return DEM_OK;
     probe_memory *probes = malloc(n * sizeof *probes);
     CHECK_MEMORY(probes);
-    for (size_t k = 0; k < n; k++) probes[k] = probe_remember(&t->reel.probes[k]);
+    for (size_t k = 0; k < n; k++) probes[k] = probe_remember(&t->rows.probes[k]);
     const dem_status status = dem_record_put(record, probes_entry, probes, n * sizeof *probes);
     free(probes);
     return status;
@@ -155,15 +155,15 @@ static dem_status recall(remembered *out, const dem_trajectory *t, const dem_rec
     const memory now = remember(t);
     const size_t n = (size_t)now.n_probes;
     size_t size = 0;
-    *out = (remembered){.rows = calloc((size_t)t->reel.n_kinds, sizeof *out->rows)};
+    *out = (remembered){.rows = calloc((size_t)t->rows.n_kinds, sizeof *out->rows)};
     CHECK_MEMORY(out->rows);
     TRY(dem_record_get(record, entry, &out->memory, sizeof out->memory));
     TRY(check_options_then(&now, &out->memory));
     out->probes = dem_record_find(record, probes_entry, &size);
     CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
           "the record has no entry %s of %zu probes", probes_entry, n);
-    for (int k = 0; k < REEL_PROBES; k++) out->rows[k] = (hsize_t)out->memory.rows[k];
-    for (size_t k = 0; k < n; k++) out->rows[REEL_PROBES + k] = (hsize_t)out->probes[k].rows;
+    for (int k = 0; k < ROWS_PROBES; k++) out->rows[k] = (hsize_t)out->memory.rows[k];
+    for (size_t k = 0; k < n; k++) out->rows[ROWS_PROBES + k] = (hsize_t)out->probes[k].rows;
     return DEM_OK;
 }
 
@@ -171,7 +171,7 @@ static dem_status recall(remembered *out, const dem_trajectory *t, const dem_rec
 
 static dem_status check_options(const char *path, const dem_trajectory_options *options)
 {
-    static const char suffix[] = SEGMENTS_SUFFIX;
+    static const char suffix[] = PARTS_SUFFIX;
     const size_t length = strlen(path), end = sizeof suffix - 1;
     CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
           "%s: the name of a trajectory ends in %s", path, suffix);
@@ -198,8 +198,8 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
     TRY(check_options(path, options));
     dem_trajectory *t = calloc(1, sizeof *t);
     CHECK_MEMORY(t);
-    dem_status status = reel_init(&t->reel, simulation, options);
-    if (status == DEM_OK) status = segments_init(&t->segments, path, &t->reel);
+    dem_status status = trajectory_rows_init(&t->rows, simulation, options);
+    if (status == DEM_OK) status = trajectory_parts_init(&t->segments, path, &t->rows);
     if (status == DEM_OK)
         *out = t;
     else
@@ -210,14 +210,14 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
 /* Makes the part and the file of obstacles, and removes what is younger. */
 static dem_status start(dem_trajectory *t)
 {
-    const reel *r = &t->reel;
+    const trajectory_rows *r = &t->rows;
     const segments *s = &t->segments;
-    TRY(segments_open(s, r));
+    TRY(trajectory_parts_open(s, r));
     dem_status status = DEM_OK;
     if (dem_model_sizes(r->model).n_obstacles > 0)
-        status = obstacle_file_publish(s->names[SEGMENTS_OBSTACLE_PART], s->names[SEGMENTS_OBSTACLE], r->model,
+        status = obstacle_file_publish(s->names[PARTS_OBSTACLE_PART], s->names[PARTS_OBSTACLE], r->model,
                                        r->options.deflate);
-    if (status == DEM_OK) status = segments_prune(&t->segments);
+    if (status == DEM_OK) status = trajectory_parts_prune(&t->segments);
     if (status != DEM_OK) (void)unlink(part_of(t));
     return status;
 }
@@ -236,7 +236,7 @@ static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status s
 static dem_status go_on(dem_trajectory *t, const dem_record *record)
 {
     remembered then;
-    reel *r = &t->reel;
+    trajectory_rows *r = &t->rows;
     dem_status status = recall(&then, t, record);
     for (dem_index k = 0; k < r->options.n_probes && status == DEM_OK; k++)
         status = probe_recall(&r->probes[k], &then.probes[k]);
@@ -245,7 +245,7 @@ static dem_status go_on(dem_trajectory *t, const dem_record *record)
         r->history.last = then.memory.last_row;
         r->history.start = then.memory.start;
         r->history.largest = then.memory.largest;
-        status = segments_find(&t->segments, r, then.rows);
+        status = trajectory_parts_find(&t->segments, r, then.rows);
     }
     free(then.rows);
     return status == DEM_OK ? start(t) : status;
@@ -272,25 +272,25 @@ dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const d
 
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
 {
-    return (dem_observer){.interval = trajectory->reel.options.frame_interval,
+    return (dem_observer){.interval = trajectory->rows.options.frame_interval,
                           .frame = on_frame,
                           .step = on_step,
-                          .event = trajectory->reel.options.events ? on_event : NULL,
+                          .event = trajectory->rows.options.events ? on_event : NULL,
                           .record = on_record,
                           .context = trajectory};
 }
 
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
 {
-    char path[NOTES_PATH];
+    char path[PROVENANCE_PATH];
     hdf5_file file;
     CHECK(trajectory != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
           "dem_trajectory_note: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", path_of(trajectory));
-    TRY(notes_path(path, name));
+    TRY(provenance_path(path, name));
     TRY(hdf5_open_write(&file, part_of(trajectory), strlen(text)));
     TRY(hdf5_close(&file, hdf5_write_text(&file, path, text)));
-    return notes_put(&trajectory->reel.notes, path, text);
+    return provenance_put(&trajectory->rows.provenance, path, text);
 }
 
 dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record)
@@ -300,7 +300,7 @@ dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
     TRY(flush(trajectory));
     dem_status status = recall(&then, trajectory, record);
-    if (status == DEM_OK) status = segments_cut(&trajectory->segments, &trajectory->reel, then.rows);
+    if (status == DEM_OK) status = trajectory_parts_cut(&trajectory->segments, &trajectory->rows, then.rows);
     free(then.rows);
     return status;
 }
@@ -310,7 +310,7 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", path_of(trajectory));
     TRY(flush(trajectory));
-    TRY(segments_join(&trajectory->segments, &trajectory->reel));
+    TRY(trajectory_parts_join(&trajectory->segments, &trajectory->rows));
     trajectory->finished = 1;
     return DEM_OK;
 }
@@ -318,18 +318,18 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 void dem_trajectory_destroy(dem_trajectory *trajectory)
 {
     if (trajectory == NULL) return;
-    reel_free(&trajectory->reel);
-    segments_free(&trajectory->segments);
+    trajectory_rows_free(&trajectory->rows);
+    trajectory_parts_free(&trajectory->segments);
     free(trajectory);
 }
 
 dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size)
 {
-    char full[NOTES_PATH];
+    char full[PROVENANCE_PATH];
     hdf5_file file;
     CHECK(path != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
           "dem_trajectory_read_note: an argument is NULL");
-    TRY(notes_path(full, name));
+    TRY(provenance_path(full, name));
     TRY(hdf5_open_read(&file, path));
     return hdf5_close(&file, hdf5_read_text(&file, full, text, size));
 }

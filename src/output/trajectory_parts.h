@@ -9,19 +9,19 @@
 #include "output/trajectory_rows.h"
 
 enum {
-    SEGMENTS_WHOLE,
-    SEGMENTS_PART,
-    SEGMENTS_OBSTACLE,
-    SEGMENTS_OBSTACLE_PART,
-    SEGMENTS_HEAD, /* temporary: the next segment, or the whole */
-    SEGMENTS_REST, /* temporary: the next part */
-    SEGMENTS_NAMES
+    PARTS_WHOLE,
+    PARTS_PART,
+    PARTS_OBSTACLE,
+    PARTS_OBSTACLE_PART,
+    PARTS_HEAD, /* temporary: the next segment, or the whole */
+    PARTS_REST, /* temporary: the next part */
+    PARTS_NAMES
 };
 
-#define SEGMENTS_SUFFIX ".vtkhdf"
+#define PARTS_SUFFIX ".vtkhdf"
 
 typedef struct segments {
-    char *names[SEGMENTS_NAMES];
+    char *names[PARTS_NAMES];
     char *segment;    /* the one last named */
     size_t size;      /* of each name */
     dem_index n;      /* before the part */
@@ -29,25 +29,25 @@ typedef struct segments {
     hdf5_span *spans; /* [kinds of rows] scratch */
 } segments;
 
-/** `path` must end in SEGMENTS_SUFFIX. Free with segments_free(), after a failure too. */
-dem_status segments_init(segments *out, const char *path, const reel *r);
-void segments_free(segments *s);
+/** `path` must end in PARTS_SUFFIX. Free with trajectory_parts_free(), after a failure too. */
+dem_status trajectory_parts_init(segments *out, const char *path, const trajectory_rows *r);
+void trajectory_parts_free(segments *s);
 
 /** Makes the part without rows, in place of an older one; after a failure there is none. */
-dem_status segments_open(const segments *s, const reel *r);
+dem_status trajectory_parts_open(const segments *s, const trajectory_rows *r);
 
 /** Removes the segments beyond those that count. */
-dem_status segments_prune(segments *s);
+dem_status trajectory_parts_prune(segments *s);
 
 /** Makes the rows up to `upto` [n_kinds] the next segment. The buffers must be empty. On failure nothing changes. */
-dem_status segments_cut(segments *s, reel *r, const hsize_t *upto);
+dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *upto);
 
 /** Finds the segments with the rows up to `upto`, which end with r->history.last; where they are not, but a whole is,
  *  its first rows become the one segment.
  *  \return DEM_ERROR_IO with the file that is missing or another's */
-dem_status segments_find(segments *s, reel *r, const hsize_t *upto);
+dem_status trajectory_parts_find(segments *s, trajectory_rows *r, const hsize_t *upto);
 
 /** Publishes all rows and the peaks as the whole. The buffers must be empty. */
-dem_status segments_join(segments *s, const reel *r);
+dem_status trajectory_parts_join(segments *s, const trajectory_rows *r);
 
 #endif

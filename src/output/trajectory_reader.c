@@ -64,8 +64,8 @@ static dem_status keep(dem_film *film, const char *text, const char **out)
 static dem_status take_name(void *context, const char *name)
 {
     names *all = context;
-    char printable[FOREIGN_PRINTABLE];
-    foreign_print(printable, name);
+    char printable[HDF5_UNTRUSTED_PRINTABLE];
+    hdf5_untrusted_print(printable, name);
     bool fits = *name != '\0' && strlen(name) < NAME;
     for (const char *c = name; fits && *c != '\0'; c++) fits = *c > ' ' && *c <= '~' && strchr("\"',\\", *c) == NULL;
     CHECK(fits, DEM_ERROR_IO, "%s: %s: %s is no name of 1 to %d letters, digits and signs", all->file->path, all->group,
@@ -88,8 +88,8 @@ static dem_status list_names(names *out, const hdf5_file *file, const char *grou
 {
     bool present = false;
     *out = (names){.file = file, .group = group};
-    TRY(foreign_find(file, group, &present));
-    if (present) TRY(foreign_list(file, group, take_name, out));
+    TRY(hdf5_untrusted_find(file, group, &present));
+    if (present) TRY(hdf5_untrusted_list(file, group, take_name, out));
     if (out->n > 0) qsort(out->list, (size_t)out->n, sizeof *out->list, compare_names);
     return DEM_OK;
 }
@@ -118,26 +118,26 @@ static bool holds_frames(const dem_film *film, hsize_t rows, dem_index in_frame)
 static dem_status read_times(dem_film *film, const hdf5_file *file)
 {
     static const char name[] = STEPS "/Values";
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     dem_index n = 0;
-    TRY(foreign_read_attribute(file, STEPS, "NSteps", HDF5_I64, &n));
-    TRY(foreign_measure(file, name, HDF5_F64, &shape));
+    TRY(hdf5_untrusted_read_attribute(file, STEPS, "NSteps", HDF5_I64, &n));
+    TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
     CHECK(shape.rank == 1 && n >= 0 && (hsize_t)n <= shape.extent[0], DEM_ERROR_IO,
           "%s: %s: is not of shape [%lld], as NSteps says", file->path, name, (long long)n);
     film->times = lattice_zeros(n, sizeof *film->times);
     CHECK_MEMORY(film->times);
-    TRY(foreign_read(file, name, HDF5_F64, (foreign_rows){0, (hsize_t)n, 0}, film->times));
+    TRY(hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, (hsize_t)n, 0}, film->times));
     for (dem_index k = 0; k < n; k++)
         if (!isfinite(film->times[k]) || (k > 0 && film->times[k] <= film->times[k - 1]))
-            return foreign_refuse(file, name, "is not finite and ascending");
+            return hdf5_untrusted_refuse(file, name, "is not finite and ascending");
     film->n_frames = n;
     return DEM_OK;
 }
 
 static dem_status check_positions(const dem_film *film, const hdf5_file *file)
 {
-    foreign_shape shape;
-    TRY(foreign_measure(file, GRID "Points", HDF5_F64, &shape));
+    hdf5_untrusted_shape shape;
+    TRY(hdf5_untrusted_measure(file, GRID "Points", HDF5_F64, &shape));
     CHECK(shape.rank == 2 && shape.extent[1] == 3 && holds_frames(film, shape.extent[0], film->lattice.n_nodes),
           DEM_ERROR_IO, "%s: " GRID "Points: is not of shape [%lld frames of %lld][3]", file->path,
           (long long)film->n_frames, (long long)film->lattice.n_nodes);
@@ -160,10 +160,10 @@ static const char *set_of(int of_springs)
 static dem_status add_array(dem_film *film, const hdf5_file *file, int of_springs, const char *name)
 {
     char path[PATH];
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     const dem_index in_frame = count_of(film, of_springs);
     (void)snprintf(path, sizeof path, GRID "%s/%s", set_of(of_springs), name);
-    TRY(foreign_measure(file, path, HDF5_F64, &shape));
+    TRY(hdf5_untrusted_measure(file, path, HDF5_F64, &shape));
     const hsize_t rows = shape.extent[0];
     dem_film_array a = {.unit = units_of(name),
                         .type = type_of(shape.stored),
@@ -214,11 +214,11 @@ static void name_column(char path[PATH], const dem_film_column *column)
 static dem_status add_column(dem_film *film, const hdf5_file *file, const char *table, const char *name)
 {
     char path[PATH];
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     dem_film_column c = {.table = table, .unit = units_of(name)};
     TRY(keep(film, name, &c.name));
     name_column(path, &c);
-    TRY(foreign_measure(file, path, HDF5_F64, &shape));
+    TRY(hdf5_untrusted_measure(file, path, HDF5_F64, &shape));
     const hsize_t *extent = shape.extent;
     CHECK(shape.rank >= 1 && extent[1] >= 1 && extent[1] <= most_width && extent[2] >= 1 &&
               extent[2] <= most_width / extent[1],
@@ -292,7 +292,7 @@ static dem_status add_frames_table(dem_film *film, const hdf5_file *file)
 static dem_status list_frames(dem_film *film, const hdf5_file *file)
 {
     bool present = false;
-    TRY(foreign_find(file, STEPS, &present));
+    TRY(hdf5_untrusted_find(file, STEPS, &present));
     if (!present) return DEM_OK;
     TRY(read_times(film, file));
     TRY(check_positions(film, file));
@@ -317,7 +317,7 @@ static dem_status look(dem_film *film, const char *path)
     film->path = strdup(path);
     CHECK_MEMORY(film->path);
     TRY(dem_lattice_read(&film->lattice, path));
-    TRY(foreign_open(&file, film->path));
+    TRY(hdf5_untrusted_open(&file, film->path));
     return hdf5_close(&file, list_all(film, &file));
 }
 
@@ -397,23 +397,24 @@ const dem_film_column *dem_film_column_find(const dem_film *film, const char *ta
 /* ---- reading ---- */
 
 /* Rows of a dataset, `width` numbers each. */
-static dem_status read_checked(const hdf5_file *file, const char *name, foreign_rows rows, hsize_t width,
+static dem_status read_checked(const hdf5_file *file, const char *name, hdf5_untrusted_rows rows, hsize_t width,
                                double *values)
 {
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     bool present = false;
-    TRY(foreign_find(file, name, &present));
-    if (!present) return foreign_refuse(file, name, "is missing");
-    TRY(foreign_measure(file, name, HDF5_F64, &shape));
+    TRY(hdf5_untrusted_find(file, name, &present));
+    if (!present) return hdf5_untrusted_refuse(file, name, "is missing");
+    TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
     if (shape.rank == 0 || shape.extent[1] * shape.extent[2] != width || shape.extent[0] < rows.first + rows.count)
-        return foreign_refuse(file, name, "has another shape than when the film was opened");
-    return foreign_read(file, name, HDF5_F64, rows, values);
+        return hdf5_untrusted_refuse(file, name, "has another shape than when the film was opened");
+    return hdf5_untrusted_read(file, name, HDF5_F64, rows, values);
 }
 
-static dem_status read_rows(const dem_film *film, const char *name, foreign_rows rows, dem_index width, double *values)
+static dem_status read_rows(const dem_film *film, const char *name, hdf5_untrusted_rows rows, dem_index width,
+                            double *values)
 {
     hdf5_file file;
-    TRY(foreign_open(&file, film->path));
+    TRY(hdf5_untrusted_open(&file, film->path));
     return hdf5_close(&file, read_checked(&file, name, rows, (hsize_t)width, values));
 }
 
@@ -429,7 +430,7 @@ dem_status dem_film_positions(const dem_film *film, dem_index frame, double *x)
     CHECK(film != NULL && x != NULL, DEM_ERROR_ARGUMENT, "dem_film_positions: an argument is NULL");
     TRY(check_frame(film, frame));
     const hsize_t n = (hsize_t)film->lattice.n_nodes;
-    return read_rows(film, GRID "Points", (foreign_rows){(hsize_t)frame * n, n, 2}, 3, x);
+    return read_rows(film, GRID "Points", (hdf5_untrusted_rows){(hsize_t)frame * n, n, 2}, 3, x);
 }
 
 dem_status dem_film_read(const dem_film *film, const dem_film_array *array, dem_index frame, double *values)
@@ -442,7 +443,7 @@ dem_status dem_film_read(const dem_film *film, const dem_film_array *array, dem_
         TRY(check_frame(film, frame));
     const hsize_t n = (hsize_t)count_of(film, array->of_springs);
     (void)snprintf(path, sizeof path, GRID "%s/%s", set_of(array->of_springs), array->name);
-    return read_rows(film, path, (foreign_rows){(hsize_t)frame * n, n, 0}, array->components, values);
+    return read_rows(film, path, (hdf5_untrusted_rows){(hsize_t)frame * n, n, 0}, array->components, values);
 }
 
 dem_status dem_film_read_column(const dem_film *film, const dem_film_column *column, double *values)
@@ -461,5 +462,5 @@ dem_status dem_film_read_rows(const dem_film *film, const dem_film_column *colum
           "%s: %s/%s: has no rows %lld to %lld: there are %lld", film->path, column->table, column->name,
           (long long)first, (long long)(first + count - 1), (long long)column->n_rows);
     name_column(path, column);
-    return read_rows(film, path, (foreign_rows){(hsize_t)first, (hsize_t)count, 0}, column->width, values);
+    return read_rows(film, path, (hdf5_untrusted_rows){(hsize_t)first, (hsize_t)count, 0}, column->width, values);
 }

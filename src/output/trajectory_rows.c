@@ -10,25 +10,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const table *table_of(const reel *r, int kind)
+static const table *table_of(const trajectory_rows *r, int kind)
 {
-    if (kind == REEL_HISTORY) return &r->history.table;
-    return kind == REEL_EVENTS ? &r->events : &r->probes[kind - REEL_PROBES].table;
+    if (kind == ROWS_HISTORY) return &r->history.table;
+    return kind == ROWS_EVENTS ? &r->events : &r->probes[kind - ROWS_PROBES].table;
 }
 
-static table *table_to_change(reel *r, int kind)
+static table *table_to_change(trajectory_rows *r, int kind)
 {
     return (table *)table_of(r, kind);
 }
 
-static bool has_frames(const reel *r)
+static bool has_frames(const trajectory_rows *r)
 {
     return r->options.frame_interval > 0.0;
 }
 
 /* ---- creation ---- */
 
-static dem_status make_probes(reel *r)
+static dem_status make_probes(trajectory_rows *r)
 {
     const dem_probe *given = r->options.probes;
     r->probes = calloc((size_t)r->options.n_probes + 1, sizeof *r->probes);
@@ -42,76 +42,77 @@ static dem_status make_probes(reel *r)
     return DEM_OK;
 }
 
-dem_status reel_init(reel *out, const dem_simulation *simulation, const dem_trajectory_options *options)
+dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simulation,
+                                const dem_trajectory_options *options)
 {
     out->model = dem_simulation_model(simulation);
     out->options = *options;
-    out->n_kinds = REEL_PROBES + (int)options->n_probes;
+    out->n_kinds = ROWS_PROBES + (int)options->n_probes;
     TRY(frames_init(&out->frames, out->model, options));
     TRY(make_probes(out));
     out->options.probes = NULL; /* the caller's */
-    if (options->events) TRY(events_init(&out->events));
+    if (options->events) TRY(event_table_init(&out->events));
     return history_init(&out->history, simulation);
 }
 
-void reel_free(reel *r)
+void trajectory_rows_free(trajectory_rows *r)
 {
     history_free(&r->history);
     table_free(&r->events);
     for (dem_index k = 0; r->probes != NULL && k < r->options.n_probes; k++) probe_free(&r->probes[k]);
     free(r->probes);
     frames_free(&r->frames);
-    notes_free(&r->notes);
+    provenance_free(&r->provenance);
 }
 
-dem_status reel_create(const reel *r, const hdf5_file *file)
+dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *file)
 {
     const dem_lattice *lattice = dem_model_lattice(r->model);
     if (has_frames(r)) TRY(frames_create(&r->frames, file, lattice));
     TRY(lattice_file_write(file, lattice, r->options.deflate));
     TRY(obstacle_file_write(file, r->model));
-    if (r->options.events) TRY(events_create(&r->events, file));
+    if (r->options.events) TRY(event_table_create(&r->events, file));
     for (dem_index k = 0; k < r->options.n_probes; k++) TRY(probe_create(&r->probes[k], file));
     TRY(table_create(&r->history.table, file));
-    return notes_write(&r->notes, file);
+    return provenance_write(&r->provenance, file);
 }
 
 /* Deflate never lengthens. */
-hsize_t reel_create_bytes(const reel *r)
+hsize_t trajectory_rows_create_bytes(const trajectory_rows *r)
 {
     const dem_model_size size = dem_model_sizes(r->model);
     return 104 * (hsize_t)size.n_nodes + 65 * (hsize_t)size.n_springs + 56 * (hsize_t)size.n_triangles +
-           32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles + notes_bytes(&r->notes);
+           32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles + provenance_bytes(&r->provenance);
 }
 
 /* ---- rows ---- */
 
-dem_status reel_flush(reel *r, const hdf5_file *file)
+dem_status trajectory_rows_flush(trajectory_rows *r, const hdf5_file *file)
 {
-    for (int k = REEL_HISTORY; k < r->n_kinds; k++) TRY(table_flush(table_to_change(r, k), file));
+    for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_flush(table_to_change(r, k), file));
     return DEM_OK;
 }
 
-hsize_t reel_flush_bytes(const reel *r)
+hsize_t trajectory_rows_flush_bytes(const trajectory_rows *r)
 {
     hsize_t bytes = 0;
-    for (int k = REEL_HISTORY; k < r->n_kinds; k++) bytes += table_bytes(table_of(r, k));
+    for (int k = ROWS_HISTORY; k < r->n_kinds; k++) bytes += table_bytes(table_of(r, k));
     return bytes;
 }
 
-hsize_t reel_total(const reel *r, int kind)
+hsize_t trajectory_rows_total(const trajectory_rows *r, int kind)
 {
-    return kind == REEL_FRAMES ? (hsize_t)(r->frames.before + r->frames.n) : table_total(table_of(r, kind));
+    return kind == ROWS_FRAMES ? (hsize_t)(r->frames.before + r->frames.n) : table_total(table_of(r, kind));
 }
 
-hsize_t reel_written(const reel *r, int kind)
+hsize_t trajectory_rows_written(const trajectory_rows *r, int kind)
 {
-    return kind == REEL_FRAMES ? (hsize_t)r->frames.n : table_of(r, kind)->written;
+    return kind == ROWS_FRAMES ? (hsize_t)r->frames.n : table_of(r, kind)->written;
 }
 
-void reel_place(reel *r, int kind, hsize_t before, hsize_t written)
+void trajectory_rows_place(trajectory_rows *r, int kind, hsize_t before, hsize_t written)
 {
-    if (kind == REEL_FRAMES) {
+    if (kind == ROWS_FRAMES) {
         r->frames.before = (dem_index)before;
         r->frames.n = (dem_index)written;
     } else {
@@ -120,42 +121,43 @@ void reel_place(reel *r, int kind, hsize_t before, hsize_t written)
     }
 }
 
-const char *reel_name(const reel *r, int kind)
+const char *trajectory_rows_name(const trajectory_rows *r, int kind)
 {
-    static const char *const names[] = {[REEL_FRAMES] = "frames", [REEL_HISTORY] = "history", [REEL_EVENTS] = "events"};
-    return kind < REEL_PROBES ? names[kind] : r->probes[kind - REEL_PROBES].what.name;
+    static const char *const names[] = {[ROWS_FRAMES] = "frames", [ROWS_HISTORY] = "history", [ROWS_EVENTS] = "events"};
+    return kind < ROWS_PROBES ? names[kind] : r->probes[kind - ROWS_PROBES].what.name;
 }
 
-dem_status reel_copy(const reel *r, const hdf5_file *from, const hdf5_file *to, const hdf5_span *spans)
+dem_status trajectory_rows_copy(const trajectory_rows *r, const hdf5_file *from, const hdf5_file *to,
+                                const hdf5_span *spans)
 {
-    TRY(frames_copy(&r->frames, from, to, spans[REEL_FRAMES]));
-    for (int k = REEL_HISTORY; k < r->n_kinds; k++) TRY(table_copy(table_of(r, k), from, to, spans[k]));
+    TRY(frames_copy(&r->frames, from, to, spans[ROWS_FRAMES]));
+    for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_copy(table_of(r, k), from, to, spans[k]));
     return DEM_OK;
 }
 
-dem_status reel_count(const reel *r, const hdf5_file *file, hdf5_span *spans)
+dem_status trajectory_rows_count(const trajectory_rows *r, const hdf5_file *file, hdf5_span *spans)
 {
-    spans[REEL_FRAMES].count = 0;
-    if (has_frames(r)) TRY(frames_count(&r->frames, file, &spans[REEL_FRAMES].count));
-    for (int k = REEL_HISTORY; k < r->n_kinds; k++) TRY(table_count(table_of(r, k), file, &spans[k].count));
+    spans[ROWS_FRAMES].count = 0;
+    if (has_frames(r)) TRY(frames_count(&r->frames, file, &spans[ROWS_FRAMES].count));
+    for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_count(table_of(r, k), file, &spans[k].count));
     return DEM_OK;
 }
 
-dem_status reel_verify(const reel *r, const hdf5_file *file, const hdf5_span *spans)
+dem_status trajectory_rows_verify(const trajectory_rows *r, const hdf5_file *file, const hdf5_span *spans)
 {
-    if (has_frames(r)) TRY(frames_verify(&r->frames, file, spans[REEL_FRAMES].count));
-    for (int k = REEL_HISTORY; k < r->n_kinds; k++) TRY(table_verify(table_of(r, k), file, spans[k].count));
+    if (has_frames(r)) TRY(frames_verify(&r->frames, file, spans[ROWS_FRAMES].count));
+    for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_verify(table_of(r, k), file, spans[k].count));
     return DEM_OK;
 }
 
 /* ---- the end ---- */
 
-static peaks_report report_of(const reel *r)
+static peaks_report report_of(const trajectory_rows *r)
 {
     return (peaks_report){r->options.peaks, dem_model_lattice(r->model), r->options.most_stressed};
 }
 
-dem_status reel_write_peaks(const reel *r, const hdf5_file *file, hsize_t n)
+dem_status trajectory_rows_write_peaks(const trajectory_rows *r, const hdf5_file *file, hsize_t n)
 {
     const peaks_report report = report_of(r);
     if (report.peaks == NULL) return DEM_OK;
@@ -163,7 +165,7 @@ dem_status reel_write_peaks(const reel *r, const hdf5_file *file, hsize_t n)
     return peaks_file_write_lists(file, &report);
 }
 
-hsize_t reel_peaks_bytes(const reel *r, hsize_t n)
+hsize_t trajectory_rows_peaks_bytes(const trajectory_rows *r, hsize_t n)
 {
     const peaks_report report = report_of(r);
     return report.peaks != NULL ? peaks_file_bytes(&report, n) : 0;

@@ -10,53 +10,55 @@
 #include "output/probe.h"
 #include "output/provenance.h"
 
-enum { REEL_FRAMES, REEL_HISTORY, REEL_EVENTS, REEL_PROBES /**< the first of them */ }; /* kinds of rows */
+enum { ROWS_FRAMES, ROWS_HISTORY, ROWS_EVENTS, ROWS_PROBES /**< the first of them */ }; /* kinds of rows */
 
-typedef struct reel {
+typedef struct trajectory_rows {
     const dem_model *model;
     dem_trajectory_options options;
     frames frames;
     history history;
     table events;  /* without columns unless wanted */
     probe *probes; /* [options.n_probes] */
-    notes notes;
+    provenance provenance;
     int n_kinds;
-} reel;
+} trajectory_rows;
 
-/** `out` is zero; free with reel_free(), after a failure too. Model and peaks are borrowed. */
-dem_status reel_init(reel *out, const dem_simulation *simulation, const dem_trajectory_options *options);
-void reel_free(reel *r);
+/** `out` is zero; free with trajectory_rows_free(), after a failure too. Model and peaks are borrowed. */
+dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simulation,
+                                const dem_trajectory_options *options);
+void trajectory_rows_free(trajectory_rows *r);
 
 /** Makes everything but rows, and how many bytes that adds, at most. */
-dem_status reel_create(const reel *r, const hdf5_file *file);
-hsize_t reel_create_bytes(const reel *r);
+dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *file);
+hsize_t trajectory_rows_create_bytes(const trajectory_rows *r);
 
 /** Moves the buffered rows to the file, and how many bytes that adds, at most. */
-dem_status reel_flush(reel *r, const hdf5_file *file);
-hsize_t reel_flush_bytes(const reel *r);
+dem_status trajectory_rows_flush(trajectory_rows *r, const hdf5_file *file);
+hsize_t trajectory_rows_flush_bytes(const trajectory_rows *r);
 
 /** Writes the peaks, if there are any, into a file of n frames, and how many bytes that adds, at most. */
-dem_status reel_write_peaks(const reel *r, const hdf5_file *file, hsize_t n);
-hsize_t reel_peaks_bytes(const reel *r, hsize_t n);
+dem_status trajectory_rows_write_peaks(const trajectory_rows *r, const hdf5_file *file, hsize_t n);
+hsize_t trajectory_rows_peaks_bytes(const trajectory_rows *r, hsize_t n);
 
 /** Rows so far, and those of them that are in the present file. */
-hsize_t reel_total(const reel *r, int kind);
-hsize_t reel_written(const reel *r, int kind);
+hsize_t trajectory_rows_total(const trajectory_rows *r, int kind);
+hsize_t trajectory_rows_written(const trajectory_rows *r, int kind);
 
 /** So many rows stand in files before the present one, and so many in that. */
-void reel_place(reel *r, int kind, hsize_t before, hsize_t written);
+void trajectory_rows_place(trajectory_rows *r, int kind, hsize_t before, hsize_t written);
 
 /** What a kind is called in messages. */
-const char *reel_name(const reel *r, int kind);
+const char *trajectory_rows_name(const trajectory_rows *r, int kind);
 
 /** Copies rows of another file.  \param spans  [n_kinds] */
-dem_status reel_copy(const reel *r, const hdf5_file *from, const hdf5_file *to, const hdf5_span *spans);
+dem_status trajectory_rows_copy(const trajectory_rows *r, const hdf5_file *from, const hdf5_file *to,
+                                const hdf5_span *spans);
 
 /** The rows of a file.  \param[out] spans  [n_kinds] their counts
  *  \return DEM_ERROR_IO if a dataset is of another type or shape, or has not as many rows as others of its kind */
-dem_status reel_count(const reel *r, const hdf5_file *file, hdf5_span *spans);
+dem_status trajectory_rows_count(const trajectory_rows *r, const hdf5_file *file, hdf5_span *spans);
 
 /** DEM_ERROR_IO unless the file has these counts of rows. */
-dem_status reel_verify(const reel *r, const hdf5_file *file, const hdf5_span *spans);
+dem_status trajectory_rows_verify(const trajectory_rows *r, const hdf5_file *file, const hdf5_span *spans);
 
 #endif

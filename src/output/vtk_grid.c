@@ -36,7 +36,7 @@ static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
     return status;
 }
 
-dem_status grid_write(const hdf5_file *file, const grid *g, int deflate)
+dem_status vtk_grid_write(const hdf5_file *file, const grid *g, int deflate)
 {
     static const dem_index version[2] = {2, 0};
     const dem_index n_ends = 2 * g->n_cells;

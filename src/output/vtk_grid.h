@@ -13,6 +13,6 @@ typedef struct grid {
 } grid;
 
 /** Counts, connectivity and types of the cells, and what tells readers that this is such a grid. */
-dem_status grid_write(const hdf5_file *file, const grid *g, int deflate);
+dem_status vtk_grid_write(const hdf5_file *file, const grid *g, int deflate);
 
 #endif

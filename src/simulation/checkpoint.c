@@ -153,7 +153,7 @@ static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem
     return record_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
-dem_status recall_put(dem_simulation *s, dem_record *record)
+dem_status checkpoint_take(dem_simulation *s, dem_record *record)
 {
     const contact_ledger *books = &s->automaton.set.ledger;
     const record_way way = {.into = record};
@@ -209,7 +209,7 @@ static dem_status check_numbers(const numbers *n)
     return DEM_OK;
 }
 
-dem_status recall_get(dem_simulation *s, const dem_record *record)
+dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
 {
     contact_set *c = &s->automaton.set;
     const record_way way = {.from = record};

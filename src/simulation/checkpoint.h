@@ -7,10 +7,10 @@
 #include "simulation/private.h"
 
 /** Puts the state after the last committed step into a record.  \return DEM_ERROR_MEMORY */
-dem_status recall_put(dem_simulation *s, dem_record *record);
+dem_status checkpoint_take(dem_simulation *s, dem_record *record);
 
 /** Makes the state that of a record; nothing else of the run shows in it any more.
  *  \return DEM_ERROR_IO if the record is of another model or cannot be one; the run is of no use then */
-dem_status recall_get(dem_simulation *s, const dem_record *record);
+dem_status checkpoint_restore(dem_simulation *s, const dem_record *record);
 
 #endif

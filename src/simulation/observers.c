@@ -18,25 +18,25 @@ static dem_index frame_after(double interval, double told)
     return k;
 }
 
-dem_status audience_add(audience *a, const dem_observer *observer, double told)
+dem_status observers_add(observers *a, const dem_observer *observer, double told)
 {
     const double interval = observer->interval;
     CHECK(isfinite(interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", interval);
     CHECK(!(interval > 0.0) || told < most_frames * interval, DEM_ERROR_ARGUMENT,
           "frames %g s apart cannot be numbered at %g s", interval, told);
-    CHECK(a->n < AUDIENCE_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)AUDIENCE_MOST);
-    a->members[a->n++] = (audience_member){*observer, frame_after(interval, told)};
+    CHECK(a->n < OBSERVERS_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)OBSERVERS_MOST);
+    a->members[a->n++] = (observer_entry){*observer, frame_after(interval, told)};
     return DEM_OK;
 }
 
-bool audience_hears_events(const audience *a)
+bool observers_want_events(const observers *a)
 {
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.event != NULL) return true;
     return false;
 }
 
-dem_status audience_event(const audience *a, const dem_simulation *simulation, const dem_event *event)
+dem_status observers_event(const observers *a, const dem_simulation *simulation, const dem_event *event)
 {
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
@@ -46,7 +46,7 @@ dem_status audience_event(const audience *a, const dem_simulation *simulation, c
     return status;
 }
 
-dem_status audience_step(const audience *a, const dem_simulation *simulation)
+dem_status observers_step(const observers *a, const dem_simulation *simulation)
 {
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
@@ -56,7 +56,7 @@ dem_status audience_step(const audience *a, const dem_simulation *simulation)
     return status;
 }
 
-dem_status audience_record(const audience *a, const dem_simulation *simulation, dem_record *record)
+dem_status observers_record(const observers *a, const dem_simulation *simulation, dem_record *record)
 {
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
@@ -66,7 +66,7 @@ dem_status audience_record(const audience *a, const dem_simulation *simulation, 
     return status;
 }
 
-int audience_due(const audience *a, double end, double t_end, double *t)
+int observers_due(const observers *a, double end, double t_end, double *t)
 {
     int first = -1;
     for (int k = 0; k < a->n; k++) {
@@ -81,7 +81,7 @@ int audience_due(const audience *a, double end, double t_end, double *t)
     return first;
 }
 
-dem_status audience_frame(audience *a, int k, const dem_simulation *simulation)
+dem_status observers_frame(observers *a, int k, const dem_simulation *simulation)
 {
     const dem_observer *o = &a->members[k].observer;
     a->members[k].next_frame++;

@@ -7,33 +7,33 @@
 
 #include <dem/dem.h>
 
-enum { AUDIENCE_MOST = 8 };
+enum { OBSERVERS_MOST = 8 };
 
-typedef struct audience_member {
+typedef struct observer_entry {
     dem_observer observer;
     dem_index next_frame; /* the frame at next_frame * interval comes next */
-} audience_member;
+} observer_entry;
 
-typedef struct audience {
+typedef struct observers {
     int n;
-    audience_member members[AUDIENCE_MOST];
-} audience;
+    observer_entry members[OBSERVERS_MOST];
+} observers;
 
 /** \param told  s, frames up to then have been shown; < 0: none
  *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite, or too short for `told` */
-dem_status audience_add(audience *a, const dem_observer *observer, double told);
+dem_status observers_add(observers *a, const dem_observer *observer, double told);
 
-bool audience_hears_events(const audience *a);
+bool observers_want_events(const observers *a);
 
 /** Tell everyone; the first status other than DEM_OK counts. */
-dem_status audience_event(const audience *a, const dem_simulation *simulation, const dem_event *event);
-dem_status audience_step(const audience *a, const dem_simulation *simulation);
-dem_status audience_record(const audience *a, const dem_simulation *simulation, dem_record *record);
+dem_status observers_event(const observers *a, const dem_simulation *simulation, const dem_event *event);
+dem_status observers_step(const observers *a, const dem_simulation *simulation);
+dem_status observers_record(const observers *a, const dem_simulation *simulation, dem_record *record);
 
 /** Whose frame is due first, up to t_end (s), and when; one at t_end is not lost to rounding. -1: nobody's. */
-int audience_due(const audience *a, double end, double t_end, double *t);
+int observers_due(const observers *a, double end, double t_end, double *t);
 
 /** Shows a member its frame. */
-dem_status audience_frame(audience *a, int k, const dem_simulation *simulation);
+dem_status observers_frame(observers *a, int k, const dem_simulation *simulation);
 
 #endif

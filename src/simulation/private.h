@@ -49,10 +49,10 @@ struct dem_simulation {
     dem_index unrecorded;     /* steps since the last record */
     dem_record *record;       /* the last one, */
     bool has_record;          /* if there is one */
-    dem_record *refuge;       /* what was before contacts change that ask for the force from outside, */
-    bool has_refuge;          /* while they do */
+    dem_record *rollback;     /* what was before contacts change that ask for the force from outside, */
+    bool has_rollback;        /* while they do */
     dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
-    audience audience;
+    observers observers;
 };
 
 /* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its

@@ -4,16 +4,16 @@
 
 #include "forces/diagnostics.h"
 
-void view_at(dem_simulation *s, double t, const double *y)
+void query_at(dem_simulation *s, double t, const double *y)
 {
     s->seen_t = t;
     s->seen = y;
     *s->measures = (run_measures){.has_events = true, .has_state = y != s->frame};
 }
 
-void view_inside(dem_simulation *s, double t)
+void query_inside(dem_simulation *s, double t)
 {
-    view_at(s, t, s->frame);
+    query_at(s, t, s->frame);
     s->measures->has_events = !run_is_local(s);
 }
 

@@ -6,9 +6,9 @@
 #include "simulation/private.h"
 
 /** Looks at a state y, [4 n], at t. */
-void view_at(dem_simulation *s, double t, const double *y);
+void query_at(dem_simulation *s, double t, const double *y);
 
 /** Looks at a time within the step in hand. */
-void view_inside(dem_simulation *s, double t);
+void query_inside(dem_simulation *s, double t);
 
 #endif

@@ -62,6 +62,6 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     TRY(automaton_open_all(&s->automaton));
     TRY(integrator_restart(&s->integrator, s->t, s->frame));
     s->y = integrator_state(&s->integrator);
-    view_at(s, s->t, s->y);
+    query_at(s, s->t, s->y);
     return DEM_OK;
 }

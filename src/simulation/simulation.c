@@ -100,36 +100,36 @@ static double stiffening(const double *y, void *context)
 static dem_status hear_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
-    view_at(s, s->t, s->y);
-    return audience_event(&s->audience, s, event);
+    query_at(s, s->t, s->y);
+    return observers_event(&s->observers, s, event);
 }
 
 /* Events inside the step in hand, up to t. */
 static dem_status tell_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
-    if (!audience_hears_events(&s->audience)) return DEM_OK;
+    if (!observers_want_events(&s->observers)) return DEM_OK;
     while (s->told < s->n_inside && s->queue.events[s->told].t <= t) {
         const dem_event event = s->queue.events[s->told++];
-        view_inside(s, event.t);
-        status = status_first(status, audience_event(&s->audience, s, &event));
+        query_inside(s, event.t);
+        status = status_first(status, observers_event(&s->observers, s, &event));
     }
     return status;
 }
 
 static dem_status tell_step(dem_simulation *s)
 {
-    view_at(s, s->t, s->y);
-    return audience_step(&s->audience, s);
+    query_at(s, s->t, s->y);
+    return observers_step(&s->observers, s);
 }
 
 static dem_status tell_frames(dem_simulation *s, double t_end)
 {
     double t;
-    for (int k = 0; (k = audience_due(&s->audience, s->path.end, t_end, &t)) >= 0;) {
+    for (int k = 0; (k = observers_due(&s->observers, s->path.end, t_end, &t)) >= 0;) {
         TRY(tell_events(s, t));
-        view_inside(s, t);
-        TRY(audience_frame(&s->audience, k, s));
+        query_inside(s, t);
+        TRY(observers_frame(&s->observers, k, s));
     }
     return DEM_OK;
 }
@@ -137,33 +137,33 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 /* ---- the loop ---- */
 
 /* Nothing goes on that a force from outside has not been there for. */
-static dem_status heed(const dem_simulation *s, dem_status status)
+static dem_status stop_if_force_failed(const dem_simulation *s, dem_status status)
 {
     return external_force_failed(s->external) ? DEM_STOPPED : status;
 }
 
 /* Keeps the state with its contacts, which are about to change at once. */
-static dem_status take_refuge(dem_simulation *s)
+static dem_status take_rollback(dem_simulation *s)
 {
     if (s->external == NULL) return DEM_OK;
-    if (s->refuge == NULL) TRY(dem_record_create(&s->refuge));
-    TRY(recall_put(s, s->refuge));
-    s->has_refuge = true;
+    if (s->rollback == NULL) TRY(dem_record_create(&s->rollback));
+    TRY(checkpoint_take(s, s->rollback));
+    s->has_rollback = true;
     return DEM_OK;
 }
 
 /* The force from outside has failed: back to the last state that it was there for. */
-static dem_status fall_back(dem_simulation *s)
+static dem_status roll_back(dem_simulation *s)
 {
     dem_status status = DEM_OK;
     if (s->in_hand) event_queue_undo(&s->queue);
     s->in_hand = s->at_event = false;
-    if (s->has_refuge)
-        status = recall_get(s, s->refuge);
+    if (s->has_rollback)
+        status = checkpoint_restore(s, s->rollback);
     else
         status = integrator_restart(&s->integrator, s->t, s->y);
-    s->has_refuge = false;
-    view_at(s, s->t, s->y);
+    s->has_rollback = false;
+    query_at(s, s->t, s->y);
     return status_first(status, external_force_failure(s->external));
 }
 
@@ -195,7 +195,7 @@ static dem_status take_local_step(dem_simulation *s)
         TRY(integrator_step(&s->integrator, &s->path, &rooted));
         integrator_end(&s->integrator, &y1, &f1);
         event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
-        const dem_status status = heed(s, event_queue_show(&s->queue, s->path.t1));
+        const dem_status status = stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1));
         const double factor = shortening(&s->queue, status);
         if (status == DEM_OK && factor == 1.0) return DEM_OK;
         event_queue_undo(&s->queue);
@@ -210,7 +210,7 @@ static dem_status take_step_to_event(dem_simulation *s)
     bool rooted;
     TRY(integrator_step(&s->integrator, &s->path, &rooted));
     s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
-    return heed(s, DEM_OK);
+    return stop_if_force_failed(s, DEM_OK);
 }
 
 static dem_status take_step(dem_simulation *s)
@@ -225,8 +225,8 @@ static dem_status take_step(dem_simulation *s)
 /* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
-    TRY(heed(s, DEM_OK));
-    s->has_refuge = false;
+    TRY(stop_if_force_failed(s, DEM_OK));
+    s->has_rollback = false;
     status = status_first(status, integrator_restart(&s->integrator, s->t, s->y));
     return status == DEM_ERROR_CONTACT ? status : status_first(status, tell_step(s));
 }
@@ -256,7 +256,7 @@ static bool settle_step(dem_simulation *s)
 static dem_status commit_step_to_event(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};
-    if (s->at_event) TRY(take_refuge(s));
+    if (s->at_event) TRY(take_rollback(s));
     const bool moved = settle_step(s);
     if (!s->at_event && moved) TRY(integrator_restart(&s->integrator, s->t, s->y));
     if (!s->at_event) return tell_step(s);
@@ -267,7 +267,7 @@ static dem_status commit_step_to_event(dem_simulation *s)
 static dem_status commit_local_step(dem_simulation *s)
 {
     TRY(tell_events(s, s->path.t1));
-    TRY(heed(s, event_queue_show(&s->queue, s->path.t1)));
+    TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
     s->events += s->queue.n_stops;
     TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
@@ -287,7 +287,7 @@ static dem_status commit_step(dem_simulation *s)
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};
-    TRY(take_refuge(s));
+    TRY(take_rollback(s));
     const dem_status status = go_on(s, automaton_start(&s->automaton, s->t, s->y, &listener));
     s->started = !external_force_failed(s->external);
     return status;
@@ -303,11 +303,11 @@ static bool wants_record(const dem_simulation *s)
 static dem_status take_record(dem_simulation *s)
 {
     s->has_record = false;
-    TRY(recall_put(s, s->record));
-    TRY(recall_get(s, s->record));
+    TRY(checkpoint_take(s, s->record));
+    TRY(checkpoint_restore(s, s->record));
     s->has_record = true;
-    view_at(s, s->t, s->y);
-    return audience_record(&s->audience, s, s->record);
+    query_at(s, s->t, s->y);
+    return observers_record(&s->observers, s, s->record);
 }
 
 static dem_status advance(dem_simulation *s, double t_end)
@@ -316,12 +316,12 @@ static dem_status advance(dem_simulation *s, double t_end)
     for (;;) {
         if (!s->in_hand && wants_record(s)) TRY(take_record(s));
         if (!s->in_hand) TRY(take_step(s));
-        TRY(heed(s, tell_frames(s, t_end)));
+        TRY(stop_if_force_failed(s, tell_frames(s, t_end)));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));
     }
     TRY(tell_events(s, t_end));
-    view_inside(s, t_end);
+    query_inside(s, t_end);
     return DEM_OK;
 }
 
@@ -333,7 +333,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     s->advanced = s->advancing = true;
     const dem_status status = advance(s, t_end);
     s->advancing = false;
-    return external_force_failed(s->external) ? fall_back(s) : status;
+    return external_force_failed(s->external) ? roll_back(s) : status;
 }
 
 /* ---- set-up ---- */
@@ -415,16 +415,16 @@ static dem_status set_up(dem_simulation *s)
     TRY(dem_record_create(&s->record));
     TRY(overlap_create(&s->overlap, &model->lattice));
     look_for_overlaps(s);
-    view_at(s, 0.0, s->y);
+    query_at(s, 0.0, s->y);
     return DEM_OK;
 }
 
 static dem_status resume(dem_simulation *s, const dem_record *record)
 {
-    TRY(recall_get(s, record));
+    TRY(checkpoint_restore(s, record));
     if (external_force_failed(s->external)) return external_force_failure(s->external);
     s->started = s->has_record = true;
-    view_at(s, s->t, s->y);
+    query_at(s, s->t, s->y);
     return record_copy(s->record, record);
 }
 
@@ -474,7 +474,7 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->contacts);
     free(s->measures);
     dem_record_destroy(s->record);
-    dem_record_destroy(s->refuge);
+    dem_record_destroy(s->rollback);
     free(s);
 }
 
@@ -483,5 +483,5 @@ dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observe
     CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
           s == NULL ? "simulation" : "observer");
     CHECK(!s->advanced, DEM_ERROR_ARGUMENT, "observers come before the first advance");
-    return audience_add(&s->audience, observer, integrator_counts(&s->integrator).steps > 0 ? s->t : -1.0);
+    return observers_add(&s->observers, observer, integrator_counts(&s->integrator).steps > 0 ? s->t : -1.0);
 }

@@ -37,9 +37,9 @@ typedef struct stored {
 static stored begin(void)
 {
     stored s;
-    assert_ok(events_init(&s.table));
+    assert_ok(event_table_init(&s.table));
     assert_ok(hdf5_open_new(&s.file, path, table_bytes(&s.table)));
-    assert_ok(events_create(&s.table, &s.file));
+    assert_ok(event_table_create(&s.table, &s.file));
     return s;
 }
 
@@ -87,8 +87,8 @@ static void expect_number(const stored *s, const char *name, hid_t type, hsize_t
 static stored two_events(void)
 {
     stored s = begin();
-    events_record(&s.table, &impact);
-    events_record(&s.table, &release);
+    event_table_record(&s.table, &impact);
+    event_table_record(&s.table, &release);
     assert_ok(table_flush(&s.table, &s.file));
     return s;
 }

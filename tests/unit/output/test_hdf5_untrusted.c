@@ -42,21 +42,22 @@ static void make(const stored *s, const char *name, hid_t type, hid_t space, hid
 static void shape_and_numbers_are_found(void **state)
 {
     const stored *s = *state;
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     double found[8] = {0.0};
     bool present = false;
-    assert_ok(foreign_find(&s->file, "/a/b/of_three", &present));
+    assert_ok(hdf5_untrusted_find(&s->file, "/a/b/of_three", &present));
     assert_true(present);
-    assert_ok(foreign_measure(&s->file, "/a/b/of_three", HDF5_F64, &shape));
+    assert_ok(hdf5_untrusted_measure(&s->file, "/a/b/of_three", HDF5_F64, &shape));
     assert_int_equal(shape.stored, HDF5_F32);
     assert_int_equal(shape.rank, 3);
     assert_true(shape.extent[0] == 2 && shape.extent[1] == 3 && shape.extent[2] == 2);
-    assert_ok(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){1, 1, 0}, found));
+    assert_ok(hdf5_untrusted_read(&s->file, "/a/b/of_three", HDF5_F64, (hdf5_untrusted_rows){1, 1, 0}, found));
     assert_memory_equal(found, numbers + 6, 6 * sizeof *found);
-    assert_ok(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){1, 1, 2}, found));
+    assert_ok(hdf5_untrusted_read(&s->file, "/a/b/of_three", HDF5_F64, (hdf5_untrusted_rows){1, 1, 2}, found));
     assert_memory_equal(found, numbers + 6, 4 * sizeof *found);
-    assert_ok(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){7, 0, 0}, found));
-    REFUSED(foreign_read(&s->file, "/a/b/of_three", HDF5_F64, (foreign_rows){2, 1, 0}, found), "cannot be read");
+    assert_ok(hdf5_untrusted_read(&s->file, "/a/b/of_three", HDF5_F64, (hdf5_untrusted_rows){7, 0, 0}, found));
+    REFUSED(hdf5_untrusted_read(&s->file, "/a/b/of_three", HDF5_F64, (hdf5_untrusted_rows){2, 1, 0}, found),
+            "cannot be read");
 }
 
 static void a_number_that_does_not_fit_is_refused(void **state)
@@ -65,9 +66,9 @@ static void a_number_that_does_not_fit_is_refused(void **state)
     const int64_t wholes[2] = {255, 256};
     unsigned char found[2] = {0};
     assert_ok(hdf5_write(&s->file, (hdf5_rows){"/c", HDF5_I64, 1, {0}, 0, 0}, 2, wholes));
-    assert_ok(foreign_read(&s->file, "/c", HDF5_U8, (foreign_rows){0, 1, 0}, found));
+    assert_ok(hdf5_untrusted_read(&s->file, "/c", HDF5_U8, (hdf5_untrusted_rows){0, 1, 0}, found));
     assert_int_equal(found[0], 255);
-    REFUSED(foreign_read(&s->file, "/c", HDF5_U8, (foreign_rows){0, 2, 0}, found),
+    REFUSED(hdf5_untrusted_read(&s->file, "/c", HDF5_U8, (hdf5_untrusted_rows){0, 2, 0}, found),
             "/c: cannot be read (can't handle conversion exception)");
 }
 
@@ -75,13 +76,13 @@ static void what_is_not_there_is_absent(void **state)
 {
     const stored *s = *state;
     static const char *const names[] = {"/b", "/a/c", "/a/c/d", "/a/b/of_three/d"};
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         bool present = true;
-        assert_ok(foreign_find(&s->file, names[k], &present));
+        assert_ok(hdf5_untrusted_find(&s->file, names[k], &present));
         assert_false(present);
     }
-    REFUSED(foreign_measure(&s->file, "/a/c", HDF5_F64, &shape), "/a/c: is not a readable dataset");
+    REFUSED(hdf5_untrusted_measure(&s->file, "/a/c", HDF5_F64, &shape), "/a/c: is not a readable dataset");
 }
 
 static void links_on_the_way_are_refused(void **state)
@@ -90,8 +91,8 @@ static void links_on_the_way_are_refused(void **state)
     bool present;
     assert_true(H5Lcreate_soft("/a", s->file.id, "/soft", H5P_DEFAULT, H5P_DEFAULT) >= 0);
     assert_true(H5Lcreate_external("other.h5", "/a", s->file.id, "/a/out", H5P_DEFAULT, H5P_DEFAULT) >= 0);
-    REFUSED(foreign_find(&s->file, "/soft/b", &present), "/soft: is a soft or external link");
-    REFUSED(foreign_find(&s->file, "/a/out", &present), "/a/out: is a soft or external link");
+    REFUSED(hdf5_untrusted_find(&s->file, "/soft/b", &present), "/soft: is a soft or external link");
+    REFUSED(hdf5_untrusted_find(&s->file, "/a/out", &present), "/a/out: is a soft or external link");
 }
 
 static void types_are_told_and_checked(void **state)
@@ -109,15 +110,15 @@ static void types_are_told_and_checked(void **state)
                  {H5T_NATIVE_LDOUBLE, HDF5_F64, "is not integer"}};
     for (size_t k = 0; k < sizeof types / sizeof types[0]; k++) {
         char name[8];
-        foreign_shape shape;
+        hdf5_untrusted_shape shape;
         (void)snprintf(name, sizeof name, "/%zu", k);
         make(s, name, types[k].type, H5Screate_simple(1, (hsize_t[]){0}, NULL), H5P_DEFAULT);
-        assert_ok(foreign_measure(&s->file, name, HDF5_F64, &shape));
+        assert_ok(hdf5_untrusted_measure(&s->file, name, HDF5_F64, &shape));
         assert_int_equal(shape.stored, types[k].stored);
         if (types[k].not_whole != NULL)
-            REFUSED(foreign_measure(&s->file, name, HDF5_I64, &shape), types[k].not_whole);
+            REFUSED(hdf5_untrusted_measure(&s->file, name, HDF5_I64, &shape), types[k].not_whole);
         else
-            assert_ok(foreign_measure(&s->file, name, HDF5_I64, &shape));
+            assert_ok(hdf5_untrusted_measure(&s->file, name, HDF5_I64, &shape));
     }
 }
 
@@ -128,10 +129,10 @@ static void a_shape_of_another_kind_has_no_rank(void **state)
                             H5Screate_simple(4, (hsize_t[]){1, 1, 1, 1}, NULL)};
     for (size_t k = 0; k < sizeof spaces / sizeof spaces[0]; k++) {
         char name[8];
-        foreign_shape shape;
+        hdf5_untrusted_shape shape;
         (void)snprintf(name, sizeof name, "/%zu", k);
         make(s, name, H5T_IEEE_F64LE, spaces[k], H5P_DEFAULT);
-        assert_ok(foreign_measure(&s->file, name, HDF5_F64, &shape));
+        assert_ok(hdf5_untrusted_measure(&s->file, name, HDF5_F64, &shape));
         assert_int_equal(shape.rank, 0);
     }
 }
@@ -142,13 +143,14 @@ static void sizes_are_borne_out_by_bytes(void **state)
     const hsize_t large[2] = {(hsize_t)1 << 41, 2}, wide[2] = {1, (hsize_t)1 << 45}, some[1] = {4},
                   chunk[1] = {1 << 20};
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
-    foreign_shape shape;
+    hdf5_untrusted_shape shape;
     make(s, "/large", H5T_IEEE_F64LE, H5Screate_simple(2, large, NULL), H5P_DEFAULT);
-    REFUSED(foreign_measure(&s->file, "/large", HDF5_F64, &shape), "/large: has more than 2^40 rows");
+    REFUSED(hdf5_untrusted_measure(&s->file, "/large", HDF5_F64, &shape), "/large: has more than 2^40 rows");
     make(s, "/wide", H5T_IEEE_F64LE, H5Screate_simple(2, wide, NULL), H5P_DEFAULT);
-    REFUSED(foreign_measure(&s->file, "/wide", HDF5_F64, &shape), "/wide: has more than 2^44 numbers");
+    REFUSED(hdf5_untrusted_measure(&s->file, "/wide", HDF5_F64, &shape), "/wide: has more than 2^44 numbers");
     make(s, "/empty", H5T_IEEE_F64LE, H5Screate_simple(1, some, NULL), H5P_DEFAULT);
-    REFUSED(foreign_measure(&s->file, "/empty", HDF5_F64, &shape), "/empty: claims more data than the file holds");
+    REFUSED(hdf5_untrusted_measure(&s->file, "/empty", HDF5_F64, &shape),
+            "/empty: claims more data than the file holds");
     (void)H5Pset_chunk(layout, 1, chunk);
     (void)H5Pset_deflate(layout, 9);
     make(s, "/chunk", H5T_IEEE_F64LE, H5Screate_simple(1, some, (hsize_t[]){H5S_UNLIMITED}), layout);
@@ -156,7 +158,8 @@ static void sizes_are_borne_out_by_bytes(void **state)
     const uint32_t no_filter = 0;
     assert_true(H5Dwrite_chunk(dataset, H5P_DEFAULT, no_filter, (hsize_t[]){0}, 16, numbers) >= 0);
     (void)H5Dclose(dataset);
-    REFUSED(foreign_measure(&s->file, "/chunk", HDF5_F64, &shape), "/chunk: claims more data than the file holds");
+    REFUSED(hdf5_untrusted_measure(&s->file, "/chunk", HDF5_F64, &shape),
+            "/chunk: claims more data than the file holds");
     (void)H5Pclose(layout);
 }
 
@@ -173,19 +176,21 @@ static void attributes_are_single_and_of_their_kind(void **state)
     assert_ok(hdf5_write_attribute(&s->file, "/a", "seven", HDF5_I64, 1, &seven));
     assert_ok(hdf5_write_attribute_text(&s->file, "/a", "word", "coulomb"));
     assert_ok(hdf5_write_attribute_text(&s->file, "/a", "words", "coulomb "));
-    assert_ok(foreign_read_attribute(&s->file, "/a", "half", HDF5_F64, &real));
-    assert_ok(foreign_read_attribute(&s->file, "/a", "seven", HDF5_I64, &whole));
-    assert_ok(foreign_read_attribute_text(&s->file, "/a", "word", text, sizeof text));
+    assert_ok(hdf5_untrusted_read_attribute(&s->file, "/a", "half", HDF5_F64, &real));
+    assert_ok(hdf5_untrusted_read_attribute(&s->file, "/a", "seven", HDF5_I64, &whole));
+    assert_ok(hdf5_untrusted_read_attribute_text(&s->file, "/a", "word", text, sizeof text));
     assert_close(real, 0.5, 0.0);
     assert_int_equal(whole, 7);
     assert_string_equal(text, "coulomb");
-    REFUSED(foreign_read_attribute(&s->file, "/a", "pair", HDF5_F64, &real),
+    REFUSED(hdf5_untrusted_read_attribute(&s->file, "/a", "pair", HDF5_F64, &real),
             "/a: has no attribute pair that is a number");
-    REFUSED(foreign_read_attribute(&s->file, "/a", "half", HDF5_I64, &whole), "half that is an integer");
-    REFUSED(foreign_read_attribute(&s->file, "/a", "word", HDF5_F64, &real), "word that is a number");
-    REFUSED(foreign_read_attribute(&s->file, "/b", "half", HDF5_F64, &real), "/b: has no attribute half");
-    REFUSED(foreign_read_attribute_text(&s->file, "/a", "half", text, sizeof text), "half that is a short string");
-    REFUSED(foreign_read_attribute_text(&s->file, "/a", "words", text, sizeof text), "words that is a short string");
+    REFUSED(hdf5_untrusted_read_attribute(&s->file, "/a", "half", HDF5_I64, &whole), "half that is an integer");
+    REFUSED(hdf5_untrusted_read_attribute(&s->file, "/a", "word", HDF5_F64, &real), "word that is a number");
+    REFUSED(hdf5_untrusted_read_attribute(&s->file, "/b", "half", HDF5_F64, &real), "/b: has no attribute half");
+    REFUSED(hdf5_untrusted_read_attribute_text(&s->file, "/a", "half", text, sizeof text),
+            "half that is a short string");
+    REFUSED(hdf5_untrusted_read_attribute_text(&s->file, "/a", "words", text, sizeof text),
+            "words that is a short string");
 }
 
 static dem_status count_names(void *context, const char *name)
@@ -200,19 +205,19 @@ static void names_are_listed_until_one_is_not_taken(void **state)
     const stored *s = *state;
     int left = 2;
     assert_ok(hdf5_write(&s->file, (hdf5_rows){"/b", HDF5_F64, 1, {0}, 0, 0}, 1, numbers));
-    assert_ok(foreign_list(&s->file, "/", count_names, &left));
+    assert_ok(hdf5_untrusted_list(&s->file, "/", count_names, &left));
     assert_int_equal(left, 0);
-    assert_int_equal(foreign_list(&s->file, "/", count_names, &left), DEM_STOPPED);
-    REFUSED(foreign_list(&s->file, "/b", count_names, &left), "/b: is not a readable group");
+    assert_int_equal(hdf5_untrusted_list(&s->file, "/", count_names, &left), DEM_STOPPED);
+    REFUSED(hdf5_untrusted_list(&s->file, "/b", count_names, &left), "/b: is not a readable group");
 }
 
 static void names_are_printed_safely_and_in_part(void **state)
 {
     (void)state;
-    char out[FOREIGN_PRINTABLE];
-    foreign_print(out, "a b\n\x1b[0m\xff");
+    char out[HDF5_UNTRUSTED_PRINTABLE];
+    hdf5_untrusted_print(out, "a b\n\x1b[0m\xff");
     assert_string_equal(out, "a?b??[0m?");
-    foreign_print(out, "0123456789012345678901234567890123456789012345");
+    hdf5_untrusted_print(out, "0123456789012345678901234567890123456789012345");
     assert_string_equal(out, "0123456789012345678901234567890123456789");
 }
 
@@ -220,8 +225,8 @@ static void only_regular_files_are_opened(void **state)
 {
     (void)state;
     hdf5_file file;
-    REFUSED(foreign_open(&file, "."), ".: is not a regular file");
-    REFUSED(foreign_open(&file, "none.h5"), "none.h5: cannot be opened (No such file or directory)");
+    REFUSED(hdf5_untrusted_open(&file, "."), ".: is not a regular file");
+    REFUSED(hdf5_untrusted_open(&file, "none.h5"), "none.h5: cannot be opened (No such file or directory)");
 }
 
 #define STORED(test) cmocka_unit_test_setup_teardown(test, open_stored, close_stored)

@@ -4,11 +4,11 @@
 
 #include "output/provenance.h"
 
-static void put(notes *all, const char *name, const char *text)
+static void put(provenance *all, const char *name, const char *text)
 {
-    char path[NOTES_PATH];
-    assert_ok(notes_path(path, name));
-    assert_ok(notes_put(all, path, text));
+    char path[PROVENANCE_PATH];
+    assert_ok(provenance_path(path, name));
+    assert_ok(provenance_put(all, path, text));
 }
 
 static void assert_note(const stored *s, const char *path, const char *expected)
@@ -21,7 +21,7 @@ static void assert_note(const stored *s, const char *path, const char *expected)
 static void notes_are_written_to_every_file_and_replaced_by_name(void **state)
 {
     (void)state;
-    notes all = {0};
+    provenance all = {0};
     put(&all, "title", "first");
     put(&all, "deck", "&run\n/");
     put(&all, "nothing", "");
@@ -30,13 +30,13 @@ static void notes_are_written_to_every_file_and_replaced_by_name(void **state)
     for (int k = 0; k < 2; k++) {
         stored s;
         stored_open(&s);
-        assert_ok(notes_write(&all, &s.file));
+        assert_ok(provenance_write(&all, &s.file));
         assert_note(&s, "/provenance/title", "the second, longer");
         assert_note(&s, "/provenance/deck", "&run\n/");
         assert_note(&s, "/provenance/nothing", "");
         stored_close(&s);
     }
-    notes_free(&all);
+    provenance_free(&all);
     assert_int_equal(all.n, 0);
 }
 
@@ -44,12 +44,12 @@ static void notes_are_written_to_every_file_and_replaced_by_name(void **state)
 static void the_bytes_of_notes_are_bounded(void **state)
 {
     (void)state;
-    notes all = {0};
+    provenance all = {0};
     stored s;
     hsize_t size = 0;
     char *text = calloc(100001, 1);
     assert_non_null(text);
-    assert_int_equal(notes_bytes(&all), 0);
+    assert_int_equal(provenance_bytes(&all), 0);
     put(&all, "long", memset(text, 'x', 100000));
     for (int k = 0; k < 1000; k++) {
         char name[16];
@@ -57,27 +57,27 @@ static void the_bytes_of_notes_are_bounded(void **state)
         put(&all, name, "short");
     }
     stored_open(&s);
-    assert_ok(notes_write(&all, &s.file));
+    assert_ok(provenance_write(&all, &s.file));
     assert_true(H5Fflush(s.file.id, H5F_SCOPE_GLOBAL) >= 0 && H5Fget_filesize(s.file.id, &size) >= 0);
-    assert_true(size <= notes_bytes(&all));
+    assert_true(size <= provenance_bytes(&all));
     stored_close(&s);
-    notes_free(&all);
+    provenance_free(&all);
     free(text);
 }
 
 static void a_bad_name_is_refused(void **state)
 {
     (void)state;
-    char path[NOTES_PATH], name[65];
+    char path[PROVENANCE_PATH], name[65];
     static const char *const bad[] = {"", "a/b", ".", "a.b"};
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
-        assert_int_equal(notes_path(path, bad[k]), DEM_ERROR_ARGUMENT);
+        assert_int_equal(provenance_path(path, bad[k]), DEM_ERROR_ARGUMENT);
         assert_non_null(strstr(dem_status_message(), "cannot name a note: 1 to 63 characters"));
     }
     memset(name, 'n', 64);
     name[64] = '\0';
-    assert_int_equal(notes_path(path, name), DEM_ERROR_ARGUMENT);
-    assert_ok(notes_path(path, name + 1));
+    assert_int_equal(provenance_path(path, name), DEM_ERROR_ARGUMENT);
+    assert_ok(provenance_path(path, name + 1));
     assert_int_equal(strlen(path), 63 + strlen("/provenance/"));
 }
 

@@ -9,12 +9,12 @@
 #include "unit/solids.h"
 
 static const dem_probe probes[] = {{"node", DEM_PROBE_NODE, {0, 0}, 1}, {"gauge", DEM_PROBE_GAUGE, {0, 3}, 2}};
-enum { n_kinds = REEL_PROBES + 2 };
+enum { n_kinds = ROWS_PROBES + 2 };
 
 typedef struct shot {
     support_run run;
     stored stored;
-    reel reel;
+    trajectory_rows rows;
 } shot;
 
 /* A block that flies, seen at its start: one frame, one row of all else but events, of which there are two. */
@@ -30,23 +30,23 @@ static shot *shoot(void)
     support_open(&s->run, &lattice, NULL, 0, &options);
     dem_lattice_free(&lattice);
     stored_open(&s->stored);
-    assert_ok(reel_init(&s->reel, s->run.simulation, &what));
-    assert_ok(reel_create(&s->reel, &s->stored.file));
-    history_record(&s->reel.history, s->run.simulation);
+    assert_ok(trajectory_rows_init(&s->rows, s->run.simulation, &what));
+    assert_ok(trajectory_rows_create(&s->rows, &s->stored.file));
+    history_record(&s->rows.history, s->run.simulation);
     for (int k = 0; k < 2; k++) {
-        probe_record(&s->reel.probes[k], s->run.simulation);
-        events_record(&s->reel.events, &event);
+        probe_record(&s->rows.probes[k], s->run.simulation);
+        event_table_record(&s->rows.events, &event);
     }
-    assert_ok(reel_flush(&s->reel, &s->stored.file));
-    assert_ok(frames_append(&s->reel.frames, &s->stored.file, s->run.simulation));
-    s->reel.frames.n++;
+    assert_ok(trajectory_rows_flush(&s->rows, &s->stored.file));
+    assert_ok(frames_append(&s->rows.frames, &s->stored.file, s->run.simulation));
+    s->rows.frames.n++;
     return s;
 }
 
 static void put_away(shot *s)
 {
     stored_close(&s->stored);
-    reel_free(&s->reel);
+    trajectory_rows_free(&s->rows);
     support_close(&s->run);
     free(s);
 }
@@ -58,19 +58,19 @@ static void rows_are_those_of_the_file_and_of_files_before(void **state)
     static const char *const names[n_kinds] = {"frames", "history", "events", "node", "gauge"};
     shot *s = shoot();
     hdf5_span spans[n_kinds] = {{0, 0, 0}};
-    assert_int_equal(s->reel.n_kinds, n_kinds);
-    assert_ok(reel_count(&s->reel, &s->stored.file, spans));
-    assert_ok(reel_verify(&s->reel, &s->stored.file, spans));
+    assert_int_equal(s->rows.n_kinds, n_kinds);
+    assert_ok(trajectory_rows_count(&s->rows, &s->stored.file, spans));
+    assert_ok(trajectory_rows_verify(&s->rows, &s->stored.file, spans));
     for (int k = 0; k < n_kinds; k++) {
-        assert_string_equal(reel_name(&s->reel, k), names[k]);
+        assert_string_equal(trajectory_rows_name(&s->rows, k), names[k]);
         assert_int_equal(spans[k].count, rows[k]);
-        assert_int_equal(reel_written(&s->reel, k), rows[k]);
-        assert_int_equal(reel_total(&s->reel, k), rows[k]);
-        reel_place(&s->reel, k, 10 + (hsize_t)k, 5);
-        assert_int_equal(reel_written(&s->reel, k), 5);
-        assert_int_equal(reel_total(&s->reel, k), 15 + k);
+        assert_int_equal(trajectory_rows_written(&s->rows, k), rows[k]);
+        assert_int_equal(trajectory_rows_total(&s->rows, k), rows[k]);
+        trajectory_rows_place(&s->rows, k, 10 + (hsize_t)k, 5);
+        assert_int_equal(trajectory_rows_written(&s->rows, k), 5);
+        assert_int_equal(trajectory_rows_total(&s->rows, k), 15 + k);
         spans[k].count++;
-        assert_int_equal(reel_verify(&s->reel, &s->stored.file, spans), DEM_ERROR_IO);
+        assert_int_equal(trajectory_rows_verify(&s->rows, &s->stored.file, spans), DEM_ERROR_IO);
         spans[k].count--;
     }
     put_away(s);
@@ -84,17 +84,17 @@ static void rows_go_behind_those_that_are_there(void **state)
     stored other;
     hdf5_span spans[n_kinds];
     stored_open(&other);
-    assert_ok(reel_create(&s->reel, &other.file));
+    assert_ok(trajectory_rows_create(&s->rows, &other.file));
     for (hsize_t copy = 0; copy < 2; copy++) {
-        assert_ok(reel_count(&s->reel, &s->stored.file, spans));
+        assert_ok(trajectory_rows_count(&s->rows, &s->stored.file, spans));
         for (int k = 0; k < n_kinds; k++) {
             spans[k].first = 0;
             spans[k].at = copy * spans[k].count;
         }
-        assert_ok(reel_copy(&s->reel, &s->stored.file, &other.file, spans));
+        assert_ok(trajectory_rows_copy(&s->rows, &s->stored.file, &other.file, spans));
     }
-    assert_ok(reel_count(&s->reel, &other.file, spans));
-    for (int k = 0; k < n_kinds; k++) assert_int_equal(spans[k].count, k == REEL_EVENTS ? 4 : 2);
+    assert_ok(trajectory_rows_count(&s->rows, &other.file, spans));
+    for (int k = 0; k < n_kinds; k++) assert_int_equal(spans[k].count, k == ROWS_EVENTS ? 4 : 2);
     const hsize_t n = (hsize_t)dem_model_sizes(s->run.model).n_nodes;
     assert_close(stored_values(&other, "/VTKHDF/Steps/PointOffsets", 2, 1, 8)[1], (double)n, 0.0);
     const double *points = stored_values(&other, "/VTKHDF/Points", 2 * n, 3, 8);

@@ -30,7 +30,7 @@ static hdf5_file write_one(const grid *g, int deflate)
 {
     hdf5_file file;
     assert_ok(hdf5_open_new(&file, path, 4096));
-    assert_ok(grid_write(&file, g, deflate));
+    assert_ok(vtk_grid_write(&file, g, deflate));
     return file;
 }
 

@@ -97,8 +97,8 @@ static void everything_comes_back(void **state)
     assert_ok(integrator_restart(&p.from->integrator, p.from->t, p.from->y));
     assert_ok(integrator_bound(&p.from->integrator, 1e-9));
     p.from->y = integrator_state(&p.from->integrator);
-    assert_ok(recall_put(p.from, p.record));
-    assert_ok(recall_get(p.to, p.record));
+    assert_ok(checkpoint_take(p.from, p.record));
+    assert_ok(checkpoint_restore(p.to, p.record));
     assert_close(integrator_next_step(&p.to->integrator), 1e-9, 0.0);
     same_memory(p.from, p.to);
     close_pair(&p);
@@ -114,7 +114,7 @@ static void refuse(pair *p, const char *name, void *entry, size_t size, const ch
     assert_non_null(kept);
     memcpy(kept, was, n);
     assert_ok(dem_record_put(p->record, name, entry, size));
-    assert_int_equal(recall_get(p->to, p->record), DEM_ERROR_IO);
+    assert_int_equal(checkpoint_restore(p->to, p->record), DEM_ERROR_IO);
     assert_string_equal(dem_status_message(), message);
     assert_ok(dem_record_put(p->record, name, kept, n));
     free(kept);
@@ -128,7 +128,7 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     dem_index sizes[8], numbers[9];
     (void)state;
     open_pair(&p);
-    assert_ok(recall_put(p.from, p.record));
+    assert_ok(checkpoint_take(p.from, p.record));
     assert_ok(dem_record_get(p.record, "sizes", sizes, sizeof sizes));
     sizes[0]++;
     char text[160];
@@ -173,9 +173,9 @@ static void sites_that_cannot_be_are_refused(void **state)
     raw_site bad[2] = {good, good};
     (void)state;
     open_pair(&p);
-    assert_ok(recall_put(p.from, p.record));
+    assert_ok(checkpoint_take(p.from, p.record));
     assert_ok(dem_record_put(p.record, "contacts", &good, sizeof good));
-    assert_ok(recall_get(p.to, p.record));
+    assert_ok(checkpoint_restore(p.to, p.record));
     assert_int_equal(p.to->automaton.set.list[0].n_closed, 1);
 #define REFUSE(field, value)                                                                                           \
     do {                                                                                                               \

@@ -43,11 +43,11 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
     return note(context, 'e');
 }
 
-static void join(audience *a, voice *v, double interval)
+static void join(observers *a, voice *v, double interval)
 {
     const dem_observer observer = {
         .interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = v};
-    assert_ok(audience_add(a, &observer, -1.0));
+    assert_ok(observers_add(a, &observer, -1.0));
 }
 
 static void expect(const char *text)
@@ -60,37 +60,37 @@ static void expect(const char *text)
 
 static void at_most_eight_are_admitted(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     voice v = {'a', DEM_OK};
     const dem_observer one_more = {.interval = 1.0};
     (void)state;
-    for (int k = 0; k < AUDIENCE_MOST; k++) join(&a, &v, 1.0);
-    assert_int_equal(audience_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
+    for (int k = 0; k < OBSERVERS_MOST; k++) join(&a, &v, 1.0);
+    assert_int_equal(observers_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "at most 8 observers");
     assert_int_equal(a.n, 8);
 }
 
 static void an_interval_is_finite(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     const dem_observer endless = {.interval = (double)INFINITY}, none = {.interval = fabs((double)NAN)};
     (void)state;
-    assert_int_equal(audience_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(observers_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "the interval between frames is inf s");
-    assert_int_equal(audience_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(observers_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
     assert_int_equal(a.n, 0);
 }
 
 /* The search for the first frame later than a time that a damaged record gave once went on without end. */
 static void frames_too_many_to_be_numbered_are_refused(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     const dem_observer dense = {.interval = 1e-3};
     (void)state;
-    assert_int_equal(audience_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
+    assert_int_equal(observers_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "frames 0.001 s apart cannot be numbered at 1e+300 s");
     assert_int_equal(a.n, 0);
-    assert_ok(audience_add(&a, &dense, 4e12));
+    assert_ok(observers_add(&a, &dense, 4e12));
     assert_int_equal(a.members[0].next_frame, 4000000000000001);
 }
 
@@ -98,54 +98,54 @@ static void frames_too_many_to_be_numbered_are_refused(void **state)
 
 static void all_are_told_in_the_order_in_which_they_came(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
     const dem_event event = {.t = 0.75};
     (void)state;
-    assert_false(audience_hears_events(&a));
+    assert_false(observers_want_events(&a));
     join(&a, &first, 0.0);
     join(&a, &second, 0.0);
-    assert_true(audience_hears_events(&a));
-    assert_ok(audience_event(&a, NULL, &event));
-    assert_ok(audience_step(&a, NULL));
-    assert_ok(audience_frame(&a, 1, NULL));
+    assert_true(observers_want_events(&a));
+    assert_ok(observers_event(&a, NULL, &event));
+    assert_ok(observers_step(&a, NULL));
+    assert_ok(observers_frame(&a, 1, NULL));
     expect("e1e2s1s2f2");
 }
 
 static void who_has_no_ears_is_left_out(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     voice v = {'v', DEM_OK};
     const dem_observer deaf = {.interval = 1.0};
     const dem_event event = {.t = 0.75};
     double t = -1.0;
     (void)state;
-    assert_ok(audience_add(&a, &deaf, -1.0));
-    assert_false(audience_hears_events(&a));
-    assert_ok(audience_event(&a, NULL, &event));
-    assert_ok(audience_step(&a, NULL));
-    assert_int_equal(audience_due(&a, 10.0, 10.0, &t), -1);
+    assert_ok(observers_add(&a, &deaf, -1.0));
+    assert_false(observers_want_events(&a));
+    assert_ok(observers_event(&a, NULL, &event));
+    assert_ok(observers_step(&a, NULL));
+    assert_int_equal(observers_due(&a, 10.0, 10.0, &t), -1);
     join(&a, &v, 0.0); /* interval 0: no frames either */
-    assert_int_equal(audience_due(&a, 10.0, 10.0, &t), -1);
+    assert_int_equal(observers_due(&a, 10.0, 10.0, &t), -1);
     assert_close(t, -1.0, 0.0);
-    assert_ok(audience_event(&a, NULL, &event));
+    assert_ok(observers_event(&a, NULL, &event));
     expect("ev");
 }
 
 /* Who comes later is told all the same. */
 static void the_first_complaint_counts(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     voice content = {'1', DEM_OK}, stops = {'2', DEM_STOPPED}, fails = {'3', DEM_ERROR_MEMORY};
     const dem_event event = {.t = 0.75};
     (void)state;
     join(&a, &content, 1.0);
     join(&a, &stops, 1.0);
     join(&a, &fails, 1.0);
-    assert_int_equal(audience_event(&a, NULL, &event), DEM_STOPPED);
-    assert_int_equal(audience_step(&a, NULL), DEM_STOPPED);
-    assert_int_equal(audience_frame(&a, 2, NULL), DEM_ERROR_MEMORY);
-    assert_ok(audience_frame(&a, 0, NULL));
+    assert_int_equal(observers_event(&a, NULL, &event), DEM_STOPPED);
+    assert_int_equal(observers_step(&a, NULL), DEM_STOPPED);
+    assert_int_equal(observers_frame(&a, 2, NULL), DEM_ERROR_MEMORY);
+    assert_ok(observers_frame(&a, 0, NULL));
     expect("e1e2e3s1s2s3f3f1");
 }
 
@@ -156,37 +156,37 @@ static void frames_come_in_the_order_of_time(void **state)
 {
     static const double times[7] = {0.0, 0.0, 2.0, 3.0, 4.0, 6.0, 6.0};
     static const int whose[7] = {0, 1, 1, 0, 1, 0, 1};
-    audience a = {0};
+    observers a = {0};
     voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
     double t;
     (void)state;
     join(&a, &first, 3.0);
     join(&a, &second, 2.0);
     for (int k = 0; k < 7; k++) {
-        assert_int_equal(audience_due(&a, 7.0, 6.0, &t), whose[k]);
+        assert_int_equal(observers_due(&a, 7.0, 6.0, &t), whose[k]);
         assert_close(t, times[k], 0.0);
-        assert_ok(audience_frame(&a, whose[k], NULL));
+        assert_ok(observers_frame(&a, whose[k], NULL));
     }
-    assert_int_equal(audience_due(&a, 7.0, 6.0, &t), -1);   /* beyond what is asked for */
-    assert_int_equal(audience_due(&a, 7.0, 100.0, &t), -1); /* beyond the step */
-    assert_int_equal(audience_due(&a, 8.0, 100.0, &t), 1);
+    assert_int_equal(observers_due(&a, 7.0, 6.0, &t), -1);   /* beyond what is asked for */
+    assert_int_equal(observers_due(&a, 7.0, 100.0, &t), -1); /* beyond the step */
+    assert_int_equal(observers_due(&a, 8.0, 100.0, &t), 1);
     expect("f1f2f2f1f2f1f2");
 }
 
 /* 3 * 0.1 is above 0.3 by rounding; the frame is shown where the step reaches as far. */
 static void a_frame_at_the_end_is_not_lost_to_rounding(void **state)
 {
-    audience a = {0};
+    observers a = {0};
     voice v = {'v', DEM_OK};
     double t;
     (void)state;
     join(&a, &v, 0.1);
     a.members[0].next_frame = 3;
     assert_true(3 * 0.1 > 0.3);
-    assert_int_equal(audience_due(&a, 0.4, 0.3, &t), 0);
+    assert_int_equal(observers_due(&a, 0.4, 0.3, &t), 0);
     assert_close(t, 3 * 0.1, 0.0);
-    assert_int_equal(audience_due(&a, 0.3, 0.3, &t), -1);
-    assert_int_equal(audience_due(&a, 0.4, 0.3 - 1e-9, &t), -1);
+    assert_int_equal(observers_due(&a, 0.3, 0.3, &t), -1);
+    assert_int_equal(observers_due(&a, 0.4, 0.3 - 1e-9, &t), -1);
 }
 
 int main(void)
