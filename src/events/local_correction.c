@@ -260,6 +260,7 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
 {
     p->t = t;
     p->h = step->t1 - t;
+    p->parabolic = step->parabolic;
     p->n_quadratures = 0;
     TRY(neighbourhood_gather(&p->near, candidate));
     TRY(reserve(p, p->near.n, 0));
@@ -325,13 +326,36 @@ static motion_change jump_at(const local_correction *p, int stage, dem_index j)
     return (motion_change){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
 }
 
+/* What takes the slope of a node's velocity at the event, which parabolas have to a term of h^2 only, to its
+ * acceleration after the event. A contact that begins to slide is pushed by the little by which friction falls short: a
+ * slope that is wrong by more would turn it back at once, and again at every attempt. */
+static vec2 change_of_slope(const local_correction *p, dem_index j, const motion_polynomial *motion)
+{
+    const unsigned held = p->rule.held != NULL ? p->rule.held[p->near.nodes[j].i] : 0;
+    const vec2 after = vec2_add(vec2_at(p->a[0], j), vec2_at(p->da[0], j));
+    const double per_h = p->h > 0.0 ? 1.0 / p->h : 0.0;
+    const vec2 change = {after.x - per_h * motion->c[1][2], after.y - per_h * motion->c[1][3]};
+    return (vec2){held & DEM_COMPONENT_X ? 0.0 : change.x, held & DEM_COMPONENT_Y ? 0.0 : change.y};
+}
+
+/* Adds a change to a motion. Heun's position at the end lacks h^3/6 times the rate at which the acceleration grows: it
+ * goes with parabolas, as that of the step does. A quintic closes the gap within the step: after an event from which
+ * the acceleration grows from 0 that takes ten times the velocity that there is soon after. */
+static void add_change_of_node(const local_correction *p, dem_index j, motion_polynomial *motion)
+{
+    const motion_change end = jump_at(p, END, j);
+    motion_change at = jump_at(p, 0, j);
+    const motion_change by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
+    if (p->parabolic && j < p->near.end[reach(p, 0)]) at.a = change_of_slope(p, j, motion);
+    (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
+}
+
 /* Makes the change of a node, or a pair of the books, one of the step. */
 static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j, dem_index place,
                         motion_polynomial *motion)
 {
-    const motion_change at = jump_at(p, 0, j), end = jump_at(p, END, j);
-    const motion_change by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
-    motion_polynomial_add(motion, p->t + p->h, &at, &by);
+    const motion_change end = jump_at(p, END, j);
+    add_change_of_node(p, j, motion);
     TRY(changed_motion_set(tr, place, motion));
     changed_motion_move_end(tr, place, &end);
     return DEM_OK;

@@ -3,7 +3,8 @@
  *   d'' = a(x + d, contacts after) - a(x, contacts before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
  * damped). So it is integrated on a patch of 3 (6) rings round the event, by one step of Fehlberg's pair; outside it
- * is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. */
+ * is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. Inside the step the change is
+ * interpolated as the step is: by quintics, or by parabolas. */
 #ifndef DEM_EVENTS_LOCAL_CORRECTION_H
 #define DEM_EVENTS_LOCAL_CORRECTION_H
 
@@ -26,6 +27,7 @@ typedef struct local_correction {
     butcher_table table;
     int last;                /* stage at the end of the step */
     double t, h;             /* s, of the event; from it to the end of the step */
+    bool parabolic;          /* the step is interpolated by parabolas, and so is the change */
     dem_index n_quadratures; /* pairs of the books that change, behind the nodes of the ball */
     dem_index capacity;
     dem_index *book;            /* [n_quadratures] their places in a state */

@@ -151,3 +151,16 @@ void motion_polynomial_add(motion_polynomial *m, double end, const motion_change
     m->c[0][2] += at->v.x;
     m->c[0][3] += at->v.y;
 }
+
+void motion_polynomial_add_parabolas(motion_polynomial *m, double end, const motion_change *at, const motion_change *by)
+{
+    const double h = end - m->from;
+    const vec2 v0 = vec2_scale(h, at->v), a0 = vec2_scale(h, at->a);
+    const vec2 x[3] = {at->x, v0, vec2_sub(by->x, v0)}, v[3] = {at->v, a0, vec2_sub(by->v, a0)};
+    for (int k = 0; k < 3; k++) {
+        m->c[k][0] += x[k].x;
+        m->c[k][1] += x[k].y;
+        m->c[k][2] += v[k].x;
+        m->c[k][3] += v[k].y;
+    }
+}

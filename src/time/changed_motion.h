@@ -85,4 +85,9 @@ motion_polynomial motion_polynomial_later(const motion_polynomial *m, double fro
 /** Adds to a motion the quintic of a change that is `at` its start and grows by `by` until the end. */
 void motion_polynomial_add(motion_polynomial *m, double end, const motion_change *at, const motion_change *by);
 
+/** Adds the parabolas of such a change instead, the way of a dense output that is parabolic: positions through x, v and
+ *  the x at the end, velocities through v, a and the v at the end. */
+void motion_polynomial_add_parabolas(motion_polynomial *m, double end, const motion_change *at,
+                                     const motion_change *by);
+
 #endif

@@ -408,8 +408,31 @@ static void damped_springs_carry_it_over_six_rings(void **state)
     close_step(&s);
 }
 
-/* The way of Verlet's method. */
-static void it_starts_from_parabolas_as_well(void **state)
+/* Nodes near the event set out with the accelerations of the state there, and come to the end of the step: in powers
+ * of their share of the rest of it, positions and velocities are of degree 2. */
+static void check_parabolas(step *s)
+{
+    double *y = zeros(s), *f = zeros(s);
+    const dem_index n = 2 * s->n_all;
+    dense_output_state(&s->path, s->correction.t, y);
+    derive(s, &s->c, s->correction.t, y, f);
+    for (dem_index j = 0; j < s->correction.near.end[1]; j++) {
+        const dem_index i = s->correction.near.nodes[j].i;
+        const motion_polynomial *m = changed_motion_of(&s->changed, i);
+        for (int d = 0; d < 2; d++) {
+            const double *x1 = s->y1 + 2 * i + d;
+            assert_close(m->c[1][2 + d] / s->correction.h, f[n + 2 * i + d], 1e-10 * s->model->omega_max);
+            assert_close(m->c[0][d] + m->c[1][d] + m->c[2][d], x1[0], 1e-16);
+            assert_close(m->c[0][2 + d] + m->c[1][2 + d] + m->c[2][2 + d], x1[n], 1e-13);
+            for (int k = 3; k < MOTION_TERMS; k++) assert_true(m->c[k][d] == 0.0 && m->c[k][2 + d] == 0.0);
+        }
+    }
+    free(y);
+    free(f);
+}
+
+/* The way of Verlet's method, whose next event starts from parabolas as well. */
+static void a_step_of_parabolas_goes_on_in_parabolas(void **state)
 {
     step s;
     (void)state;
@@ -417,6 +440,34 @@ static void it_starts_from_parabolas_as_well(void **state)
     go(&s);
     begin(&s, lower_node(&s, 0.0), 0.4);
     finish(&s, lower_node(&s, 0.0), nothing, (vec2){-1.0, 7.0});
+    check_parabolas(&s);
+    begin(&s, lower_node(&s, spacing), 0.7);
+    finish(&s, lower_node(&s, spacing), (vec2){0.0, 1e-8}, (vec2){0.5, 6.0});
+    check_parabolas(&s);
+    close_step(&s);
+}
+
+/* What a boundary prescribes keeps its slope: no force accelerates it. */
+static void prescribed_nodes_keep_their_parabolas(void **state)
+{
+    step s;
+    double error;
+    (void)state;
+    open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true, .parabolic = true});
+    go(&s);
+    const dem_index k = lower_node(&s, 0.0), i = s.c.set.list[k].node, next = node_near(&s, 0.005, 0.0087);
+    const motion_polynomial before = dense_output_motion(&s.path, next);
+    s.b.held[next] = DEM_COMPONENT_Y;
+    begin(&s, k, 0.25);
+    assert_true(neighbourhood_has(&s.correction.near, next, 1));
+    vec2_put(s.state, s.n_all + i, vec2_add(vec2_at(s.state, s.n_all + i), (vec2){0.0, 7.0}));
+    assert_ok(local_correction_close(&s.correction, &s.path, &s.changed, s.state, &error));
+    const motion_polynomial expected = motion_polynomial_later(&before, s.correction.t, s.path.t1),
+                            *m = changed_motion_of(&s.changed, next);
+    for (int q = 0; q < MOTION_TERMS; q++) {
+        assert_true(m->c[q][1] == expected.c[q][1] && m->c[q][3] == expected.c[q][3]);
+        assert_true(q == 0 || q > 2 || m->c[q][2] != expected.c[q][2]); /* the other component is free */
+    }
     close_step(&s);
 }
 
@@ -636,7 +687,8 @@ int main(void)
         cmocka_unit_test(an_impact_changes_three_rings_as_a_step_of_the_whole_body_would),
         cmocka_unit_test(so_it_does_with_area_terms_and_mass_damping),
         cmocka_unit_test(damped_springs_carry_it_over_six_rings),
-        cmocka_unit_test(it_starts_from_parabolas_as_well),
+        cmocka_unit_test(a_step_of_parabolas_goes_on_in_parabolas),
+        cmocka_unit_test(prescribed_nodes_keep_their_parabolas),
         cmocka_unit_test(prescribed_nodes_stay_on_their_way),
         cmocka_unit_test(contacts_near_by_hold_and_rub),
         cmocka_unit_test(so_they_do_where_springs_are_damped),

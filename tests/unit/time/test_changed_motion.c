@@ -140,6 +140,28 @@ static void a_bend_is_the_quintic_through_both_ends(void **state)
     changed_motion_destroy(&s.changed);
 }
 
+/* As a path that is parabolic: x and v do not know of each other but at the start; the acceleration at the end is not
+ * looked at. */
+static void parabolas_go_through_what_they_are_given(void **state)
+{
+    const double from = 0.5, end = 2.5; /* shares of it are exact */
+    const motion_change at = {{1.0, -2.0}, {3.0, 0.5}, {-4.0, 8.0}}, by = {{5.0, 7.0}, {-6.0, 1.0}, {1e9, 1e9}};
+    motion_polynomial m = {.from = from};
+    (void)state;
+    for (int n = 1; n <= 2; n++) { /* and adds to what there is */
+        double first[4], middle[4], last[4];
+        motion_polynomial_add_parabolas(&m, end, &at, &by);
+        motion_polynomial_at(&m, 0.0, first);
+        motion_polynomial_at(&m, 0.5, middle);
+        motion_polynomial_at(&m, 1.0, last);
+        assert_true(first[0] == n * 1.0 && first[1] == n * -2.0 && first[2] == n * 3.0 && first[3] == n * 0.5);
+        assert_true(last[0] == n * 6.0 && last[1] == n * 5.0 && last[2] == n * -3.0 && last[3] == n * 1.5);
+        /* x + h v/4 + (change)/4, the same of v with a: by hand */
+        assert_true(middle[0] == n * (1.0 + 1.5 + 1.25) && middle[1] == n * (-2.0 + 0.25 + 1.75));
+        assert_true(middle[2] == n * (3.0 - 2.0 - 1.5) && middle[3] == n * (0.5 + 4.0 + 0.25));
+    }
+}
+
 /* A jump of the velocity that nothing follows, as of a node by itself: straight on, x + v (t - from), however little of
  * the step is left. */
 static void a_node_by_itself_goes_straight_on_after_a_jump(void **state)
@@ -301,6 +323,7 @@ int main(void)
         cmocka_unit_test(the_same_motion_can_be_written_from_any_later_time_on),
         cmocka_unit_test(written_anew_again_and_again_it_stays_the_same),
         cmocka_unit_test(a_bend_is_the_quintic_through_both_ends),
+        cmocka_unit_test(parabolas_go_through_what_they_are_given),
         cmocka_unit_test(a_node_by_itself_goes_straight_on_after_a_jump),
         cmocka_unit_test(a_motion_without_length_is_the_state_at_its_time),
         cmocka_unit_test(the_last_motion_of_a_node_holds),
