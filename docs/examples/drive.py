@@ -41,7 +41,7 @@ dem_force = ctypes.CFUNCTYPE(c_int, c_void_p, POINTER(dem_force_query), doubles)
 class dem_options(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("method", c_int), ("gravity", c_double * 2), ("rtol", c_double),
                 ("spacing", c_double), ("v_scale", c_double), ("max_step", c_double), ("fixed_step", c_double),
-                ("skin", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
+                ("penetration_tolerance", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
                 ("mass_damping", c_double), ("vertices", c_int32), ("contact", c_int), ("kernel", c_int),
                 ("threads", c_int32), ("record_steps", c_int64), ("n_boundaries", c_int64), ("boundaries", c_void_p),
                 ("force", dem_force), ("force_context", c_void_p)]

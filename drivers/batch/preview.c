@@ -62,12 +62,13 @@ static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
 /* In a body accelerations are larger than g, and the rule with them: this tells of the least that it asks for. */
 static void warn_rest_speed(FILE *out, const dem_options *o)
 {
-    const double kept_up = sqrt(2.0 * hypot(o->gravity[0], o->gravity[1]) * o->skin);
+    const double kept_up = sqrt(2.0 * hypot(o->gravity[0], o->gravity[1]) * o->penetration_tolerance);
     if (o->rest_speed > 0.0 && o->rest_speed < kept_up)
-        (void)fprintf(out,
-                      "warning    'rest_speed' %.3g m/s is below sqrt(2 g skin) = %.3g m/s: where the rule of "
-                      "docs/method.md asks for more, the rule holds\n",
-                      o->rest_speed, kept_up);
+        (void)fprintf(
+            out,
+            "warning    'rest_speed' %.3g m/s is below sqrt(2 g penetration tolerance) = %.3g m/s: where the rule of "
+            "docs/method.md asks for more, the rule holds\n",
+            o->rest_speed, kept_up);
 }
 
 static void print_sizes(FILE *out, const dem_model *model)
@@ -237,8 +238,10 @@ void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, c
     print_bodies(out, d);
     print_probes(out, d, dem_model_lattice(model));
     print_rules(out, &o, model);
-    (void)fprintf(out, "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, skin %.3g m\n",
-                  o.spacing, dem_model_omega_max(model), o.v_scale, o.skin);
+    (void)fprintf(out,
+                  "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, penetration "
+                  "tolerance %.3g m\n",
+                  o.spacing, dem_model_omega_max(model), o.v_scale, o.penetration_tolerance);
     warn_rest_speed(out, &o);
     pace_print(out, d->t_end, simulation);
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);

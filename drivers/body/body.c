@@ -13,7 +13,8 @@
 #include "material.h"
 
 static const double degree = 0.017453292519943295769; /* pi/180 */
-static const double lost = 1e-6; /* of the spacing: the skin, which rounding of coordinates must not hide */
+static const double lost =
+    1e-6; /* of the spacing: the penetration tolerance, which rounding of coordinates must not hide */
 
 static namelist_place place_of(const schema_instance *group, const char *key)
 {
@@ -322,25 +323,28 @@ static dem_index find_obstacle(const body_scene *scene, const double x[2])
     return deepest;
 }
 
-bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double skin, namelist_errors *errors)
+bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double penetration_tolerance,
+                      namelist_errors *errors)
 {
     const clearance_spike *spike = &start->spike;
     const namelist_place place = schema_get(scene->groups, "body", k)->place;
-    if (start->depth > skin) {
+    if (start->depth > penetration_tolerance) {
         const dem_index obstacle = find_obstacle(scene, start->x);
-        namelist_errors_add(errors, place,
-                            "body %zu starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the skin of %g m; "
-                            "'position' or 'clearance' can put it in front, %s",
-                            k + 1, start->depth, (long long)obstacle, start->x[0], start->x[1], skin, reversed);
+        namelist_errors_add(
+            errors, place,
+            "body %zu starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the penetration tolerance of %g m; "
+            "'position' or 'clearance' can put it in front, %s",
+            k + 1, start->depth, (long long)obstacle, start->x[0], start->x[1], penetration_tolerance, reversed);
         return obstacle > 0;
     }
-    if (spike->depth > skin)
-        namelist_errors_add(errors, place,
-                            "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
-                            "its nodes, deeper than the skin of %g m; 'position' or 'clearance' can put it "
-                            "in front",
-                            k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0],
-                            spike->x[1], spike->depth, skin);
+    if (spike->depth > penetration_tolerance)
+        namelist_errors_add(
+            errors, place,
+            "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
+            "its nodes, deeper than the penetration tolerance of %g m; 'position' or 'clearance' can put it "
+            "in front",
+            k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0], spike->x[1], spike->depth,
+            penetration_tolerance);
     return true;
 }
 

@@ -283,7 +283,7 @@ static void set_options(dem_options *options, const schema_deck *groups)
     options->v_scale = schema_real(solver, "v_scale");
     options->max_step = schema_real(solver, "max_step");
     options->fixed_step = schema_real(solver, "fixed_step");
-    options->skin = schema_real(contact, "skin");
+    options->penetration_tolerance = schema_real(contact, "penetration_tolerance");
     options->rest_speed = schema_real(contact, "rest_speed");
     options->max_impacts = (dem_index)schema_real(contact, "max_impacts");
     options->vertices = schema_real(contact, "vertices") != 0.0;
@@ -455,9 +455,10 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     const size_t n = schema_count(scene->groups, "body");
     double spacing = d->options.spacing > 0.0 ? d->options.spacing : (double)INFINITY;
     for (size_t k = 0; k < n && !(d->options.spacing > 0.0); k++) spacing = fmin(spacing, starts[k].rest_length);
-    const double skin = d->options.skin > 0.0 ? d->options.skin : 1e-6 * spacing;
+    const double penetration_tolerance =
+        d->options.penetration_tolerance > 0.0 ? d->options.penetration_tolerance : 1e-6 * spacing;
     for (size_t k = 0; k < n; k++)
-        if (!body_check_start(scene, k, &starts[k], skin, errors)) return false;
+        if (!body_check_start(scene, k, &starts[k], penetration_tolerance, errors)) return false;
     return true;
 }
 

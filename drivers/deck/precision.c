@@ -23,11 +23,12 @@ static double shortest_spring(const dem_lattice *lattice)
 static void check_skin(const schema_instance *contact, double coordinate, namelist_errors *errors)
 {
     const double least = skin_roundings * DBL_EPSILON * coordinate;
-    if (schema_given(contact, "skin") && schema_real(contact, "skin") < least)
-        namelist_errors_add(errors, schema_place(contact, "skin"),
-                            "'skin' in &contact must be >= %.2g m, or rounding of coordinates of up to %g m hides it, "
-                            "got %g m",
-                            least, coordinate, schema_real(contact, "skin"));
+    if (schema_given(contact, "penetration_tolerance") && schema_real(contact, "penetration_tolerance") < least)
+        namelist_errors_add(
+            errors, schema_place(contact, "penetration_tolerance"),
+            "'penetration_tolerance' in &contact must be >= %.2g m, or rounding of coordinates of up to %g m hides it, "
+            "got %g m",
+            least, coordinate, schema_real(contact, "penetration_tolerance"));
 }
 
 void precision_check(const schema_deck *groups, const dem_lattice *lattice, namelist_errors *errors)

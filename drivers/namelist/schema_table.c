@@ -205,7 +205,7 @@ static const schema_key contact_keys[] = {
      "Whether the edges of bodies touch convex vertices of obstacles; if not, only nodes touch.", NULL},
     {"overlap", SCHEMA_CHOICE, 1, 1, "-", "'warn'", ANY, "warn|stop", PHYSICS,
      "What follows when a body runs into another one or into itself, which nothing prevents.", NULL},
-    {"skin", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
+    {"penetration_tolerance", SCHEMA_REAL, 1, 1, "m", NONE, "> 0", NULL, PHYSICS,
      "Depth at which an impact is taken; default: 1e-6 of the spacing.", "1e-8"},
     {"rest_speed", SCHEMA_REAL, 1, 1, "m/s", NONE, "> 0", NULL, PHYSICS,
      "A rebound not faster than this becomes a lasting contact, beside those that do by the rule of docs/method.md.",

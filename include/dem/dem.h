@@ -206,9 +206,9 @@ typedef struct dem_options {
                                docs/method.md */
     double fixed_step;  /**< s, default 0: adaptive; > 0: steps of this length, no error control. A method that is not
                                adaptive takes max_step, which then is by default stable/(8 omega_max) */
-    double skin;        /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
-                               by skin/|v_n|, and the node put back on the surface */
-    double rest_speed;  /**< m/s, default 0: a rebound not faster than this becomes a lasting contact, beside those that
+    double penetration_tolerance; /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
+                               by penetration tolerance/|v_n|, and the node put back on the surface */
+    double rest_speed; /**< m/s, default 0: a rebound not faster than this becomes a lasting contact, beside those that
                                do by the rule of docs/method.md. What is below the rule's speed has no effect */
     dem_index max_impacts; /**< default 10000: changes of the contacts of one node or edge within
                                1/omega_max that count as a storm */
@@ -255,7 +255,7 @@ typedef struct dem_energy {
     double impact;     /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
     double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
     double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
-    double projection; /**< put in by returning nodes from the skin to the surface so far */
+    double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
     double boundary;   /**< put in from outside so far: work of what prescribes motions, and of forces */
 } dem_energy;
 
@@ -386,8 +386,9 @@ typedef struct dem_overlap {
 
 typedef struct dem_simulation dem_simulation;
 
-/** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the skin is not:
- *  DEM_ERROR_MODEL names the node or the vertex. The model is borrowed and must outlive the simulation. */
+/** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the penetration
+ *  tolerance is not: DEM_ERROR_MODEL names the node or the vertex. The model is borrowed and must outlive the
+ *  simulation. */
 DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
 
 /** Goes on from a record of a simulation of the same model and options, whose further motion is repeated to the bit.
@@ -409,7 +410,7 @@ DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_e
  *  Contacts are looked for at the next advance, as at the start, and until then there are none; then observers are
  *  shown the step, and a record is taken: an older one is of the motion that was. What it changes of the energy counts
  *  as put in from outside (`boundary`). Copies both.
- *  \param x  [n_nodes][2] m, no deeper in obstacles than the skin; NULL: as it is
+ *  \param x  [n_nodes][2] m, no deeper in obstacles than the penetration tolerance; NULL: as it is
  *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
  *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */
 DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);

@@ -8,7 +8,7 @@
 #include "contact/impact_solve.h"
 
 static const double touch_share =
-    0.99; /* of the skin: as deep counts as touching, so that near ties are taken together */
+    0.99; /* of the penetration tolerance: as deep counts as touching, so that near ties are taken together */
 
 /* ---- free sites ---- */
 
@@ -62,7 +62,7 @@ static dem_status settle_free(contact_set *c, dem_index k, contact_instant *now,
 {
     const candidate_positions spot = candidate_place(&c->list[k], now->x);
     const contact_gap gap = candidate_gap(&c->scene, &c->list[k], &spot);
-    if (gap.distance > -touch_share * c->scene.rule.skin) return DEM_OK;
+    if (gap.distance > -touch_share * c->scene.rule.penetration_tolerance) return DEM_OK;
     *changed = true;
     return candidate_is_edge(&c->list[k]) ? touch_edge(c, k, &gap, now) : touch_node(c, k, &gap, now);
 }
@@ -175,7 +175,7 @@ static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now
     const contact_candidate *candidate = &c->list[k];
     const candidate_positions spot = candidate_place(candidate, now->x);
     const contact_gap gap = candidate_gap(&c->scene, candidate, &spot);
-    if (gap.distance > -touch_share * c->scene.rule.skin) return DEM_OK;
+    if (gap.distance > -touch_share * c->scene.rule.penetration_tolerance) return DEM_OK;
     *changed = true;
     if (candidate_is_edge(candidate)) return touch_edge(c, k, &gap, now);
     const double depth = impact_depth(c, k, now);
@@ -256,7 +256,7 @@ static bool arrives(const contact_set *c, const contact_candidate *candidate, co
     const candidate_positions ahead = {vec2_along(x->a, window, v->a), vec2_along(x->b, window, v->b),
                                        vec2_along(x->previous, window, v->previous),
                                        vec2_along(x->next, window, v->next)};
-    return candidate_gap(&c->scene, candidate, &ahead).distance < -c->scene.rule.skin;
+    return candidate_gap(&c->scene, candidate, &ahead).distance < -c->scene.rule.penetration_tolerance;
 }
 
 /* Reflects now what would touch within the window. */
@@ -271,7 +271,7 @@ static void reflect_early(contact_set *c, contact_instant *now)
         if (gap.feature < 0) continue;
         const vec2 at = vec2_add(vec2_scale(1.0 - gap.place, v.a), vec2_scale(gap.place, v.b));
         const double speed = -vec2_dot(at, gap.normal);
-        if (speed > 0.0 && gap.distance + c->scene.rule.skin < speed * c->scene.rule.window &&
+        if (speed > 0.0 && gap.distance + c->scene.rule.penetration_tolerance < speed * c->scene.rule.window &&
             arrives(c, &candidate, &spot, &v))
             impact_early(c, k, &gap, now);
     }
@@ -382,15 +382,17 @@ dem_status automaton_check_start(const automaton *c, const double *x)
         const contact_candidate candidate = candidate_reset(&c->set.list[k]);
         const candidate_positions spot = candidate_place(&candidate, x);
         const contact_gap gap = candidate_gap(scene, &candidate, &spot);
-        if (gap.distance >= -scene->rule.skin) continue;
+        if (gap.distance >= -scene->rule.penetration_tolerance) continue;
         const segment *s = scene_segment(scene, contact_point_segment(scene, &candidate, gap.feature));
         CHECK(candidate_is_edge(&candidate), DEM_ERROR_MODEL,
-              "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the skin of %g m",
-              (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, (long long)s->obstacle, scene->rule.skin);
+              "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the penetration tolerance of %g m",
+              (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, (long long)s->obstacle,
+              scene->rule.penetration_tolerance);
         return status_fail(DEM_ERROR_MODEL,
                            "the vertex at (%g, %g) m of obstacle %lld starts %g m inside the body, deeper than the "
-                           "skin of %g m",
-                           s->end.x, s->end.y, (long long)s->obstacle, -gap.distance, scene->rule.skin);
+                           "penetration tolerance of %g m",
+                           s->end.x, s->end.y, (long long)s->obstacle, -gap.distance,
+                           scene->rule.penetration_tolerance);
     }
     return DEM_OK;
 }
@@ -537,14 +539,15 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
     return true;
 }
 
-/* Whether an edge of a group has opened, or sunk in, by more than a quarter of the skin. */
+/* Whether an edge of a group has opened, or sunk in, by more than a quarter of the penetration tolerance. */
 static bool has_opened(const contact_set *c, dem_index group, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
     for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
         const contact_candidate *candidate = &c->list[r->members[m]];
         for (int q = 0; q < candidate->n_closed && candidate_is_edge(candidate); q++)
-            if (fabs(contact_frame_at(&c->scene, candidate, q, now->x, now->v).gap) > 0.25 * c->scene.rule.skin)
+            if (fabs(contact_frame_at(&c->scene, candidate, q, now->x, now->v).gap) >
+                0.25 * c->scene.rule.penetration_tolerance)
                 return true;
     }
     return false;

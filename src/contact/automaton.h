@@ -23,7 +23,8 @@ typedef struct automaton {
 dem_status automaton_create(automaton *out, const dem_model *model, const contact_rule *rule);
 void automaton_destroy(automaton *c);
 
-/** Whether no site without contacts is deeper in an obstacle than the skin: else DEM_ERROR_MODEL names the node.
+/** Whether no site without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
+ *  names the node.
  *  \param x  [n][2] */
 dem_status automaton_check_start(const automaton *c, const double *x);
 

@@ -42,7 +42,7 @@ static obstacle_edge edge_query(const contact_scene *scene, const contact_candid
                            .b = spot->b,
                            .previous = spot->previous,
                            .next = spot->next,
-                           .tolerance = scene->rule.skin,
+                           .tolerance = scene->rule.penetration_tolerance,
                            .depth = edge_depth * length,
                            .reach = edge_reach * length,
                            .without = {candidate->behind[0], candidate->behind[1]},
@@ -106,8 +106,8 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
 
 /* ---- guards of closed contacts ---- */
 
-/* Distance to the nearer end of the segment or edge, and the skin: an end is passed when a contact is beyond it by
- * that. */
+/* Distance to the nearer end of the segment or edge, and the penetration tolerance: an end is passed when a contact is
+ * beyond it by that. */
 static double end_guard(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
                         int *end)
 {
@@ -122,7 +122,7 @@ static double end_guard(const contact_scene *scene, const contact_candidate *can
         place = segment_place(s, vec2_at(x, candidate->node));
     }
     *end = place > 0.5 * length ? 1 : -1;
-    return fmin(place, length - place) + scene->rule.skin;
+    return fmin(place, length - place) + scene->rule.penetration_tolerance;
 }
 
 /* A contact that sticks by friction has a grip; one that slides has a sign. */
@@ -147,7 +147,7 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
     return end * heading > 0.0 ? end : 0;
 }
 
-/* In units of the skin per step: slower than this is rounding. */
+/* In units of the penetration tolerance per step: slower than this is rounding. */
 static const double rest_noise = 1e-16;
 
 bool candidate_turns(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
@@ -155,7 +155,7 @@ bool candidate_turns(const contact_scene *scene, const contact_candidate *candid
 {
     const int sign = candidate->closed[q].slide;
     if (sign == 0 || contact_point_friction(scene, candidate, candidate->closed[q].feature) == 0.0) return false;
-    const double least = rest_noise * scene->rule.skin / scene->rule.max_step;
+    const double least = rest_noise * scene->rule.penetration_tolerance / scene->rule.max_step;
     return sign * vec2_dot(f->velocity, f->tangent) < -fmax(contact_point_noise(f, v), least);
 }
 
@@ -170,7 +170,7 @@ double candidate_grip(const contact_scene *scene, const contact_candidate *candi
 /* The gap as a guard, whose root is the contact time (7): finite where there is nothing. */
 static double gap_guard(const contact_scene *scene, contact_gap gap)
 {
-    return fmin(gap.distance, 1.0) + scene->rule.skin;
+    return fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance;
 }
 
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,

@@ -44,7 +44,8 @@ contact_gap candidate_around(const contact_scene *scene, const contact_candidate
 double candidate_clearance(const contact_scene *scene, const contact_candidate *candidate,
                            const candidate_positions *spot, dem_index *nearest);
 
-/** Whether contact q is beyond the end of its segment or edge by the skin and heads out: 1, or -1 beyond the start. */
+/** Whether contact q is beyond the end of its segment or edge by the penetration tolerance and heads out: 1, or -1
+ *  beyond the start. */
 int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
                          const double *v);
 
@@ -57,8 +58,9 @@ bool candidate_turns(const contact_scene *scene, const contact_candidate *candid
 double candidate_grip(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
                       const contact_force *force, const double *x);
 
-/** Values of the guards in a state, [CANDIDATE_ROOTS]: gap + skin; smallest normal force; distance to the nearer end +
- *  skin of what slides, grip of what sticks; speed of sliding. What does not apply is 1.
+/** Values of the guards in a state, [CANDIDATE_ROOTS]: gap + penetration tolerance; smallest normal force; distance to
+ *  the nearer end + penetration tolerance of what slides, grip of what sticks; speed of sliding. What does not apply
+ *  is 1.
  *  \param force  of its closed contacts in that state */
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
                               const contact_force force[2], const double *x, const double *v, double *g);

@@ -43,16 +43,16 @@ typedef struct contact_candidate {
 } contact_candidate;
 
 typedef struct contact_rule {
-    double skin;             /* m, depth at which an impact is taken */
-    double position_error;   /* m, tolerance of positions: hops below it are rest */
-    double rest_speed;       /* m/s, rebounds up to this are rest whatever else the rule says */
-    double window;           /* s, impacts nearer than this are taken together */
-    double max_step;         /* s, longest step: with t it sets how exactly an event is located */
-    double storm_time;       /* s */
-    dem_index max_impacts;   /* within storm_time at one site */
-    bool vertices;           /* whether edges touch vertices */
-    dem_index n_quadratures; /* places behind the nodes in a state, for what is integrated along */
-    int n_threads;           /* that look at free sites at once; 0 counts as 1 */
+    double penetration_tolerance; /* m, depth at which an impact is taken */
+    double position_error;        /* m, tolerance of positions: hops below it are rest */
+    double rest_speed;            /* m/s, rebounds up to this are rest whatever else the rule says */
+    double window;                /* s, impacts nearer than this are taken together */
+    double max_step;              /* s, longest step: with t it sets how exactly an event is located */
+    double storm_time;            /* s */
+    dem_index max_impacts;        /* within storm_time at one site */
+    bool vertices;                /* whether edges touch vertices */
+    dem_index n_quadratures;      /* places behind the nodes in a state, for what is integrated along */
+    int n_threads;                /* that look at free sites at once; 0 counts as 1 */
     forces load;
 } contact_rule;
 
@@ -85,7 +85,7 @@ static inline const segment *scene_segment(const contact_scene *scene, dem_index
 /** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
 static inline double scene_margin(const contact_scene *scene)
 {
-    return 10.0 * scene->rule.skin;
+    return 10.0 * scene->rule.penetration_tolerance;
 }
 
 static inline bool candidate_is_edge(const contact_candidate *candidate)

@@ -55,13 +55,13 @@ static sample sample_at(const contact_scene *scene, const contact_candidate *can
     if (candidate_is_edge(candidate))
         v = vec2_add(vec2_scale(1.0 - gap.place, v),
                      vec2_scale(gap.place, dense_output_velocity(p, t, candidate->other)));
-    return (sample){t, fmin(gap.distance, 1.0) + scene->rule.skin, vec2_dot(gap.normal, v)};
+    return (sample){t, fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance, vec2_dot(gap.normal, v)};
 }
 
 static double guard_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
     const candidate_positions spot = candidate_place_at(candidate, p, t);
-    return fmin(candidate_gap(scene, candidate, &spot).distance, 1.0) + scene->rule.skin;
+    return fmin(candidate_gap(scene, candidate, &spot).distance, 1.0) + scene->rule.penetration_tolerance;
 }
 
 /* Whether the guard is lower somewhere between two samples than at both; a vertex may be beside the edge at one. */
@@ -137,12 +137,12 @@ static bool edge_is_clear(const contact_scene *scene, const contact_candidate *c
                           double from, double reach)
 {
     const candidate_positions spot = candidate_place_at(candidate, p, p->end);
-    const contact_gap around = candidate_around(scene, candidate, &spot, reach + scene->rule.skin);
+    const contact_gap around = candidate_around(scene, candidate, &spot, reach + scene->rule.penetration_tolerance);
     if (around.feature < 0) return true;
     const double va = vec2_dot(dense_output_velocity(p, p->end, candidate->node), around.normal),
                  vb = vec2_dot(dense_output_velocity(p, p->end, candidate->other), around.normal);
     const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
-    return around.distance + scene->rule.skin > way + bend(candidate, p);
+    return around.distance + scene->rule.penetration_tolerance > way + bend(candidate, p);
 }
 
 /* Whether a site ends the step so near to where it was clear that it was so all the way. */

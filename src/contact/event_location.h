@@ -8,8 +8,8 @@
 /** Width to which a time in the step is located, s: what ARKODE's root finder uses. */
 double event_location_resolution(const dense_output *p);
 
-/** First time in the step, after `from`, at which a free site is as deep as the skin; infinity if never. The rest of
- *  the step is sampled eight times, and every dip between samples followed to its bottom. */
+/** First time in the step, after `from`, at which a free site is as deep as the penetration tolerance; infinity if
+ *  never. The rest of the step is sampled eight times, and every dip between samples followed to its bottom. */
 double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                                double from);
 

@@ -26,21 +26,22 @@ static int sign_of(const contact_set *c, dem_index k, dem_index feature, double 
     return speed < 0.0 ? -1 : 1;
 }
 
-/* Hops of this many skins are kept up where one contact's impact opens another that shares a node, or the other side of
- * a notch: each is taken a skin deep. */
+/* Hops of this many penetration tolerances are kept up where one contact's impact opens another that shares a node, or
+ * the other side of a notch: each is taken a penetration tolerance deep. */
 static const double shared_skins = 8.0;
 
 /* Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
  * position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
- * the skin keep up; or it would be shorter than twice the window. A rest speed that is given adds to that and replaces
- * none of it: a smaller one would leave bounces that never end. Nothing is at rest (-1) that does not return. */
+ * the penetration tolerance keep up; or it would be shorter than twice the window. A rest speed that is given adds to
+ * that and replaces none of it: a smaller one would leave bounces that never end. Nothing is at rest (-1) that does
+ * not return. */
 static double resting_speed(const contact_set *c, vec2 x, double back, const impact_surface *on, bool shared)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
     const double skins = fmax(shared ? shared_skins : 0.0, 2.0 * impact_law_kept_up(on));
-    const double height = fmax(fmax(rule->position_error, rounding), skins * rule->skin);
+    const double height = fmax(fmax(rule->position_error, rounding), skins * rule->penetration_tolerance);
     return fmax(rule->rest_speed, fmax(sqrt(2.0 * back * height), back * rule->window));
 }
 
@@ -510,7 +511,7 @@ double impact_depth(const contact_set *c, dem_index k, const contact_instant *no
     const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
     const double speed = vec2_norm(vec2_at(now->v, candidate->node));
     const double other = candidate_is_edge(candidate) ? vec2_norm(vec2_at(now->v, candidate->other)) : 0.0;
-    return 2.0 * c->scene.rule.skin + c->straightened + located * fmax(speed, other);
+    return 2.0 * c->scene.rule.penetration_tolerance + c->straightened + located * fmax(speed, other);
 }
 
 /* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the

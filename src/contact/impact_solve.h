@@ -11,8 +11,8 @@ typedef struct impact_target {
     dem_index feature[2];
 } impact_target;
 
-/** How deep a site can be at an impact, m: twice the skin, how far it moves in ten times the time to which events are
- *  located, and how far it may have been moved to straighten a contact beside it. */
+/** How deep a site can be at an impact, m: twice the penetration tolerance, how far it moves in ten times the time to
+ *  which events are located, and how far it may have been moved to straighten a contact beside it. */
 double impact_depth(const contact_set *c, dem_index k, const contact_instant *now);
 
 /** Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:

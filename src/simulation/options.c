@@ -10,8 +10,10 @@ static const double window_share = 0.1;   /* of 1/omega_max: default window, by 
 
 dem_status options_check(const dem_options *o)
 {
-    const double lengths[] = {o->spacing, o->v_scale, o->max_step, o->fixed_step, o->skin, o->rest_speed};
-    static const char *const names[] = {"spacing", "v_scale", "max_step", "fixed_step", "skin", "rest_speed"};
+    const double lengths[] = {o->spacing,   o->v_scale, o->max_step, o->fixed_step, o->penetration_tolerance,
+                              o->rest_speed};
+    static const char *const names[] = {"spacing",   "v_scale", "max_step", "fixed_step", "penetration_tolerance",
+                                        "rest_speed"};
     CHECK(o->struct_size == sizeof *o, DEM_ERROR_ARGUMENT, "dem_options: struct_size is %zu, %zu expected",
           o->struct_size, sizeof *o);
     CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
@@ -65,7 +67,7 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
         o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) / fmax(model->omega_max, rate);
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
     if (!method.adaptive) o->fixed_step = o->max_step;
-    if (o->skin == 0.0) o->skin = 1e-6 * o->spacing;
+    if (o->penetration_tolerance == 0.0) o->penetration_tolerance = 1e-6 * o->spacing;
     if (o->window < 0.0 && o->contact == DEM_CONTACT_EXACT && model->omega_max > 0.0)
         o->window = window_share * fmin(1.0 / model->omega_max, 2.0 * o->max_step);
     o->window = fmax(o->window, 0.0);

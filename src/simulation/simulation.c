@@ -354,7 +354,7 @@ static contact_rule rule_of(const dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
-    return (contact_rule){.skin = o->skin,
+    return (contact_rule){.penetration_tolerance = o->penetration_tolerance,
                           .position_error = o->rtol * o->spacing,
                           .rest_speed = o->rest_speed,
                           .window = o->window,

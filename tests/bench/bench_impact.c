@@ -60,7 +60,7 @@ static dem_options read_options(char **argv, const dem_model *model)
     options.rtol = atof(argv[2]);
     options.max_step = atof(argv[3]) / dem_model_omega_max(model);
     if (options.method == DEM_METHOD_VERLET) options.fixed_step = options.max_step;
-    options.skin = atof(argv[4]) * dem_model_spacing(model);
+    options.penetration_tolerance = atof(argv[4]) * dem_model_spacing(model);
     options.window = 0.0;
     return options;
 }

@@ -32,7 +32,7 @@ comm_modify cutoff {cutoff}
 read_data body.data
 bond_style harmonic
 bond_coeff 1 {constant} {length}
-neighbor {skin} bin
+neighbor {penetration_tolerance} bin
 neigh_modify every 1000000000 delay 0 check no
 fix 1 all nve
 {fixes}
@@ -87,7 +87,7 @@ class Body:
         """Seconds of the loop: of CPU on one core, of wall on more."""
         length = self.spacing
         (self.work / "in.body").write_text(INPUT.format(step=step, steps=steps, fixes=fixes, cutoff=2.5 * length,
-                                                        skin=0.3 * length, **self.values))
+                                                        penetration_tolerance=0.3 * length, **self.values))
         ranks = [PROGRAMS / "mpiexec", "-n", cores] if cores > 1 else []
         out = call(["env", "OMP_NUM_THREADS=1", *ranks, PROGRAMS / "lmp", "-sf", "omp", "-pk", "omp", "1", "-log", "none",
                     "-in", "in.body"], self.work)

@@ -93,10 +93,10 @@ contains
 
   subroutine read_contact()
     character(4096) :: method, overlap
-    real(dp) :: window, skin, rest_speed
+    real(dp) :: window, penetration_tolerance, rest_speed
     logical :: vertices
     integer :: max_impacts
-    namelist /contact/ method, window, vertices, overlap, skin, rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, overlap, penetration_tolerance, rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 

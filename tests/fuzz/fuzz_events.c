@@ -163,7 +163,7 @@ static void put_options(bytes *from, scene *sc)
     o->max_impacts = 500;
     if (bytes_below(from, 4) == 1) o->window = bytes_between(from, 0.0, 1e-4);
     if (bytes_below(from, 4) == 1) o->rest_speed = bytes_between(from, 1e-6, 1e-1);
-    if (bytes_below(from, 8) == 1) o->skin = bytes_between(from, 1e-9, 1e-6);
+    if (bytes_below(from, 8) == 1) o->penetration_tolerance = bytes_between(from, 1e-9, 1e-6);
 }
 
 /* A node that is pulled. */
@@ -243,15 +243,16 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
     return DEM_OK;
 }
 
-/* An accepted state is as deep as the skin and what rounding adds, an interpolated one as far off as the method is; in
- * fixed steps that is not controlled. A contact that turns back twice within a step may rub the wrong way between. */
+/* An accepted state is as deep as the penetration tolerance and what rounding adds, an interpolated one as far off as
+ * the method is; in fixed steps that is not controlled. A contact that turns back twice within a step may rub the
+ * wrong way between. */
 static judge make_judge(const scene *sc, const dem_simulation *simulation)
 {
     const dem_options o = dem_simulation_options(simulation);
     dem_method_traits traits;
     require(dem_method_describe(&traits, o.method) == DEM_OK);
     return (judge){.scene = sc,
-                   .deepest = 5.0 * o.skin + (traits.adaptive ? 0.0 : 1e-2 * o.spacing),
+                   .deepest = 5.0 * o.penetration_tolerance + (traits.adaptive ? 0.0 : 1e-2 * o.spacing),
                    .error = traits.adaptive ? 1e-4 : 1e-2,
                    .start = dem_energy_ledger(dem_simulation_energy(simulation)),
                    .adaptive = traits.adaptive};

@@ -199,11 +199,11 @@ def energies_of_frames(run, deck):
 
 
 def skin_of(run, deck):
-    return deck.contact.get("skin", 1e-6 * run.lattice["rest_length"].min())
+    return deck.contact.get("penetration_tolerance", 1e-6 * run.lattice["rest_length"].min())
 
 
 def depth_of_nodes(run, deck):
-    """In skins: one, what rounding adds, and a little more where a frame is interpolated (test_random.c). What is
+    """In penetration tolerances: one, what rounding adds, and a little more where a frame is interpolated (test_random.c). What is
     prescribed pays no heed to obstacles, and what passed round an end is behind."""
     if is_prescribed(deck) or run.history["behind"].any():
         return None
@@ -225,5 +225,5 @@ def events_per_node(run, deck):
 
 # Of a run and its deck: what is found and the largest that is right, or None where it is no question.
 MEASURES = [("ledger open by", open_ledger), ("given back", dissipation_given_back), ("momentum off by", momentum),
-            ("energies off by", energies_of_frames), ("node skins deep", depth_of_nodes),
-            ("vertex skins deep", depth_of_vertices), ("events per node", events_per_node)]
+            ("energies off by", energies_of_frames), ("node penetration tolerances deep", depth_of_nodes),
+            ("vertex penetration tolerances deep", depth_of_vertices), ("events per node", events_per_node)]

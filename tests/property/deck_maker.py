@@ -130,7 +130,7 @@ def contact(dice, deck, harsh):
     if dice.chance(0.2):
         keys["vertices"] = False
     if dice.chance(0.25):
-        keys["skin"] = deck.spacing * dice.log(1e-7, 1e-4)
+        keys["penetration_tolerance"] = deck.spacing * dice.log(1e-7, 1e-4)
     if dice.chance(0.1):
         keys["rest_speed"] = deck.sound * dice.log(1e-5, 1e-3)  # less makes many hops
     if dice.chance(0.1):

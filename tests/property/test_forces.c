@@ -112,14 +112,16 @@ static void watch_stage(watch *w, stage *s)
     assert_ok(dem_simulation_observe(s->simulation, &observer));
 }
 
-/* As test_random.c judges scenes without: five skins, 2e-3; Verlet's energies waver by (omega h)^2/4, and omega h is
- * 1/4 at most. */
+/* As test_random.c judges scenes without: five penetration tolerances, 2e-3; Verlet's energies waver by (omega h)^2/4,
+ * and omega h is 1/4 at most. */
 static void judge(const watch *w, const stage *s, unsigned long seed)
 {
     const dem_options o = dem_simulation_options(s->simulation);
-    const double skin = o.skin, most = o.method == DEM_METHOD_VERLET ? 1.0 / 64.0 : 2e-3;
+    const double penetration_tolerance = o.penetration_tolerance,
+                 most = o.method == DEM_METHOD_VERLET ? 1.0 / 64.0 : 2e-3;
     if (!(w->open <= most * w->scale)) fail_msg("seed %lu: the ledger is open by %g of %g J", seed, w->open, w->scale);
-    if (!(w->depth <= 5.0 * skin) && !w->round) fail_msg("seed %lu: %g skins deep", seed, w->depth / skin);
+    if (!(w->depth <= 5.0 * penetration_tolerance) && !w->round)
+        fail_msg("seed %lu: %g skins deep", seed, w->depth / penetration_tolerance);
 }
 
 static const dem_contact_method contacts[2] = {DEM_CONTACT_LOCAL, DEM_CONTACT_EXACT};

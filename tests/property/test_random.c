@@ -229,18 +229,20 @@ static void add_up(census *all, const verdict *v, const dem_counts *c)
     all->gained = fmax(all->gained, v->gained);
 }
 
-/* A node or vertex may be as deep as the skin and what rounding adds, and an interpolated state a little more: five
- * skins. The ledger: 2e-3 is what the paper's bodies are asked to hold at rtol 1e-6. */
+/* A node or vertex may be as deep as the penetration tolerance and what rounding adds, and an interpolated state a
+ * little more: five penetration tolerances. The ledger: 2e-3 is what the paper's bodies are asked to hold at rtol
+ * 1e-6. */
 static void judge_case(unsigned long seed, census *all, const scene *sc, const verdict *v, const support_run *run)
 {
     const dem_options o = dem_simulation_options(run->simulation);
     const double closure = v->open / v->scale, scale = v->scale;
-    if (!v->round) all->deepest = fmax(all->deepest, v->node_depth / o.skin);
-    if (!v->round) all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.skin);
+    if (!v->round) all->deepest = fmax(all->deepest, v->node_depth / o.penetration_tolerance);
+    if (!v->round) all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.penetration_tolerance);
     all->closure = fmax(all->closure, closure);
-    if (!(v->node_depth <= 5.0 * o.skin) && !v->round) fault(seed, "a node %g skins deep", v->node_depth / o.skin);
-    if (!(v->vertex_depth <= 5.0 * o.skin) && !v->round)
-        fault(seed, "a vertex %g skins deep", v->vertex_depth / o.skin);
+    if (!(v->node_depth <= 5.0 * o.penetration_tolerance) && !v->round)
+        fault(seed, "a node %g skins deep", v->node_depth / o.penetration_tolerance);
+    if (!(v->vertex_depth <= 5.0 * o.penetration_tolerance) && !v->round)
+        fault(seed, "a vertex %g skins deep", v->vertex_depth / o.penetration_tolerance);
     if (!(v->gained <= 1e-12)) fault(seed, "an impact gave %g of its energy", v->gained);
     if (!(v->fall <= 1e-12 * scale)) fault(seed, "impacts gave %g J", v->fall);
     if (!(closure <= 2e-3)) fault(seed, "ledger open by %g", closure);

@@ -34,7 +34,7 @@ static inline dem_status scene_note(void *context, const dem_event *event)
 
 static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n)
 {
-    const contact_rule rule = {.skin = scene_skin,
+    const contact_rule rule = {.penetration_tolerance = scene_skin,
                                .position_error = 1e-9,
                                .max_step = 0.01,
                                .storm_time = 0.5,

@@ -114,7 +114,7 @@ void support_point(support_run *run, double m, const double x[2], const double v
     options.spacing = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
-    options.skin = 1e-13;
+    options.penetration_tolerance = 1e-13;
     options.v_scale = 1.0;
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);

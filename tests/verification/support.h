@@ -49,7 +49,7 @@ void support_close(support_run *run);
 dem_state support_at(support_run *run, double t);
 
 /** One node of mass m at (x, y) with velocity (u, v), over one open or closed polyline. Tolerances fit a scale of 1
- *  m and the accuracy of the exact tests: rtol 1e-12, skin 1e-13 m, steps of at most 0.01 s. */
+ *  m and the accuracy of the exact tests: rtol 1e-12, penetration tolerance 1e-13 m, steps of at most 0.01 s. */
 void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
                    dem_index n_points, double restitution);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A point mass dropped on a floor (row e): impact times, the end of bouncing, rest. Exact values are closed forms.
- * With a skin of 1e-13 m an impact is late by skin/|v_n| < 1e-11 s for the eight impacts compared; 1e-9 s is the
- * table's tolerance. */
+ * With a penetration tolerance of 1e-13 m an impact is late by penetration tolerance/|v_n| < 1e-11 s for the eight
+ * impacts compared; 1e-9 s is the table's tolerance. */
 #include <stdbool.h>
 
 #include "support.h"
@@ -23,7 +23,7 @@ static void check_rest(support_run *run, double eta, double t_star)
     const dem_event last = run->impacts[run->n_impacts - 1];
     const dem_index n_impacts = run->n_impacts, n_events = dem_simulation_counts(run->simulation).events;
     assert_int_not_equal(last.state, DEM_CONTACT_FREE);
-    assert_close(last.t, t_star, cut_off + 1e-7); /* skin/|v_n| of all impacts: 1e-13/4e-6/(1 - eta) */
+    assert_close(last.t, t_star, cut_off + 1e-7); /* penetration tolerance/|v_n| of all impacts: 1e-13/4e-6/(1 - eta) */
     for (double t = t_star + 0.1; t < t_star + 9.0; t += 0.7) {
         state = support_at(run, t);
         assert_close(state.x[1], 0.0, 1e-12);
@@ -169,7 +169,7 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
     options.max_step = 0.01;
     options.fixed_step = step;
     options.rtol = 1e-12;
-    options.skin = 1e-13;
+    options.penetration_tolerance = 1e-13;
     support_lattice(&lattice, pair ? 2 : 1, x, mass, pair ? 1 : 0, ends, 1.0, 0.5 * pair_omega * pair_omega, NULL);
     support_start(&lattice, start, NULL);
     support_open(run, &lattice, &ground, floored ? 1 : 0, &options);

@@ -13,7 +13,7 @@
 
 enum { most_masses = 161 };
 
-static const double speed = 1.0, length = 1.0, skin = 1e-13,
+static const double speed = 1.0, length = 1.0, penetration_tolerance = 1e-13,
                     stiffness = 1e4; /* v, L, and E_ij, N: all waves run at c = 100 m/s */
 
 /* What the wall takes from the impact of N springs; time in units of 2 L/c, speed in units of v. */
@@ -97,7 +97,7 @@ static void open_chain(impact *s, int n, double height, bool lying)
     }
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
-    options.skin = skin; /* late by 1e-13 s */
+    options.penetration_tolerance = penetration_tolerance; /* late by 1e-13 s */
     *s = (impact){0};
     support_lattice(&lattice, n + 1, x, m, n, ends, length / n, stiffness, NULL);
     for (int i = 1; i <= n; i++) lattice.flags[i] = 0;
@@ -113,11 +113,12 @@ static double total(dem_energy e)
 }
 
 /* At the impact the first spring does not press yet. If the first mass does not stay at once the spring presses it
- * through the skin d: from its acceleration omega^2 v t in t = (6 d/(omega^2 v))^(1/3), at the speed 3 d/t. */
+ * through the penetration tolerance d: from its acceleration omega^2 v t in t = (6 d/(omega^2 v))^(1/3), at the speed
+ * 3 d/t. */
 static double second_blow(int n)
 {
     const double omega = 100.0 * n / length;
-    return 3.0 * skin / cbrt(6.0 * skin / (2.0 * omega * omega * speed));
+    return 3.0 * penetration_tolerance / cbrt(6.0 * penetration_tolerance / (2.0 * omega * omega * speed));
 }
 
 /* Contact and rebound as measured. Tolerances of the run: rtol 1e-11 of a spacing, by the speed, over up to a thousand

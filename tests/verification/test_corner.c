@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One node against the vertices of polylines: every outcome is a closed form of ballistics. Tolerances: the skin of
- * 1e-13 m, rtol of 1e-12 and the rounding of coordinates near 1 m leave errors well below 1e-9. */
+/* One node against the vertices of polylines: every outcome is a closed form of ballistics. Tolerances: the
+ * penetration tolerance of 1e-13 m, rtol of 1e-12 and the rounding of coordinates near 1 m leave errors well below
+ * 1e-9. */
 #include "support.h"
 
 static const double g = 9.81;
@@ -189,7 +190,7 @@ static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
-    options.skin = 1e-13;
+    options.penetration_tolerance = 1e-13;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, obstacles, 2, &options);
@@ -308,13 +309,14 @@ static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
         options.gravity[1] = -9.81 * c;
         options.spacing = options.v_scale = 1.0;
         options.max_step = 1e-3;
-        options.skin = 1e-8;
+        options.penetration_tolerance = 1e-8;
         support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
         support_start(&lattice, NULL, v);
         support_open(&run, &lattice, obstacles, 2, &options);
         dem_lattice_free(&lattice);
         const dem_state state = support_at(&run, 1.0);
-        assert_close(state.x[0] * c + state.x[1] * s, 0.5, 1e-6); /* 100 skins: the lean makes ten of the skin */
+        assert_close(state.x[0] * c + state.x[1] * s, 0.5,
+                     1e-6); /* 100 penetration tolerances: the lean makes ten of the penetration tolerance */
         support_close(&run);
     }
 }

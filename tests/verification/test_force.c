@@ -40,7 +40,8 @@ static void apply(dem_options *options, field *f)
 
 static const double mass = 2.0;
 
-/* Without weight, over a floor far below unless `ground` is given; rtol and skin as support_point() has them. */
+/* Without weight, over a floor far below unless `ground` is given; rtol and penetration tolerance as support_point()
+ * has them. */
 static void open_node(support_run *run, const double v[2], const dem_obstacle *ground, dem_method method, field *f)
 {
     const double x[2] = {0.0, 0.0};
@@ -52,7 +53,7 @@ static void open_node(support_run *run, const double v[2], const dem_obstacle *g
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
-    options.skin = 1e-13;
+    options.penetration_tolerance = 1e-13;
     apply(&options, f);
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);

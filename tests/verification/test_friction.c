@@ -89,7 +89,7 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
-    options.skin = 1e-13;
+    options.penetration_tolerance = 1e-13;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, s->v0);
     support_open(&s->run, &lattice, &obstacle, 1, &options);
@@ -253,7 +253,7 @@ static void a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_
         assert_close(dot(state.v, s.tangent), 1.0 + 1.5 * acceleration(0.2), 1e-7);
         check_impulses(&s);
         check_books(&s);
-        /* rtol times the energies, and friction across the skin of each impact: mu m g 1e-13 m */
+        /* rtol times the energies, and friction across the penetration tolerance of each impact: mu m g 1e-13 m */
         assert_close(s.drift, 0.0, 1e-10);
         support_close(&s.run);
     }

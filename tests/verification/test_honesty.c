@@ -199,7 +199,7 @@ static void make_parts(parts *p, const support_run *run)
     const dem_options *o = &p->options;
     p->n = p->model->lattice.n_nodes;
     p->n_all = p->n + 4;
-    p->rule = (contact_rule){.skin = o->skin,
+    p->rule = (contact_rule){.penetration_tolerance = o->penetration_tolerance,
                              .position_error = o->rtol * o->spacing,
                              .max_step = o->max_step,
                              .storm_time = 1.0 / p->model->omega_max,
@@ -225,7 +225,7 @@ static void run_block(support_run *run, record *r, const drop *d)
     assert_ok(dem_lattice_launch(&lattice, (const double[2]){0.0, -d->speed}));
     options.rtol = d->rtol;
     options.max_step = d->max_step / omega;
-    options.skin = 1e-9 * spacing;
+    options.penetration_tolerance = 1e-9 * spacing;
     options.vertices = 0;
     support_open(run, &lattice, d->ground, 1, &options);
     *r = (record){.n = lattice.n_nodes};

@@ -58,7 +58,7 @@ static void open_block(block *b, const scene *s, const double *position, bool da
     dem_lattice lattice;
     options.rtol = 1e-10;
     options.v_scale = 0.1; /* more than the weight moves it */
-    options.skin = 1e-10 * spacing;
+    options.penetration_tolerance = 1e-10 * spacing;
     options.mass_damping = damped ? s->mass_damping * pace(s) : 0.0;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0 * spacing, 3.5 * spacing, spacing));
     assert_ok(dem_lattice_assemble(&lattice, &material));

@@ -169,8 +169,8 @@ static void tell(int restitution, int friction, int kind, const outcome *loose, 
 }
 
 /* Bounds of the ledger at rtol 1e-8, over the initial kinetic energy: 1e-6; near eta = 1 ten times that, as every short
- * flight of a pressed node restarts the integrator. Ten skins are deep: one is taken at an impact. Rounding of the
- * energies is below 1e-12. */
+ * flight of a pressed node restarts the integrator. Ten penetration tolerances are deep: one is taken at an impact.
+ * Rounding of the energies is below 1e-12. */
 static void judge(int restitution, int friction, int kind, const outcome *loose, const outcome *tight)
 {
     const double bound = restitutions[restitution] > 0.5 ? 1e-5 : 1e-6;

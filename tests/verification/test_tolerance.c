@@ -17,7 +17,7 @@ static void run_to(const dem_lattice *body, const dem_obstacle *floor, double t,
     options.max_step = t;
     options.v_scale = 1.0;
     options.window = 0.0;
-    options.skin = 1e-12; /* as deep are impacts late, whatever rtol: below all errors */
+    options.penetration_tolerance = 1e-12; /* as deep are impacts late, whatever rtol: below all errors */
     support_open(&run, body, floor, floor != NULL, &options);
     const dem_state state = support_at(&run, t);
     memcpy(x, state.x, 2 * (size_t)body->n_nodes * sizeof *x);

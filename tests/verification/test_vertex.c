@@ -73,7 +73,7 @@ static outcome run_fall(const fall *f)
     options.gravity[1] = 0.0;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 1e-3;
-    options.skin = 1e-14;
+    options.penetration_tolerance = 1e-14;
     options.rtol = 1e-12;
     options.window = 0.0; /* as good as no springs set its scale */
     set_up(f, x, v);
@@ -94,7 +94,8 @@ static outcome run_fall(const fall *f)
 }
 
 /* J = -(1 + eta) v_n/W, W = (1 - s)^2/m_A + s^2/m_B, shared (1 - s, s); along the edge at most mu J, and not more than
- * stops it. Speeds are of order 1; the skin of 1e-14 m delays by 1e-14 s, over which the edge turns by as much. */
+ * stops it. Speeds are of order 1; the penetration tolerance of 1e-14 m delays by 1e-14 s, over which the edge turns
+ * by as much. */
 static void check_fall(const fall *f)
 {
     const outcome o = run_fall(f);
@@ -225,7 +226,8 @@ static dem_status add_event(void *context, const dem_simulation *simulation, con
     (void)simulation;
     w->lasting += event->state != DEM_CONTACT_FREE;
     for (int d = 0; d < 2; d++) w->impulse[d] += event->impulse[d];
-    if (event->other >= 0) assert_close(event->weight, 0.5, 0.5 + 1e-4); /* on the edge, but for skins */
+    if (event->other >= 0)
+        assert_close(event->weight, 0.5, 0.5 + 1e-4); /* on the edge, but for penetration tolerances */
     if (event->kind == DEM_EVENT_IMPACT) w->least_energy = fmin(w->least_energy, event->energy);
     return DEM_OK;
 }
@@ -282,9 +284,9 @@ static verdict run_wedge(const wedge *c, double t_end)
     const double before = dem_energy_ledger(dem_simulation_energy(run.simulation));
     const double kinetic = dem_simulation_energy(run.simulation).kinetic;
     dem_state state = support_at(&run, t_end);
-    const double skin = dem_simulation_options(run.simulation).skin;
-    const verdict v = {.apex = w.deepest_apex / skin,
-                       .node = w.deepest_node / skin,
+    const double penetration_tolerance = dem_simulation_options(run.simulation).penetration_tolerance;
+    const verdict v = {.apex = w.deepest_apex / penetration_tolerance,
+                       .node = w.deepest_node / penetration_tolerance,
                        .balance = w.worst_balance,
                        .told = imbalance(&w, run.simulation, w.impulse),
                        .skew = asymmetry(dem_model_lattice(run.model), state.x) / spacing,
@@ -306,8 +308,8 @@ static verdict run_wedge(const wedge *c, double t_end)
     return v;
 }
 
-/* Node and apex at most twice the skin deep. Momentum: rounding of a hundred restarts is 1e-12 at most, and every
- * further hundred add as much. The ledger: row d's 1e-6 at rtol 1e-9, and proportional to rtol. */
+/* Node and apex at most twice the penetration tolerance deep. Momentum: rounding of a hundred restarts is 1e-12 at
+ * most, and every further hundred add as much. The ledger: row d's 1e-6 at rtol 1e-9, and proportional to rtol. */
 static verdict check_wedge(const wedge *c, double t_end)
 {
     const verdict v = run_wedge(c, t_end);

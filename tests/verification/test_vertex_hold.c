@@ -193,7 +193,7 @@ static void open_triangle(support_run *run, const triangle *q, const double *y, 
     options.gravity[1] = q->g[1];
     options.spacing = options.v_scale = 1.0;
     options.rtol = rtol;
-    options.skin = 1e-12;
+    options.penetration_tolerance = 1e-12;
     support_open(run, &lattice, &obstacle, 1, &options);
     dem_lattice_free(&lattice);
 }

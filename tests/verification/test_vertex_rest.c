@@ -48,7 +48,7 @@ static void open_block(support_run *run, const dem_lattice *lattice, const rack 
 {
     const dem_obstacle obstacle = {5, r->points, 0.0, r->friction, DEM_FRICTION_COULOMB};
     dem_options options = support_options();
-    options.skin = 1e-12;
+    options.penetration_tolerance = 1e-12;
     options.rtol = 1e-9;
     options.mass_damping = damping;
     support_open(run, lattice, &obstacle, 1, &options);
@@ -273,7 +273,7 @@ static void a_block_slides_with_friction_over_apexes_past_its_nodes(void **unuse
                   w.worst_cap);
     assert_true(w.passes[0] >= 3 && w.passes[1] >= 3);
     assert_int_equal(w.others, 2); /* at the start the dents in the face are hit, and no release or impact after */
-    assert_true(w.worst_kick < 1.0 + 1e-3); /* and the skin */
+    assert_true(w.worst_kick < 1.0 + 1e-3); /* and the penetration tolerance */
     assert_true(w.worst_jump < 1.0);
     assert_true(w.worst_cap < 1e-14);
     assert_true(w.worst_ledger < 1e-6 * kinetic); /* rtol 1e-9: row d's */
@@ -342,21 +342,21 @@ static void check_drop(double slope, double friction, double speed)
     drop w;
     open_drop(&run, &w, slope, friction, speed);
     (void)support_at(&run, 0.08);
-    const double skin = dem_simulation_options(run.simulation).skin;
+    const double penetration_tolerance = dem_simulation_options(run.simulation).penetration_tolerance;
     dem_index k = 0;
     print_message("# slope %g, mu %g, %g m/s: apex %.2g and node %.2g skins deep\n", slope, friction, speed,
-                  w.deepest_apex / skin, w.deepest_node / skin);
+                  w.deepest_apex / penetration_tolerance, w.deepest_node / penetration_tolerance);
     while (k < w.n && w.events[k].kind != DEM_EVENT_PASS) k++;
     assert_true(k + 2 < w.n);
     assert_int_equal(w.events[k].node, w.corner);
-    assert_close(w.events[k].weight, 0.0, 1e-5); /* a skin beyond the end: 1e-6 */
+    assert_close(w.events[k].weight, 0.0, 1e-5); /* a penetration tolerance beyond the end: 1e-6 */
     assert_int_equal(w.events[k + 1].kind, DEM_EVENT_RELEASE);
     assert_int_equal(w.events[k + 2].kind, DEM_EVENT_IMPACT);
     assert_int_equal(w.events[k + 2].node, w.corner);
     assert_int_equal(w.events[k + 2].other, -1);
     assert_int_equal(w.events[k + 2].segment, 1);
     assert_true(w.events[k + 2].t > w.events[k].t + 1e-4);
-    assert_true(w.deepest_apex < 2.0 * skin && w.deepest_node < 2.0 * skin);
+    assert_true(w.deepest_apex < 2.0 * penetration_tolerance && w.deepest_node < 2.0 * penetration_tolerance);
     outline_free(&w.body);
     support_close(&run);
 }

@@ -80,7 +80,8 @@ static void open_run(support_run *run, const dem_lattice *chain, const line *l)
     dem_options options = support_options();
     options.gravity[1] = 0.0;
     options.method = l->method;
-    options.skin = 1e-12; /* the work of pressed ends on their way back through it is below what is compared */
+    options.penetration_tolerance =
+        1e-12; /* the work of pressed ends on their way back through it is below what is compared */
     options.window = 0.0;
     options.max_step = 1e-3; /* no cap */
     if (l->method == DEM_METHOD_FEHLBERG45)

@@ -23,7 +23,7 @@ static void open_masses(support_run *run, dem_index n, const double *height, dou
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
-    options.skin = 1e-13;
+    options.penetration_tolerance = 1e-13;
     options.window = window;
     support_lattice(&lattice, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = malloc((size_t)n * sizeof *lattice.body);
@@ -172,7 +172,7 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
                   eta, friction, kappa, rise, (long long)counts->events, (long long)counts->impacts,
                   (long long)counts->early, a.deepest / 0.01, a.drift / scale, a.balance / (a.mass * 5.0),
                   a.taken / scale);
-    assert_true(a.deepest < 1e-5 * 0.01); /* as in test_depth.c: ten skins */
+    assert_true(a.deepest < 1e-5 * 0.01); /* as in test_depth.c: ten penetration tolerances */
     assert_true(a.drift < 1e-3 * scale);  /* half of what is asked for of the decks in 20 ms */
     assert_true(a.balance < 1e-6 * a.mass * 5.0);
     assert_true(a.taken >= -1e-15 * scale); /* rounding: no impact gives energy */

@@ -5,7 +5,7 @@
 
 enum { most_nodes = SCENE_NODES };
 
-static const double skin = scene_skin, g = scene_gravity;
+static const double penetration_tolerance = scene_skin, g = scene_gravity;
 
 /* n nodes of 2 kg, each a body of its own, somewhere above. */
 static void open_scene(scene *s, dem_index n, const dem_obstacle *obstacles, dem_index n_obstacles)
@@ -26,12 +26,13 @@ static void touching_is_admissible_and_deeper_than_the_skin_is_not(void **state)
     (void)state;
     open_scene(&s, 2, &half, 1);
     scene_put(&s, 0, 0.5, 0.0, 0.0, 0.0);
-    scene_put(&s, 1, 1.5, -skin, 0.0, 0.0);
+    scene_put(&s, 1, 1.5, -penetration_tolerance, 0.0, 0.0);
     assert_ok(automaton_check_start(&s.c, s.y));
     scene_put(&s, 1, 1.5, -0.25, 0.0, 0.0);
     assert_int_equal(automaton_check_start(&s.c, s.y), DEM_ERROR_MODEL);
-    assert_string_equal(dem_status_message(),
-                        "node 1 at (1.5, -0.25) m starts 0.25 m inside obstacle 0, deeper than the skin of 1e-06 m");
+    assert_string_equal(
+        dem_status_message(),
+        "node 1 at (1.5, -0.25) m starts 0.25 m inside obstacle 0, deeper than the penetration tolerance of 1e-06 m");
     scene_close(&s);
 }
 
@@ -73,13 +74,13 @@ static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
 /* ---- impacts ---- */
 
 /* 2 kg at (3, -4) m/s on a floor of eta = 1/2: rises with 2 m/s, the floor gives 2 * 6 N s and takes 2/2 (16 - 4) =
- * 12 J; the lift by the skin costs 2 g skin. */
+ * 12 J; the lift by the penetration tolerance costs 2 g penetration tolerance. */
 static void an_impact_is_reflected_reported_and_booked(void **state)
 {
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    scene_put(&s, 0, 0.25, -skin, 3.0, -4.0);
+    scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.125));
     scene_check(&s, 0, 0.25, 0.0, 3.0, 2.0);
     assert_int_equal(s.n_impacts, 1);
@@ -96,7 +97,8 @@ static void an_impact_is_reflected_reported_and_booked(void **state)
     assert_close(s.c.set.ledger.impact, 12.0, 1e-14);
     assert_close(s.c.set.ledger.impulse[0], 0.0, 0.0);
     assert_close(s.c.set.ledger.impulse[1], 12.0, 1e-14);
-    assert_close(s.c.set.ledger.projection, 2.0 * g * skin, 1e-14); /* a difference of energies of order 20 m g */
+    assert_close(s.c.set.ledger.projection, 2.0 * g * penetration_tolerance,
+                 1e-14); /* a difference of energies of order 20 m g */
     assert_int_equal(s.c.set.ledger.counts.impacts, 1);
     assert_int_equal(s.c.set.ledger.counts.closings, 0);
     scene_close(&s);
@@ -108,7 +110,7 @@ static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void
     dem_contact list[2];
     (void)state;
     open_scene(&s, 1, &plastic, 1);
-    scene_put(&s, 0, 0.25, -skin, 3.0, -4.0);
+    scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.125));
     scene_check(&s, 0, 0.25, 0.0, 3.0, 0.0);
     assert_int_not_equal(s.impacts[0].state, DEM_CONTACT_FREE);
@@ -128,9 +130,9 @@ static void a_node_not_yet_as_deep_as_the_skin_is_left_alone(void **state)
     scene s;
     (void)state;
     open_scene(&s, 1, &half, 1);
-    scene_put(&s, 0, 0.25, -0.98 * skin, 3.0, -4.0);
+    scene_put(&s, 0, 0.25, -0.98 * penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.0));
-    scene_check(&s, 0, 0.25, -0.98 * skin, 3.0, -4.0);
+    scene_check(&s, 0, 0.25, -0.98 * penetration_tolerance, 3.0, -4.0);
     assert_int_equal(s.n_impacts, 0);
     scene_close(&s);
 }
@@ -141,19 +143,19 @@ static void land(double eta, double speed, double rest_speed, int closed)
     scene s;
     open_scene(&s, 1, &plane, 1);
     s.c.set.scene.rule.rest_speed = rest_speed;
-    scene_put(&s, 0, 0.25, -skin, 1.0, -speed / eta);
+    scene_put(&s, 0, 0.25, -penetration_tolerance, 1.0, -speed / eta);
     assert_ok(scene_resolve(&s, 0.0));
     assert_int_equal(s.impacts[0].state != DEM_CONTACT_FREE, closed);
     scene_check(&s, 0, 0.25, 0.0, 1.0, closed ? 0.0 : speed);
     scene_close(&s);
 }
 
-/* By the rule what rises no higher than the position error; or than twice the hop that impacts a skin deep keep up,
- * skin eta^2/(1 - eta^2), a third of it at eta = 1/2 and 1e-4 of it at 1/100. And what is not faster than the speed
- * given, which takes nothing from that. */
+/* By the rule what rises no higher than the position error; or than twice the hop that impacts a penetration tolerance
+ * deep keep up, penetration tolerance eta^2/(1 - eta^2), a third of it at eta = 1/2 and 1e-4 of it at 1/100. And what
+ * is not faster than the speed given, which takes nothing from that. */
 static void a_rebound_too_slow_becomes_a_contact(void **state)
 {
-    const double error = sqrt(2.0 * g * 1e-9), kept_up = sqrt(2.0 * g * 2.0 * skin / 3.0);
+    const double error = sqrt(2.0 * g * 1e-9), kept_up = sqrt(2.0 * g * 2.0 * penetration_tolerance / 3.0);
     (void)state;
     for (int k = 0; k < 2; k++) {
         const double rest_speed = k * 1e-9; /* less than either */
@@ -175,7 +177,7 @@ static void a_contact_does_not_last_where_nothing_presses(void **state)
         open_scene(&s, 1, &plastic, 1);
         s.c.set.scene.rule.load.gravity[1] = pull[k];
         s.c.set.scene.rule.rest_speed = rest_speed[k];
-        scene_put(&s, 0, 0.25, -skin, 1.0, -1.0);
+        scene_put(&s, 0, 0.25, -penetration_tolerance, 1.0, -1.0);
         assert_ok(scene_resolve(&s, 0.0));
         scene_check(&s, 0, 0.25, 0.0, 1.0, 0.0);
         assert_int_equal(s.impacts[0].state, DEM_CONTACT_FREE);
@@ -189,9 +191,10 @@ static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void 
     scene s;
     (void)state;
     open_scene(&s, 3, &half, 1);
-    scene_put(&s, 0, 2.0, -skin, 0.0, -1.0);
-    scene_put(&s, 1, 1.0, -0.995 * skin, 0.0, -2.0); /* within a hundredth of the skin counts as the same */
-    scene_put(&s, 2, 0.0, -1.005 * skin, 0.0, -3.0);
+    scene_put(&s, 0, 2.0, -penetration_tolerance, 0.0, -1.0);
+    scene_put(&s, 1, 1.0, -0.995 * penetration_tolerance, 0.0,
+              -2.0); /* within a hundredth of the penetration tolerance counts as the same */
+    scene_put(&s, 2, 0.0, -1.005 * penetration_tolerance, 0.0, -3.0);
     assert_ok(scene_resolve(&s, 0.0));
     assert_int_equal(s.n_impacts, 3);
     for (int k = 0; k < 3; k++) {
@@ -208,7 +211,7 @@ static void an_observer_that_stops_is_heard(void **state)
     (void)state;
     open_scene(&s, 1, &half, 1);
     s.value = DEM_STOPPED;
-    scene_put(&s, 0, 0.25, -skin, 3.0, -4.0);
+    scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_int_equal(scene_resolve(&s, 0.0), DEM_STOPPED);
     scene_close(&s);
 }
@@ -221,7 +224,7 @@ static void in_a_corner_each_obstacle_gets_the_impulse_along_its_normal(void **s
     scene s;
     (void)state;
     open_scene(&s, 1, corner, 2);
-    scene_put(&s, 0, 2.0 + skin, -skin, 4.0, -3.0);
+    scene_put(&s, 0, 2.0 + penetration_tolerance, -penetration_tolerance, 4.0, -3.0);
     assert_ok(scene_resolve(&s, 0.0));
     scene_check(&s, 0, 2.0, 0.0, -1.0, 1.5);
     assert_close(s.c.set.ledger.impulse[0], -2.0 * 5.0, 1e-14);
@@ -414,11 +417,11 @@ static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
     scene s;
     (void)state;
     slide(&s, &terrace, -1.0, 1.5);
-    scene_put(&s, 0, 1.01 * skin, 0.0, 1.5, 0.0);
+    scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
-    scene_check(&s, 0, 1.01 * skin, 0.0, 1.5, 0.0);
-    scene_put(&s, 0, -1.01 * skin, 0.0, -1.5, 0.0); /* and back */
+    scene_check(&s, 0, 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
+    scene_put(&s, 0, -1.01 * penetration_tolerance, 0.0, -1.5, 0.0); /* and back */
     assert_ok(scene_resolve(&s, 0.2));
     assert_int_equal(s.c.set.list[0].closed[0].feature, 0);
     assert_int_equal(s.c.set.ledger.counts.passings, 2);
@@ -431,15 +434,15 @@ static void a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end(void **sta
     scene s;
     (void)state;
     slide(&s, &terrace, 1.0, 1.5);
-    scene_put(&s, 0, 2.0 + 1.01 * skin, 0.0, 1.5, 0.0);
+    scene_put(&s, 0, 2.0 + 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.list[0].n_closed, 0);
-    scene_check(&s, 0, 2.0 + 1.01 * skin, 0.0, 1.5, 0.0);
+    scene_check(&s, 0, 2.0 + 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_int_equal(s.c.set.ledger.counts.passings, 1);
     assert_int_equal(s.c.set.ledger.counts.releases, 1);
     scene_close(&s);
     slide(&s, &terrace, -1.0, -1.5);
-    scene_put(&s, 0, -4.0 - 1.01 * skin, 0.0, -1.5, 0.0);
+    scene_put(&s, 0, -4.0 - 1.01 * penetration_tolerance, 0.0, -1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.list[0].n_closed, 0);
     scene_close(&s);
@@ -453,7 +456,7 @@ static void a_sliding_node_takes_its_impact_at_a_concave_bend(void **state)
     scene s;
     (void)state;
     slide(&s, &ramp, -1.0, 2.0);
-    scene_put(&s, 0, 1.01 * skin, 0.0, 2.0, 0.0);
+    scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 2.0, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_impacts, 1);
     scene_check(&s, 0, 0.0, 0.0, 2.0 * cosine * cosine, 2.0 * cosine * 0.5);
@@ -472,7 +475,7 @@ static void another_obstacle_stops_a_sliding_node(void **state)
     open_scene(&s, 1, corner, 2);
     scene_put(&s, 0, 1.0, 0.0, 3.0, 0.0);
     assert_ok(scene_take_up(&s));
-    scene_put(&s, 0, 2.0 + skin, 0.0, 3.0, 0.0);
+    scene_put(&s, 0, 2.0 + penetration_tolerance, 0.0, 3.0, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     scene_check(&s, 0, 2.0, 0.0, -1.5, 0.0);
     assert_int_equal(s.c.set.list[0].n_closed, 1);
@@ -638,13 +641,13 @@ static void an_edge_may_touch_a_vertex_but_not_start_with_it_inside(void **state
 {
     scene s;
     (void)state;
-    open_side(&s, &roof, 0.25, -0.9 * skin, 0.0);
+    open_side(&s, &roof, 0.25, -0.9 * penetration_tolerance, 0.0);
     assert_ok(automaton_check_start(&s.c, s.y));
     scene_close(&s);
     open_side(&s, &roof, 0.25, -0.125, 0.0);
     assert_int_equal(automaton_check_start(&s.c, s.y), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 starts 0.125 m inside the body, "
-                                              "deeper than the skin of 1e-06 m");
+                                              "deeper than the penetration tolerance of 1e-06 m");
     scene_close(&s);
 }
 
@@ -721,8 +724,9 @@ static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
     scene_close(&s);
 }
 
-/* The edge 0-1 on the ridge, 30 skins above it with 1 mm/s upwards at node 1: back it is put, and slides on. Less than
- * a quarter of the skin is left alone. P has the mass 1/W = 4 kg and goes up with 3/4 mm/s. */
+/* The edge 0-1 on the ridge, 30 penetration tolerances above it with 1 mm/s upwards at node 1: back it is put, and
+ * slides on. Less than a quarter of the penetration tolerance is left alone. P has the mass 1/W = 4 kg and goes up
+ * with 3/4 mm/s. */
 static void a_closed_edge_that_has_opened_is_put_back(void **state)
 {
     scene s;
@@ -730,30 +734,30 @@ static void a_closed_edge_that_has_opened_is_put_back(void **state)
     open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
     launch(&s, 0.5, 0.0);
     assert_ok(scene_take_up(&s));
-    for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 0.2 * skin;
+    for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 0.2 * penetration_tolerance;
     scene_v(&s)[3] = 1e-3;
     assert_false(automaton_project(&s.c, 0.1, s.y));
-    assert_close(s.y[1], 0.2 * skin, 0.0);
+    assert_close(s.y[1], 0.2 * penetration_tolerance, 0.0);
     assert_close(scene_v(&s)[3], 1e-3, 0.0);
-    for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 30.0 * skin;
+    for (dem_index i = 0; i < 2; i++) s.y[2 * i + 1] = 30.0 * penetration_tolerance;
     assert_true(automaton_project(&s.c, 0.1, s.y));
-    assert_close(0.25 * s.y[1] + 0.75 * s.y[3], 0.0, 1e-9 * skin);
+    assert_close(0.25 * s.y[1] + 0.75 * s.y[3], 0.0, 1e-9 * penetration_tolerance);
     assert_close(0.25 * scene_v(&s)[1] + 0.75 * scene_v(&s)[3], 0.0, 1e-15);
     assert_close(scene_v(&s)[0], 0.5, 1e-7);
     assert_int_equal(s.c.set.list[scene_edge(&s, 0, 1)].n_closed, 1);
     const contact_ledger *books = &s.c.set.ledger;
     assert_close(books->impulse[1], -4.0 * 0.75e-3, 1e-8);
-    assert_close(books->projection, -40.0 * 30.0 * skin, 1e-3 * skin);
+    assert_close(books->projection, -40.0 * 30.0 * penetration_tolerance, 1e-3 * penetration_tolerance);
     assert_close(books->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
     assert_int_equal(s.n_events, 1);
-    assert_close(s.c.set.straightened, 30.0 * skin, 1e-9 * skin);
+    assert_close(s.c.set.straightened, 30.0 * penetration_tolerance, 1e-9 * penetration_tolerance);
     scene_close(&s);
 }
 
 /* The body goes right along edge 1-2 with u: the ridge, closed with that, comes over node 1 to edge 0-1. */
 static void slide_on(scene *s, double bend, double u)
 {
-    open_side(s, &roof, 1.01 * skin, 1.01 * skin * bend, bend);
+    open_side(s, &roof, 1.01 * penetration_tolerance, 1.01 * penetration_tolerance * bend, bend);
     launch(s, u, u * bend);
     assert_ok(contact_set_close(&s->c.set, scene_edge(s, 1, 2), (contact_point){.feature = 0, .slide = 1}));
 }
@@ -809,7 +813,8 @@ static void a_vertex_strikes_the_next_edge_where_the_body_bends_in(void **state)
     check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
     check_event(&s, 2, DEM_EVENT_IMPACT, DEM_CONTACT_SLIP);
     const vec2 after = vec2_at(scene_v(&s), 1);
-    assert_close(s.events[2].impulse[0], -3.0 * vn * n[0], 1e-6); /* it is put on the ridge: a skin in 1 m of slope */
+    assert_close(s.events[2].impulse[0], -3.0 * vn * n[0],
+                 1e-6); /* it is put on the ridge: a penetration tolerance in 1 m of slope */
     assert_close(s.events[2].impulse[1], -3.0 * vn * n[1], 1e-6);
     assert_close(after.x, 0.5 - vn * n[0], 1e-6);
     assert_close(after.y, -0.125 - vn * n[1], 1e-6);
@@ -831,7 +836,7 @@ static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
     assert_true(left->n_closed == 1 && left->closed[0].held);
     assert_true(right->n_closed == 1 && right->closed[0].held);
     scene_check(&s, 1, 0.0, 0.0, 0.0, 0.0);
-    assert_close(left->closed[0].force, 15.0 * L, 3e-5); /* a skin in 1 m of slope, of 15 N */
+    assert_close(left->closed[0].force, 15.0 * L, 3e-5); /* a penetration tolerance in 1 m of slope, of 15 N */
     assert_close(right->closed[0].force, 15.0 * L, 3e-5);
     s.c.set.scene.rule.load.gravity[1] = 0.1;
     assert_ok(scene_resolve(&s, 0.2));
@@ -848,7 +853,7 @@ static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_
     (void)state;
     for (int k = 1; k < 8; k++) {
         scene s;
-        open_side(&s, &rough_roof, 1.01 * skin, -0.05 * k * 1.01 * skin, -0.05 * k);
+        open_side(&s, &rough_roof, 1.01 * penetration_tolerance, -0.05 * k * 1.01 * penetration_tolerance, -0.05 * k);
         launch(&s, 1e-5, -0.05 * k * 1e-5);
         const dem_index k_left = scene_edge(&s, 0, 1), k_right = scene_edge(&s, 1, 2);
         const contact_candidate *left = &s.c.set.list[k_left], *right = &s.c.set.list[k_right];
@@ -868,11 +873,12 @@ static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_
 static void a_flat_side_comes_down_on_an_apex_with_its_own_normal(void **state)
 {
     const dem_obstacle springy = {.n_points = 3, .points = roof_points, .restitution = 0.5};
-    const double x[3] = {0.0, 0.1 * skin, -0.1 * skin};
+    const double x[3] = {0.0, 0.1 * penetration_tolerance, -0.1 * penetration_tolerance};
     (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
-        open_side(&s, &springy, x[k], -1.7 * skin, 0.0); /* the node 1.2 skins inside a flank */
+        open_side(&s, &springy, x[k], -1.7 * penetration_tolerance,
+                  0.0); /* the node 1.2 penetration tolerances inside a flank */
         launch(&s, 0.25, -1.0);
         assert_ok(scene_resolve(&s, 0.1));
         assert_int_equal(s.n_impacts, 1);
@@ -905,7 +911,7 @@ static void too_many_changes_of_one_node_in_a_short_time_are_a_storm(void **stat
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
-        scene_put(&s, 0, 0.5, -skin, 0.0, -1.0);
+        scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
         assert_int_equal(scene_resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
     }
     assert_string_equal(dem_status_message(),
@@ -920,7 +926,7 @@ static void changes_further_apart_are_no_storm(void **state)
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 20; k++) {
-        scene_put(&s, 0, 0.5, -skin, 0.0, -1.0);
+        scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
         assert_ok(scene_resolve(&s, 0.3 * (k + 1)));
     }
     scene_close(&s);
@@ -946,8 +952,8 @@ static void too_many_changes_of_one_edge_in_a_short_time_are_a_storm(void **stat
     for (int k = 0; k < 3; k++) {
         const dem_index edge = scene_edge(&s, 0, 1);
         if (s.c.set.list[edge].n_closed > 0) assert_ok(contact_set_open(&s.c.set, edge, 0));
-        scene_put(&s, 0, -0.5, -skin, 0.0, -1.0);
-        scene_put(&s, 1, 0.5, -skin, 0.0, -1.0);
+        scene_put(&s, 0, -0.5, -penetration_tolerance, 0.0, -1.0);
+        scene_put(&s, 1, 0.5, -penetration_tolerance, 0.0, -1.0);
         assert_int_equal(scene_resolve(&s, 0.1 * (k + 1)), k < 2 ? DEM_OK : DEM_ERROR_CONTACT);
     }
     assert_non_null(strstr(dem_status_message(), "the edge from node 0 at (-0.5, "));
@@ -962,7 +968,7 @@ static void events_that_change_nothing_end_the_run_after_a_while(void **state)
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     assert_ok(scene_resolve(&s, 0.1));
-    scene_put(&s, 0, 0.5, -skin, 0.0, -1.0); /* this one does */
+    scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0); /* this one does */
     assert_ok(scene_resolve(&s, 0.2));
     assert_ok(scene_resolve(&s, 0.3));
     assert_ok(scene_resolve(&s, 0.4));
@@ -982,7 +988,7 @@ static void what_arrives_within_the_window_of_an_impact_is_reflected_with_it(voi
         scene s;
         open_scene(&s, 3, &half, 1);
         s.c.set.scene.rule.window = 0.1;
-        scene_put(&s, 0, 0.0, k == 0 ? -skin : 1.0, 0.0, -8.0);
+        scene_put(&s, 0, 0.0, k == 0 ? -penetration_tolerance : 1.0, 0.0, -8.0);
         scene_put(&s, 1, 1.0, 0.099, 0.5, -1.0);
         scene_put(&s, 2, 2.0, 0.101, 0.5, -1.0);
         assert_ok(scene_resolve(&s, 0.25));
@@ -998,7 +1004,8 @@ static void an_edge_is_reflected_early_too(void **state)
 {
     const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
                                  {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
-    const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - skin}, mass[4] = {2.0, 2.0, 2.0, 2.0};
+    const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - penetration_tolerance},
+                 mass[4] = {2.0, 2.0, 2.0, 2.0};
     scene s;
     (void)state;
     scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 2);
@@ -1026,7 +1033,7 @@ static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state
         scene s;
         open_scene(&s, 2, two, 2);
         s.c.set.scene.rule.window = 0.1;
-        scene_put(&s, 0, -6.0, -4.0 - skin, 0.0, -2.0);
+        scene_put(&s, 0, -6.0, -4.0 - penetration_tolerance, 0.0, -2.0);
         scene_put(&s, 1, 0.0, 0.05, along, -0.6);
         assert_ok(scene_resolve(&s, 0.25));
         scene_check(&s, 1, 0.0, 0.05, along, k == 0 ? -0.6 : 0.3);
@@ -1062,7 +1069,7 @@ static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **s
         assert_close(s.c.set.ledger.impact, 3.0 * (25.0 - u * u - 4.0), 1e-12);
         assert_close(s.c.set.ledger.impulse[1], 3.0 * 12.0, 1e-13);
         assert_close(s.c.set.ledger.friction_impulse[0], 3.0 * 2.0 * (u - 3.0), 1e-13);
-        assert_close(s.c.set.ledger.projection, 2.0 * g * skin, 1e-15);
+        assert_close(s.c.set.ledger.projection, 2.0 * g * penetration_tolerance, 1e-15);
         assert_int_equal(s.c.set.ledger.counts.early, 2);
         scene_close(&s);
     }
@@ -1088,7 +1095,7 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
         }
         vec2_put(scene_v(&s), 0, (vec2){0.0, -1.0});
         vec2_put(scene_v(&s), 1, (vec2){0.0, 1.0});
-        scene_put(&s, 3, -6.0, -4.0 - skin, 0.0, -1.0);
+        scene_put(&s, 3, -6.0, -4.0 - penetration_tolerance, 0.0, -1.0);
         s.n_impacts = 0;
         assert_ok(scene_resolve(&s, 0.25));
         assert_int_equal(s.c.set.ledger.counts.early, k == 0 ? 0 : 1);
@@ -1138,7 +1145,8 @@ static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
     scene_put(&s, 2, 2.0, 0.2, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
     assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, 0.2 + skin, 1e-13); /* to which times are located: 100 units of rounding */
+    assert_close(f.path.end, 0.2 + penetration_tolerance,
+                 1e-13); /* to which times are located: 100 units of rounding */
     assert_int_equal(s.c.set.ledger.counts.late, 1);
     scene_close(&s);
 }
@@ -1152,15 +1160,15 @@ static void a_contact_at_the_root_that_ends_a_step_is_no_other(void **state)
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 1.0, 0.2, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    f.path.end = (0.2 + skin) * (1.0 + 1e-14);
+    f.path.end = (0.2 + penetration_tolerance) * (1.0 + 1e-14);
     const double end = f.path.end;
     assert_false(automaton_check_step(&s.c, &f.path, true, f.scratch));
     assert_close(f.path.end, end, 0.0);
     assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, 0.2 + skin, 1e-13);
+    assert_close(f.path.end, 0.2 + penetration_tolerance, 1e-13);
     f.path.end = 0.21;
     assert_true(automaton_check_step(&s.c, &f.path, true, f.scratch)); /* well before a root */
-    assert_close(f.path.end, 0.2 + skin, 1e-13);
+    assert_close(f.path.end, 0.2 + penetration_tolerance, 1e-13);
     scene_close(&s);
 }
 
@@ -1186,7 +1194,7 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     slide(&s, &half, 3.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
     assert_true(automaton_check_step(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another site */
-    assert_close(f.path.end, 0.5 * (1.0 + skin), 1e-13);
+    assert_close(f.path.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
     scene_close(&s);
 }
 
@@ -1203,7 +1211,7 @@ static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
         automaton_root_functions(&s.c, 1.0, f.y1, guards);
         assert_int_equal(s.c.quiet, !ends);
         assert_int_equal(automaton_check_step(&s.c, &f.path, false, f.scratch), ends);
-        if (ends) assert_close(f.path.end, 0.5 * (1.0 + skin), 1e-13);
+        if (ends) assert_close(f.path.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
         scene_close(&s);
     }
 }
@@ -1221,8 +1229,18 @@ static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
     assert_ok(scene_take_up(&s));
     for (int k = 0; k < 3; k++) s.c.set.list[k].clear = 0.0; /* else a lower bound would do for their gaps */
     automaton_root_functions(&s.c, 0.2, s.y, guards);
-    const double expected[3 * CANDIDATE_ROOTS] = {0.25 + skin, 1.0, 1.0, 1.0, 1.0 + skin, 2.0 * g,
-                                                  0.5 + skin,  1.0, 1.0, 1.0, 1.0,        1.0};
+    const double expected[3 * CANDIDATE_ROOTS] = {0.25 + penetration_tolerance,
+                                                  1.0,
+                                                  1.0,
+                                                  1.0,
+                                                  1.0 + penetration_tolerance,
+                                                  2.0 * g,
+                                                  0.5 + penetration_tolerance,
+                                                  1.0,
+                                                  1.0,
+                                                  1.0,
+                                                  1.0,
+                                                  1.0};
     for (int k = 0; k < 3 * CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-15);
     scene_close(&s);
 }

@@ -2,7 +2,8 @@
 /* broad_phase.c: who sleeps, until when, and who wakes in time. */
 #include "unit/scene.h"
 
-static const double skin = scene_skin, masses[4] = {2.0, 2.0, 2.0, 2.0}, max_step = 0.01; /* as in scene.h */
+static const double penetration_tolerance = scene_skin, masses[4] = {2.0, 2.0, 2.0, 2.0},
+                    max_step = 0.01; /* as in scene.h */
 
 static const double floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
 static const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = 0.5};
@@ -40,10 +41,11 @@ static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
     scene_close(&s);
 }
 
-/* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty skins, go off what is clear. */
+/* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty penetration tolerances, go off what is
+ * clear. */
 static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **state)
 {
-    const double far = 0.125 + 20.0 * skin, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
+    const double far = 0.125 + 20.0 * penetration_tolerance, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
     scene s;
     (void)state;
     open_nodes(&s, 3, x);
@@ -52,7 +54,7 @@ static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **
     assert_int_equal(s.c.broad_phase.active[0], 0);
     for (dem_index k = 0; k < 3; k++) {
         assert_int_equal(s.c.set.list[k].inactive, k > 0);
-        assert_close(s.c.set.list[k].active_from, x[2 * k + 1] - 20.0 * skin, 1e-15);
+        assert_close(s.c.set.list[k].active_from, x[2 * k + 1] - 20.0 * penetration_tolerance, 1e-15);
     }
     scene_close(&s);
 }
@@ -82,13 +84,13 @@ static void a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough(void **stat
     s.c.broad_phase.travelled = 2.9;
     s.y[1] = 0.5;
     look(&s, 1.0);
-    assert_close(candidate->active_from, 3.0 - 20.0 * skin, 1e-15); /* not looked at */
+    assert_close(candidate->active_from, 3.0 - 20.0 * penetration_tolerance, 1e-15); /* not looked at */
     assert_true(broad_phase_may_touch(&s.c.broad_phase, candidate, 0.1));
     assert_false(broad_phase_may_touch(&s.c.broad_phase, candidate, 0.09));
     s.c.broad_phase.travelled = 2.99;
     look(&s, 1.0);
     assert_true(candidate->inactive);
-    assert_close(candidate->active_from, 2.99 + 0.5 - 20.0 * skin, 1e-15);
+    assert_close(candidate->active_from, 2.99 + 0.5 - 20.0 * penetration_tolerance, 1e-15);
     s.c.broad_phase.travelled = 3.49;
     s.y[1] = 0.01;
     look(&s, 1.0);
@@ -145,7 +147,7 @@ static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(vo
     scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, max_step, &f);
     assert_true(f.y1[1] < 0.0);
     assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, sqrt(2.0 * (2e-4 + skin) / scene_gravity), 1e-13);
+    assert_close(f.path.end, sqrt(2.0 * (2e-4 + penetration_tolerance) / scene_gravity), 1e-13);
     dense_output_state(&f.path, f.path.end, y);
     automaton_end_step(&s.c, &f.path, y);
     memcpy(s.y, y, sizeof y);

@@ -3,7 +3,7 @@
  * hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "unit/scene.h"
 
-static const double skin = 1e-3;
+static const double penetration_tolerance = 1e-3;
 
 /* A floor of 4 m and, 3 m above its end, a ceiling; bodies live between them. */
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {6.0, 3.0, 3.0, 3.0};
@@ -18,7 +18,7 @@ static const dem_obstacle groove = {.n_points = 3, .points = groove_points, .res
 
 static void set_rule(scene *s)
 {
-    s->c.set.scene.rule.skin = skin;
+    s->c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     s->c.set.scene.rule.max_step = 0.1;
 }
 
@@ -81,11 +81,11 @@ static void a_free_site_watches_its_gap_down_to_the_skin(void **state)
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate candidate = free_site();
-    check_free(world, &candidate, 1.0, 0.25, 0.25 + skin);
-    check_free(world, &candidate, 1.0, 0.0, skin);
-    check_free(world, &candidate, 1.0, -skin, 0.0);
-    check_free(world, &candidate, 1.0, -0.1, -0.1 + skin);
-    check_free(world, &candidate, 5.0, 2.5, 0.5 + skin); /* the ceiling is nearer */
+    check_free(world, &candidate, 1.0, 0.25, 0.25 + penetration_tolerance);
+    check_free(world, &candidate, 1.0, 0.0, penetration_tolerance);
+    check_free(world, &candidate, 1.0, -penetration_tolerance, 0.0);
+    check_free(world, &candidate, 1.0, -0.1, -0.1 + penetration_tolerance);
+    check_free(world, &candidate, 5.0, 2.5, 0.5 + penetration_tolerance); /* the ceiling is nearer */
     scene_close(&s);
 }
 
@@ -95,8 +95,8 @@ static void far_from_everything_its_guard_is_finite(void **state)
     (void)state;
     const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
     const contact_candidate candidate = free_site();
-    check_free(world, &candidate, -50.0, 1.0, 1.0 + skin);
-    check_free(nothing, &candidate, 0.0, 0.0, 1.0 + skin);
+    check_free(world, &candidate, -50.0, 1.0, 1.0 + penetration_tolerance);
+    check_free(nothing, &candidate, 0.0, 0.0, 1.0 + penetration_tolerance);
     scene_close(&s);
     scene_close(&empty);
 }
@@ -108,17 +108,18 @@ static void a_site_behind_an_obstacle_does_not_see_it(void **state)
     const contact_scene *world = open_node(&s, room, 2);
     contact_candidate candidate = free_site();
     candidate.behind[0] = 0;
-    check_free(world, &candidate, 3.5, -0.2, 1.0 + skin);
-    check_free(world, &candidate, 3.5, 2.5, 0.5 + skin);
+    check_free(world, &candidate, 3.5, -0.2, 1.0 + penetration_tolerance);
+    check_free(world, &candidate, 3.5, 2.5, 0.5 + penetration_tolerance);
     candidate = closed_site(1, 1);
     candidate.behind[0] = 0;
     const node_state at = {{3.5, 3.0}, {0.0, 0.0}, {{-20.0, 0.0}, {0.0, 0.0}}};
-    check_guards(world, &candidate, &at, (double[]){1.0 + skin, -20.0, 0.5 + skin, 1.0});
+    check_guards(world, &candidate, &at,
+                 (double[]){1.0 + penetration_tolerance, -20.0, 0.5 + penetration_tolerance, 1.0});
     scene_close(&s);
 }
 
-/* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + skin; 3 m to the ceiling count as 1. Without
- * friction the speed of sliding does not matter. */
+/* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + penetration tolerance; 3 m to the ceiling
+ * count as 1. Without friction the speed of sliding does not matter. */
 static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state)
 {
     scene s;
@@ -126,11 +127,11 @@ static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate on_floor = closed_site(0, 1), on_ceiling = closed_site(1, 1);
     const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
-    const double expected[5][CANDIDATE_ROOTS] = {{1.0 + skin, 20.0, 1.5 + skin, 1.0},
-                                                 {1.0 + skin, 20.0, 0.25 + skin, 1.0},
-                                                 {1.0 + skin, 20.0, -0.5 + skin, 1.0},
-                                                 {0.25 + skin, 20.0, 0.5 + skin, 1.0},
-                                                 {1.0 + skin, 20.0, 1.0 + skin, 1.0}};
+    const double expected[5][CANDIDATE_ROOTS] = {{1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, 1.0},
+                                                 {1.0 + penetration_tolerance, 20.0, 0.25 + penetration_tolerance, 1.0},
+                                                 {1.0 + penetration_tolerance, 20.0, -0.5 + penetration_tolerance, 1.0},
+                                                 {0.25 + penetration_tolerance, 20.0, 0.5 + penetration_tolerance, 1.0},
+                                                 {1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, 1.0}};
     for (int k = 0; k < 5; k++) {
         const node_state at = {{x[k], y[k]}, {-3.0, 0.0}, {{20.0, 0.0}, {-7.0, -7.0}}};
         check_guards(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
@@ -147,10 +148,14 @@ static void a_site_that_slides_with_friction_watches_its_speed_too(void **state)
     const contact_candidate along = closed_site(0, 1), against = closed_site(0, -1);
     const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
     const node_state backwards = {{3.0, 0.0}, {-0.5, 0.0}, {{20.0, 10.0}, {0.0, 0.0}}};
-    check_guards(world, &along, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, 0.75});
-    check_guards(world, &along, &backwards, (double[]){1.0 + skin, 20.0, 1.0 + skin, -0.5});
-    check_guards(world, &against, &forwards, (double[]){1.0 + skin, 20.0, 1.5 + skin, -0.75});
-    check_guards(world, &against, &backwards, (double[]){1.0 + skin, 20.0, 1.0 + skin, 0.5});
+    check_guards(world, &along, &forwards,
+                 (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, 0.75});
+    check_guards(world, &along, &backwards,
+                 (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, -0.5});
+    check_guards(world, &against, &forwards,
+                 (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, -0.75});
+    check_guards(world, &against, &backwards,
+                 (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, 0.5});
     scene_close(&s);
 }
 
@@ -164,7 +169,7 @@ static void a_sticking_site_watches_its_grip(void **state)
     const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
     for (int k = 0; k < 4; k++) {
         const node_state at = {{4.5, 0.0}, {0.0, 0.0}, {{20.0, tangent[k]}, {-7.0, -7.0}}};
-        check_guards(world, &candidate, &at, (double[]){1.0 + skin, 20.0, grip[k], 1.0});
+        check_guards(world, &candidate, &at, (double[]){1.0 + penetration_tolerance, 20.0, grip[k], 1.0});
     }
     scene_close(&s);
 }
@@ -177,8 +182,8 @@ static void a_held_site_watches_both_reactions(void **state)
     const contact_candidate candidate = held_site();
     const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
     const node_state second = {{0.0, 0.0}, {0.0, 0.0}, {{14.0, 0.0}, {-2.0, 0.0}}};
-    check_guards(world, &candidate, &first, (double[]){1.0 + skin, 3.0, 1.0, 1.0});
-    check_guards(world, &candidate, &second, (double[]){1.0 + skin, -2.0, 1.0, 1.0});
+    check_guards(world, &candidate, &first, (double[]){1.0 + penetration_tolerance, 3.0, 1.0, 1.0});
+    check_guards(world, &candidate, &second, (double[]){1.0 + penetration_tolerance, -2.0, 1.0, 1.0});
     scene_close(&s);
 }
 
@@ -242,11 +247,11 @@ static void an_end_is_passed_by_the_skin_heading_out(void **state)
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     assert_int_equal(end_passed(world, 2.0, 5.0), 0);
-    assert_int_equal(end_passed(world, 4.0 + 0.99 * skin, 1.0), 0);
-    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 1.0), 1);
+    assert_int_equal(end_passed(world, 4.0 + 0.99 * penetration_tolerance, 1.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 1.0), 1);
     assert_int_equal(end_passed(world, 4.1, 1.0), 1);
     assert_int_equal(end_passed(world, 4.1, -1.0), 0);
-    assert_int_equal(end_passed(world, -1.01 * skin, -1.0), -1);
+    assert_int_equal(end_passed(world, -1.01 * penetration_tolerance, -1.0), -1);
     assert_int_equal(end_passed(world, -0.1, -1.0), -1);
     assert_int_equal(end_passed(world, -0.1, 1.0), 0);
     scene_close(&s);
@@ -258,13 +263,13 @@ static void at_rest_the_force_tells_where_it_heads(void **state)
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     double *gravity = s.c.set.scene.rule.load.gravity;
-    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 0);
     gravity[0] = 1.0;
-    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 1);
-    assert_int_equal(end_passed(world, -1.01 * skin, 0.0), 0);
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 1);
+    assert_int_equal(end_passed(world, -1.01 * penetration_tolerance, 0.0), 0);
     gravity[0] = -1.0;
-    assert_int_equal(end_passed(world, 4.0 + 1.01 * skin, 0.0), 0);
-    assert_int_equal(end_passed(world, -1.01 * skin, 0.0), -1);
+    assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 0);
+    assert_int_equal(end_passed(world, -1.01 * penetration_tolerance, 0.0), -1);
     scene_close(&s);
 }
 
@@ -297,14 +302,14 @@ static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(v
     assert_true(due(world, &candidate, &at));
     at.force[0].normal = 1e-9;
     assert_false(due(world, &candidate, &at));
-    at.x[0] = 4.0 + 1.01 * skin;
+    at.x[0] = 4.0 + 1.01 * penetration_tolerance;
     assert_true(due(world, &candidate, &at));
     at.v[0] = -1.0;
     assert_false(due(world, &candidate, &at));
     at.x[0] = 3.5;
-    at.x[1] = 3.0 + 1.01 * skin;
+    at.x[1] = 3.0 + 1.01 * penetration_tolerance;
     assert_true(due(world, &candidate, &at));
-    at.x[1] = 3.0 + 0.99 * skin;
+    at.x[1] = 3.0 + 0.99 * penetration_tolerance;
     assert_false(due(world, &candidate, &at));
     scene_close(&s);
 }
@@ -382,21 +387,29 @@ static void move_all(scene *s, double x, double y, double u)
     scene_put(s, 2, x + 1.0, y + 1.0, u, 0.0);
 }
 
-/* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the skin beyond
- * its ends. */
+/* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the penetration
+ * tolerance beyond its ends. */
 static void a_free_edge_watches_the_convex_vertex_below_it(void **state)
 {
-    const double x[10] = {-1.5, -1.5, -1.5, -1.5, 0.99 * skin, 1.01 * skin, -2.0 - 0.99 * skin, -2.0 - 1.01 * skin,
-                          -1.0, -1.0};
-    const double y[10] = {0.25, 0.0, -skin, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51, -0.49};
-    const double gap[10] = {0.25, 0.0, -skin, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
+    const double x[10] = {-1.5,
+                          -1.5,
+                          -1.5,
+                          -1.5,
+                          0.99 * penetration_tolerance,
+                          1.01 * penetration_tolerance,
+                          -2.0 - 0.99 * penetration_tolerance,
+                          -2.0 - 1.01 * penetration_tolerance,
+                          -1.0,
+                          -1.0};
+    const double y[10] = {0.25, 0.0, -penetration_tolerance, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51, -0.49};
+    const double gap[10] = {0.25, 0.0, -penetration_tolerance, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
     scene s;
     (void)state;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 10; k++) {
         move_all(&s, x[k], y[k], 0.0);
         vec2_put(s.y, 2, (vec2){x[k] + 1.0, 10.0}); /* deep inside, the other edges are further */
-        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+        check_edge(&s, edge, (double[]){gap[k] + penetration_tolerance, 1.0, 1.0, 1.0});
     }
     scene_close(&s);
 }
@@ -430,19 +443,21 @@ static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
     edge->n_closed = 1;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
     move_all(&s, -1.5, 0.0, 0.75);
-    check_edge(&s, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, 1.0}); /* the second ridge is beyond its end */
+    check_edge(&s, edge,
+               (double[]){1.0 + penetration_tolerance, 20.0, 0.5 + penetration_tolerance,
+                          1.0}); /* the second ridge is beyond its end */
     move_all(&s, -0.25, 0.0, 0.75);
-    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, 0.25 + skin, 1.0});
+    check_edge(&s, edge, (double[]){0.25 + penetration_tolerance, 20.0, 0.25 + penetration_tolerance, 1.0});
     move_all(&s, 0.125, 0.0, 0.75);
-    check_edge(&s, edge, (double[]){0.25 + skin, 20.0, -0.125 + skin, 1.0});
+    check_edge(&s, edge, (double[]){0.25 + penetration_tolerance, 20.0, -0.125 + penetration_tolerance, 1.0});
     scene_close(&s);
     edge = open_edge(&rubbed, -1.5, 0.0, &rough_roof, 1);
     edge->n_closed = 1;
     edge->closed[0] = (contact_point){.feature = 0, .slide = -1};
     move_all(&rubbed, -1.5, 0.0, 0.75);
-    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 0.5 + skin, -0.75});
+    check_edge(&rubbed, edge, (double[]){1.0 + penetration_tolerance, 20.0, 0.5 + penetration_tolerance, -0.75});
     edge->closed[0] = (contact_point){.feature = 0, .slide = 0, .place = 0.75};
-    check_edge(&rubbed, edge, (double[]){1.0 + skin, 20.0, 6.0, 1.0}); /* 0.5 * 20 - 4 */
+    check_edge(&rubbed, edge, (double[]){1.0 + penetration_tolerance, 20.0, 6.0, 1.0}); /* 0.5 * 20 - 4 */
     scene_close(&rubbed);
 }
 
@@ -454,16 +469,18 @@ static void an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap(void *
     edge->n_closed = 2;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
     edge->closed[1] = (contact_point){.feature = 1, .slide = 1};
-    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.25 + skin, 1.0});
+    check_edge(&s, edge, (double[]){1.0 + penetration_tolerance, 8.0, 0.25 + penetration_tolerance, 1.0});
     move_all(&s, -1.15, 0.0, 0.0); /* the second is 0.1 m from the end, the first 0.85 m */
-    check_edge(&s, edge, (double[]){1.0 + skin, 8.0, 0.1 + skin, 1.0});
+    check_edge(&s, edge, (double[]){1.0 + penetration_tolerance, 8.0, 0.1 + penetration_tolerance, 1.0});
     scene_close(&s);
 }
 
 /* A body that goes right takes its start to the vertex. */
 static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **state)
 {
-    const double x[6] = {1.01 * skin, 1.01 * skin, 0.99 * skin, -2.0 - 1.01 * skin, -2.0 - 1.01 * skin, -1.0};
+    const double x[6] = {1.01 * penetration_tolerance,        1.01 * penetration_tolerance,
+                         0.99 * penetration_tolerance,        -2.0 - 1.01 * penetration_tolerance,
+                         -2.0 - 1.01 * penetration_tolerance, -1.0};
     const double u[6] = {1.0, -1.0, 1.0, -1.0, 1.0, 1.0};
     const int passed[6] = {-1, 0, 0, 1, 0, 0};
     scene s;
@@ -477,7 +494,7 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
     }
     s.c.set.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
     for (int k = 0; k < 2; k++) {
-        move_all(&s, k == 0 ? 1.01 * skin : -2.0 - 1.01 * skin, 0.0, 0.0);
+        move_all(&s, k == 0 ? 1.01 * penetration_tolerance : -2.0 - 1.01 * penetration_tolerance, 0.0, 0.0);
         assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
     }
     scene_close(&s);
@@ -495,7 +512,7 @@ static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **stat
     assert_int_equal(edge->previous, 2);
     for (int k = 0; k < 4; k++) {
         move_all(&s, x[k], -0.03, 0.0);
-        check_edge(&s, edge, (double[]){gap[k] + skin, 1.0, 1.0, 1.0});
+        check_edge(&s, edge, (double[]){gap[k] + penetration_tolerance, 1.0, 1.0, 1.0});
     }
     scene_close(&s);
 }
@@ -505,10 +522,10 @@ static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(v
     scene s;
     (void)state;
     contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
-    check_edge(&s, edge, (double[]){0.25 + skin, 1.0, 1.0, 1.0});
+    check_edge(&s, edge, (double[]){0.25 + penetration_tolerance, 1.0, 1.0, 1.0});
     for (int k = 0; k < 2; k++) {
         edge->behind[k] = 0;
-        check_edge(&s, edge, (double[]){1.0 + skin, 1.0, 1.0, 1.0});
+        check_edge(&s, edge, (double[]){1.0 + penetration_tolerance, 1.0, 1.0, 1.0});
         edge->behind[k] = -1;
     }
     scene_close(&s);
@@ -538,8 +555,8 @@ static void open_ragged(scene *s, unsigned *seed, bool triangle)
     set_rule(s);
 }
 
-/* The clearance less the way gone is never more than what is there, but for the margin of ten skins by which free ends
- * count as longer; and it is of use: most of what is looked at is told by it. */
+/* The clearance less the way gone is never more than what is there, but for the margin of ten penetration tolerances
+ * by which free ends count as longer; and it is of use: most of what is looked at is told by it. */
 static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
 {
     unsigned seed = 7;
@@ -553,8 +570,9 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
         const contact_candidate candidate = free_site();
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
         const candidate_positions here = candidate_place(&candidate, x);
-        const double clear = candidate_clearance(world, &candidate, &here, &nearest) - 10.0 * skin;
-        assert_int_equal(nearest, obstacles_gap(&world->model->obstacles, here.a, 10.0 * skin, -1, -1).segment);
+        const double clear = candidate_clearance(world, &candidate, &here, &nearest) - 10.0 * penetration_tolerance;
+        assert_int_equal(nearest,
+                         obstacles_gap(&world->model->obstacles, here.a, 10.0 * penetration_tolerance, -1, -1).segment);
         for (int q = 0; q < 50; q++) {
             const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
             const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};

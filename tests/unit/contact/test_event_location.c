@@ -6,7 +6,7 @@
 
 #include <float.h>
 
-static const double skin = 1e-3, g = scene_gravity, masses[3] = {2.0, 2.0, 2.0};
+static const double penetration_tolerance = 1e-3, g = scene_gravity, masses[3] = {2.0, 2.0, 2.0};
 static const vec2 nothing = {0.0, 0.0};
 
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0};
@@ -22,7 +22,7 @@ static void open_node(scene *s, double x, double y, double u, double v)
 {
     const double at[2] = {x, y};
     scene_open(s, 1, at, masses, 0, NULL, &plane, 1);
-    s->c.set.scene.rule.skin = skin;
+    s->c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     s->y[2] = u;
     s->y[3] = v;
 }
@@ -42,10 +42,11 @@ static void times_are_located_to_a_hundred_units_of_rounding(void **state)
 
 /* ---- a free node ---- */
 
-/* Falls from 0.2 m: at the skin's depth after sqrt(2 (0.2 + skin)/g). The end found is on the deep side. */
+/* Falls from 0.2 m: at the penetration tolerance's depth after sqrt(2 (0.2 + penetration tolerance)/g). The end found
+ * is on the deep side. */
 static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
 {
-    const double start = 7.0, t = sqrt(2.0 * (0.2 + skin) / g);
+    const double start = 7.0, t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
     scene s;
     scene_flight f;
     (void)state;
@@ -53,7 +54,7 @@ static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
     scene_fly(&s, (vec2){0.0, -g}, start, 0.3, &f);
     const double found = crossing(&s, 0, &f.path);
     assert_close(found, start + t, 200.0 * DBL_EPSILON * (start + 0.3));
-    assert_true(dense_output_position(&f.path, found, 0).y <= -skin);
+    assert_true(dense_output_position(&f.path, found, 0).y <= -penetration_tolerance);
     f.path.end = start + 0.9 * t;
     assert_true(isinf(crossing(&s, 0, &f.path)) != 0);
     scene_close(&s);
@@ -61,7 +62,7 @@ static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
 
 static void a_crossing_just_before_the_end_is_found(void **state)
 {
-    const double t = sqrt(2.0 * (0.2 + skin) / g);
+    const double t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
     scene s;
     scene_flight f;
     (void)state;
@@ -84,25 +85,26 @@ static void a_dip_within_the_step_is_found(void **state)
     open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 2.0 * bottom, &f);
     assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
-    assert_close(crossing(&s, 0, &f.path), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
+    assert_close(crossing(&s, 0, &f.path), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
     scene_close(&s);
 }
 
-/* A parabola whose bottom, wherever between two of the eight samples, is a micrometre deeper than the skin for 1/500
- * of the step; one that stays as much above it is none. Times to rounding over a vertical speed of 4.5 mm/s. */
+/* A parabola whose bottom, wherever between two of the eight samples, is a micrometre deeper than the penetration
+ * tolerance for 1/500 of the step; one that stays as much above it is none. Times to rounding over a vertical speed of
+ * 4.5 mm/s. */
 static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
 {
     const double a = 10.0, end = 0.45;
     (void)state;
     for (int k = 0; k < 20; k++) {
-        const double depth = skin + (k % 2 == 0 ? 1e-6 : -1e-6), bottom = 0.172 + 0.0025 * k;
+        const double depth = penetration_tolerance + (k % 2 == 0 ? 1e-6 : -1e-6), bottom = 0.172 + 0.0025 * k;
         scene s;
         scene_flight f;
         open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
         scene_fly(&s, (vec2){0.0, a}, 0.0, end, &f);
         const double found = crossing(&s, 0, &f.path);
         if (k % 2 == 0)
-            assert_close(found, bottom - sqrt(2.0 * (depth - skin) / a), 1e-12);
+            assert_close(found, bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-12);
         else
             assert_true(isinf(found) != 0);
         scene_close(&s);
@@ -118,12 +120,12 @@ static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **st
     scene_flight f;
     (void)state;
     scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
-    s.c.set.scene.rule.skin = skin;
+    s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
     s.c.set.list[0].clear = 0.05;
     s.c.set.list[0].clear_at[0] = vec2_at(at, 0);
     scene_fly(&s, nothing, 0.0, 1.0, &f);
-    assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * skin, 1e-13);
+    assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * penetration_tolerance, 1e-13);
     scene_close(&s);
 }
 
@@ -136,10 +138,10 @@ static void a_plate_between_two_ends_that_recede_is_found(void **state)
     scene_flight f;
     (void)state;
     scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
-    s.c.set.scene.rule.skin = skin;
+    s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
     scene_fly(&s, nothing, 0.0, 0.5, &f);
-    assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + skin), 1e-13);
+    assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + penetration_tolerance), 1e-13);
     scene_close(&s);
 }
 
@@ -160,13 +162,13 @@ static void a_site_out_of_reach_never_crosses(void **state)
 static dem_index open_edge(scene *s, double y)
 {
     scene_open_triangle(s, masses, -1.5, y, &roof, 1);
-    s->c.set.scene.rule.skin = skin;
+    s->c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     return scene_edge(s, 0, 1);
 }
 
 static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
 {
-    const double start = 3.0, t = sqrt(2.0 * (0.1 + skin) / g);
+    const double start = 3.0, t = sqrt(2.0 * (0.1 + penetration_tolerance) / g);
     scene s;
     scene_flight f;
     (void)state;
@@ -178,10 +180,12 @@ static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
 }
 
 /* Node 1 falls with 2 m/s from 0.3 m, node 0 stays there. With w = 2 t the edge's point over the ridge is 0.75 w - 0.3
- * below it, along the normal that times 2/sqrt(4 + w^2): (4 * 0.5625 - skin^2) w^2 - 1.8 w + 0.36 - 4 skin^2 = 0. */
+ * below it, along the normal that times 2/sqrt(4 + w^2): (4 * 0.5625 - penetration tolerance^2) w^2 - 1.8 w + 0.36 - 4
+ * penetration tolerance^2 = 0. */
 static void a_turning_edge_meets_a_ridge_where_its_line_does(void **state)
 {
-    const double a = 2.25 - skin * skin, c = 0.36 - 4.0 * skin * skin;
+    const double a = 2.25 - penetration_tolerance * penetration_tolerance,
+                 c = 0.36 - 4.0 * penetration_tolerance * penetration_tolerance;
     const double w = (1.8 + sqrt(1.8 * 1.8 - 4.0 * a * c)) / (2.0 * a);
     scene s;
     scene_flight f;
@@ -204,7 +208,7 @@ static void a_dip_of_an_edge_within_the_step_is_found(void **state)
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
     assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
-    assert_close(crossing(&s, k, &f.path), bottom - sqrt(2.0 * (depth - skin) / a), 1e-13);
+    assert_close(crossing(&s, k, &f.path), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
     scene_close(&s);
 }
 
@@ -216,27 +220,27 @@ static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(voi
     scene_flight f;
     (void)state;
     scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
-    s.c.set.scene.rule.skin = skin;
+    s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
     scene_fly(&s, nothing, 0.0, 1.0, &f);
-    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + skin, 1e-13);
+    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + penetration_tolerance, 1e-13);
     scene_close(&s);
 }
 
 /* Near node 1, at s = 0.9, the edge dips while node 0 rises all the time: h + a t^2/2 - 0.9 a b t is lowest at 0.9 b,
- * between two samples, where it is 1 mm deeper than the skin and nothing else would tell. */
+ * between two samples, where it is 1 mm deeper than the penetration tolerance and nothing else would tell. */
 static void a_dip_at_one_end_of_a_turning_edge_is_found(void **state)
 {
-    const double a = 10.0, b = 0.1, low = 0.405 * a * b * b, depth = 2.0 * skin;
+    const double a = 10.0, b = 0.1, low = 0.405 * a * b * b, depth = 2.0 * penetration_tolerance;
     scene s;
     scene_flight f;
     (void)state;
     scene_open_triangle(&s, masses, -1.8, low - depth, &roof, 1);
-    s.c.set.scene.rule.skin = skin;
+    s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 1, 0.2, low - depth, 0.0, -a * b);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 8.0 * 0.036, &f); /* samples at 0.072 and 0.108 */
     const double found = crossing(&s, scene_edge(&s, 0, 1), &f.path);
-    assert_close(found, 0.09 - sqrt(2.0 * (depth - skin) / a),
+    assert_close(found, 0.09 - sqrt(2.0 * (depth - penetration_tolerance) / a),
                  2e-4); /* the slope of the edge, 0.05, turns it a little */
     scene_close(&s);
 }
@@ -264,7 +268,8 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
     candidate->closed[candidate->n_closed++] = (contact_point){.feature = feature, .slide = sign};
 }
 
-/* Slides from x = 3 with 2 m/s: beyond the end by the skin after half a second and the time for that. */
+/* Slides from x = 3 with 2 m/s: beyond the end by the penetration tolerance after half a second and the time for that.
+ * */
 static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
 {
     scene s;
@@ -273,11 +278,12 @@ static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
     open_node(&s, 3.0, 0.0, 2.0, 0.0);
     close_contact(&s, 0, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.7, &f);
-    assert_close(first_due(&s, 0, &f), 1.5 + 0.5 * skin, 200.0 * DBL_EPSILON * 2.4);
+    assert_close(first_due(&s, 0, &f), 1.5 + 0.5 * penetration_tolerance, 200.0 * DBL_EPSILON * 2.4);
     scene_close(&s);
 }
 
-/* The ridge is 0.5 m before the edge's end and the body goes left with 2 m/s: it passes the end by the skin. */
+/* The ridge is 0.5 m before the edge's end and the body goes left with 2 m/s: it passes the end by the penetration
+ * tolerance. */
 static void a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end(void **state)
 {
     scene s;
@@ -287,7 +293,7 @@ static void a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end(void **s
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-2.0, 0.0});
     close_contact(&s, k, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.4, &f);
-    assert_close(first_due(&s, k, &f), 1.0 + 0.5 * (0.5 + skin), 200.0 * DBL_EPSILON * 1.8);
+    assert_close(first_due(&s, k, &f), 1.0 + 0.5 * (0.5 + penetration_tolerance), 200.0 * DBL_EPSILON * 1.8);
     scene_close(&s);
 }
 
@@ -299,7 +305,7 @@ static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **
     scene_flight f;
     (void)state;
     scene_open_triangle(&s, masses, -1.5, 0.0, roof_and_ledge, 2);
-    s.c.set.scene.rule.skin = skin;
+    s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, 0.0});
     const dem_index k = scene_edge(&s, 0, 1);
     close_contact(&s, 0, 2, 1);

@@ -7,7 +7,7 @@
 
 #include "contact/impact_solve.h"
 
-static const double skin = scene_skin, g = scene_gravity, masses[4] = {1.0, 3.0, 2.0, 2.0};
+static const double penetration_tolerance = scene_skin, g = scene_gravity, masses[4] = {1.0, 3.0, 2.0, 2.0};
 
 static const double floor_points[4] = {-8.0, 0.0, 8.0, 0.0}, wall_points[4] = {2.0, -1.0, 2.0, 3.0};
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}; /* its ridge is vertex 0, in the origin */
@@ -63,10 +63,10 @@ static void check_vec(vec2 actual, double x, double y, double tolerance)
 
 /* ---- a node by itself ---- */
 
-/* One node of 2 kg at (0.25, -skin). */
+/* One node of 2 kg at (0.25, -penetration tolerance). */
 static void open_node(scene *s, const dem_obstacle *obstacles, dem_index n, double u, double v)
 {
-    const double at[2] = {0.25, -skin};
+    const double at[2] = {0.25, -penetration_tolerance};
     scene_open(s, 1, at, &masses[2], 0, NULL, obstacles, n);
     vec2_put(scene_v(s), 0, (vec2){u, v});
 }
@@ -176,7 +176,7 @@ static void a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it(voi
         scene s;
         open_node(&s, corner, 2, 3.0, -4.0);
         s.c.set.scene.rule.load.gravity[0] = k == 0 ? 1.0 : 0.0;
-        scene_put(&s, 0, 2.0 + 0.5 * skin, -0.5 * skin, 3.0, -4.0);
+        scene_put(&s, 0, 2.0 + 0.5 * penetration_tolerance, -0.5 * penetration_tolerance, 3.0, -4.0);
         hit(&s, 0, 2, 0, 1);
         scene_check(&s, 0, 2.0, 0.0, 0.0, 0.0);
         assert_int_equal(s.c.set.list[0].n_closed, k == 0 ? 2 : 1);
@@ -200,7 +200,7 @@ static void what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a
     (void)state;
     open_node(&s, &bent, 1, 0.0, 0.0);
     for (int k = 0; k < 5; k++) {
-        scene_put(&s, 0, x[k], -0.5 * skin, u[k], -1.0);
+        scene_put(&s, 0, x[k], -0.5 * penetration_tolerance, u[k], -1.0);
         const contact_instant now = moment(&s, &listener);
         const impact_target met = impact_target_of_node(&s.c.set, 0, &now);
         assert_int_equal(met.n, n[k]);
@@ -220,15 +220,15 @@ static void neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross
     (void)state;
     open_node(&s, three, 3, 0.0, 0.0);
     const contact_set *c = &s.c.set;
-    assert_true(impact_is_corner(c, 0, 1, (vec2){3.9 * skin, 0.0}, skin));
-    assert_false(impact_is_corner(c, 0, 1, (vec2){4.1 * skin, 0.0}, skin));
-    assert_true(impact_is_corner(c, 1, 2, (vec2){2.0, 0.0}, skin));
-    assert_true(impact_is_corner(c, 2, 1, (vec2){2.0, 0.0}, skin));
-    assert_false(impact_is_corner(c, 1, 3, (vec2){1.0, 0.0}, skin));
+    assert_true(impact_is_corner(c, 0, 1, (vec2){3.9 * penetration_tolerance, 0.0}, penetration_tolerance));
+    assert_false(impact_is_corner(c, 0, 1, (vec2){4.1 * penetration_tolerance, 0.0}, penetration_tolerance));
+    assert_true(impact_is_corner(c, 1, 2, (vec2){2.0, 0.0}, penetration_tolerance));
+    assert_true(impact_is_corner(c, 2, 1, (vec2){2.0, 0.0}, penetration_tolerance));
+    assert_false(impact_is_corner(c, 1, 3, (vec2){1.0, 0.0}, penetration_tolerance));
     scene_close(&s);
 }
 
-/* Twice the skin, and the way in ten times 100 units of rounding of 0.5 s and a step of 0.01 s. */
+/* Twice the penetration tolerance, and the way in ten times 100 units of rounding of 0.5 s and a step of 0.01 s. */
 static void an_impact_can_be_as_deep_as_events_are_located(void **state)
 {
     const double located = 1000.0 * DBL_EPSILON * 0.51;
@@ -240,8 +240,9 @@ static void an_impact_can_be_as_deep_as_events_are_located(void **state)
     scene_put(&s, 0, -0.5, 0.0, 3e6, -4e6);
     scene_put(&s, 1, 1.5, 0.0, 6e6, 8e6);
     const contact_instant now = moment(&s, &listener);
-    assert_close(impact_depth(&s.c.set, 0, &now), 2.0 * skin + 5e6 * located, 1e-19);
-    assert_close(impact_depth(&s.c.set, scene_edge(&s, 0, 1), &now), 2.0 * skin + 1e7 * located, 1e-19);
+    assert_close(impact_depth(&s.c.set, 0, &now), 2.0 * penetration_tolerance + 5e6 * located, 1e-19);
+    assert_close(impact_depth(&s.c.set, scene_edge(&s, 0, 1), &now), 2.0 * penetration_tolerance + 1e7 * located,
+                 1e-19);
     scene_close(&s);
 }
 
@@ -344,7 +345,8 @@ static void the_papers_friction_on_a_vertex_leaves_its_share(void **state)
 }
 
 /* The edge is put back on the ridge, its nodes by their parts in it and their mobilities: the lift of node i is
- * skin w_i/m_i/W. Falling at rest otherwise, it stays: a contact that slides or, with friction, sticks at its place. */
+ * penetration tolerance w_i/m_i/W. Falling at rest otherwise, it stays: a contact that slides or, with friction,
+ * sticks at its place. */
 static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
 {
     const double q = 0.25, W = mobility(q), mu[2] = {0.0, 2.0};
@@ -353,11 +355,12 @@ static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
         scene s;
         const dem_obstacle roof = obstacle(3, roof_points, 0.0, mu[k]);
         const dem_index edge = open_edge(&s, &roof, q, 0.0);
-        for (dem_index i = 0; i < 3; i++) scene_put(&s, i, s.y[2 * i], s.y[2 * i + 1] - skin, -0.5, -1.0);
+        for (dem_index i = 0; i < 3; i++)
+            scene_put(&s, i, s.y[2 * i], s.y[2 * i + 1] - penetration_tolerance, -0.5, -1.0);
         hit(&s, edge, 1, 0, 0);
         const contact_point *point = &s.c.set.list[edge].closed[0];
-        assert_close(s.y[1], skin * (0.75 / W - 1.0), 1e-17);
-        assert_close(s.y[3], skin * (0.25 / 3.0 / W - 1.0), 1e-17);
+        assert_close(s.y[1], penetration_tolerance * (0.75 / W - 1.0), 1e-17);
+        assert_close(s.y[3], penetration_tolerance * (0.25 / 3.0 / W - 1.0), 1e-17);
         const contact_frame f = contact_frame_at(&s.c.set.scene, &s.c.set.list[edge], 0, s.y, scene_v(&s));
         const double slid = vec2_dot((vec2){-0.5, -1.0}, f.tangent); /* the lift has turned it a little */
         assert_close(f.gap, 0.0, 1e-17);
@@ -498,8 +501,8 @@ static void a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it(void **state)
     scene s;
     (void)state;
     scene_open_triangle(&s, masses, -1.5, 0.0, both, 2);
-    scene_put(&s, 0, -1.5, 0.3 * skin, 0.5, 0.0);
-    scene_put(&s, 1, 0.5, -1.5 * skin, 0.5, -1.0);
+    scene_put(&s, 0, -1.5, 0.3 * penetration_tolerance, 0.5, 0.0);
+    scene_put(&s, 1, 0.5, -1.5 * penetration_tolerance, 0.5, -1.0);
     assert_ok(contact_set_close(&s.c.set, 0, (contact_point){.feature = 2, .slide = 1}));
     hit(&s, scene_edge(&s, 0, 1), 1, 0, 0);
     check_vec(velocity(&s, 0), 0.5, 0.25 * J, 1e-11); /* the square of the slope that putting them back leaves, 1e-6 */
@@ -591,11 +594,13 @@ static void open_side(scene *s, const dem_obstacle *roof, double x, double y, do
     for (dem_index i = 0; i < 4; i++) vec2_put(scene_v(s), i, (vec2){0.0, -1.0});
 }
 
-/* Right on the ridge the side's normal, up, lies between those of the flanks; two skins beside it, or when the side's
- * nodes recede, it is not the side that meets it. */
+/* Right on the ridge the side's normal, up, lies between those of the flanks; two penetration tolerances beside it, or
+ * when the side's nodes recede, it is not the side that meets it. */
 static void a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side(void **state)
 {
-    const double x[5] = {0.0, 0.5 * skin, -0.5 * skin, 6.0 * skin, -6.0 * skin}, y[3] = {0.0, -0.5 * skin, -skin};
+    const double x[5] = {0.0, 0.5 * penetration_tolerance, -0.5 * penetration_tolerance, 6.0 * penetration_tolerance,
+                         -6.0 * penetration_tolerance},
+                 y[3] = {0.0, -0.5 * penetration_tolerance, -penetration_tolerance};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     (void)state;
     for (int k = 0; k < 15; k++) {
@@ -644,10 +649,10 @@ static void a_sharp_corner_of_the_body_on_an_apex_is_a_node(void **state)
 /* ---- notches ---- */
 
 /* The side bends in at node 1 by 1/4 to either side. Pressed down by the weight it comes to rest in the notch if it
- * would not rise by more than eight skins; what weighs up, or flies fast, does not. */
+ * would not rise by more than eight penetration tolerances; what weighs up, or flies fast, does not. */
 static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
 {
-    const double limit = sqrt(2.0 * g * 8.0 * skin), v[4] = {0.0, 0.99 * limit, 1.01 * limit, 0.0};
+    const double limit = sqrt(2.0 * g * 8.0 * penetration_tolerance), v[4] = {0.0, 0.99 * limit, 1.01 * limit, 0.0};
     const bool rests[4] = {true, true, false, false};
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
     (void)state;

@@ -11,7 +11,7 @@
 
 enum { most_nodes = 6, most_state = 4 * (most_nodes + 4) };
 
-static const double g = 10.0, skin = 1e-10, mass = 2.0;
+static const double g = 10.0, penetration_tolerance = 1e-10, mass = 2.0;
 
 /* Masses over a floor, and a step of them. */
 typedef struct rig {
@@ -28,7 +28,7 @@ static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
 static void open_rig(rig *r, const dem_lattice *lattice, double eta, double friction, const double error[2])
 {
     const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = eta, .friction = friction};
-    const contact_rule rule = {.skin = skin,
+    const contact_rule rule = {.penetration_tolerance = penetration_tolerance,
                                .position_error = 1e-12,
                                .max_step = 0.1,
                                .storm_time = 1.0,
@@ -92,10 +92,10 @@ static void fall(rig *r, double t0, double h)
     take_up(r, t0, h);
 }
 
-/* Time from rest at height y to the skin's depth. */
+/* Time from rest at height y to the penetration tolerance's depth. */
 static double time_of_fall(double y)
 {
-    return sqrt(2.0 * (y + skin) / g);
+    return sqrt(2.0 * (y + penetration_tolerance) / g);
 }
 
 static void show(rig *r, double t)
@@ -204,7 +204,7 @@ static void a_node_may_bounce_many_times_in_a_step(void **state)
     show(&r, 0.18);
     assert_true(r.q.n_events >= 4);
     for (dem_index k = 0; k < r.q.n_events; k++) {
-        assert_close(r.q.events[k].t, due, 1e-7); /* the skin, at ever slower speeds */
+        assert_close(r.q.events[k].t, due, 1e-7); /* the penetration tolerance, at ever slower speeds */
         up *= eta;
         due += 2.0 * up / g;
     }
@@ -314,7 +314,7 @@ static void undoing_brings_every_bit_back(void **state)
 
 /* ---- at the ends of the step ---- */
 
-/* Found three skins deep as the step begins, and reflected there once; what follows is free flight. */
+/* Found three penetration tolerances deep as the step begins, and reflected there once; what follows is free flight. */
 static void an_event_at_the_very_start_happens_once(void **state)
 {
     const double height = 0.0, h = 0.01;
@@ -322,7 +322,7 @@ static void an_event_at_the_very_start_happens_once(void **state)
     double y[most_state];
     (void)state;
     open_masses(&r, 1, &height, 0.5, 0.0);
-    r.y0[1] = -1.5 * skin;
+    r.y0[1] = -1.5 * penetration_tolerance;
     r.y0[2 * r.n_all + 1] = -2.0;
     fall(&r, 0.0, h);
     show(&r, h);
@@ -353,7 +353,7 @@ static void an_event_at_the_very_end_is_in_the_state_there(void **state)
             assert_close(r.y1[2 * r.n_all + 1], 0.5 * g * t, 1e-13);
         } else {
             assert_true(k < 3);
-            assert_close(r.y1[1], -skin, 1e-14);
+            assert_close(r.y1[1], -penetration_tolerance, 1e-14);
         }
         close_rig(&r);
     }
@@ -389,7 +389,7 @@ static void swing(rig *r, dem_lattice *lattice, double h)
     take_up(r, 0.0, h);
 }
 
-/* The pair from y to the time at which a mass is as deep as the skin, by bisection. */
+/* The pair from y to the time at which a mass is as deep as the penetration tolerance, by bisection. */
 static double strike_time(dem_lattice *lattice, int node, double *y)
 {
     double low = 0.0, high = 0.2, z[8];
@@ -397,7 +397,7 @@ static double strike_time(dem_lattice *lattice, int node, double *y)
         const double t = 0.5 * (low + high);
         memcpy(z, y, sizeof z);
         if (t > 0.0) triplets_reach(lattice, t, z);
-        if (z[2 * node + 1] < -skin)
+        if (z[2 * node + 1] < -penetration_tolerance)
             high = t;
         else
             low = t;

@@ -158,7 +158,7 @@ static void make_boundaries(step *s)
 
 static void make_contacts(step *s)
 {
-    const contact_rule rule = {.skin = 1e-8,
+    const contact_rule rule = {.penetration_tolerance = 1e-8,
                                .position_error = 1e-9,
                                .max_step = s->h,
                                .storm_time = 1.0,
@@ -575,7 +575,8 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
-    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_quadratures = 4, .load = {.gravity = {0.0, -g}}};
+    const contact_rule rule = {
+        .penetration_tolerance = 1e-8, .max_step = h, .n_quadratures = 4, .load = {.gravity = {0.0, -g}}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, error;
     dem_lattice lattice;
     dem_model *model;
@@ -629,7 +630,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     const double points[4] = {-1.0, -0.5, 1.0, -0.5};
     const dem_obstacle ground = {.n_points = 2, .points = points};
-    const contact_rule rule = {.skin = 1e-8, .max_step = h, .n_quadratures = 0};
+    const contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h, .n_quadratures = 0};
     dem_lattice l;
     step s = {.h = h};
     double error;

@@ -60,13 +60,18 @@ static void refuse(const dem_options *options, const char *message)
 
 static void lengths_times_and_speeds_are_finite_and_not_negative(void **state)
 {
-    static const char *const names[6] = {"spacing", "v_scale", "max_step", "fixed_step", "skin", "rest_speed"};
+    static const char *const names[6] = {"spacing",   "v_scale", "max_step", "fixed_step", "penetration_tolerance",
+                                         "rest_speed"};
     char message[128];
     (void)state;
     for (int k = 0; k < 6; k++) {
         dem_options options = point_options();
-        double *const lengths[6] = {&options.spacing,    &options.v_scale, &options.max_step,
-                                    &options.fixed_step, &options.skin,    &options.rest_speed};
+        double *const lengths[6] = {&options.spacing,
+                                    &options.v_scale,
+                                    &options.max_step,
+                                    &options.fixed_step,
+                                    &options.penetration_tolerance,
+                                    &options.rest_speed};
         *lengths[k] = -1.0;
         (void)snprintf(message, sizeof message, "%s must be >= 0, got -1", names[k]);
         refuse(&options, message);
@@ -158,7 +163,7 @@ static void defaults_come_from_the_model(void **state)
     assert_close(options.spacing, dem_model_spacing(model), 0.0);
     assert_close(options.max_step, 0.5 / dem_model_omega_max(model), 0.0);
     assert_close(options.fixed_step, 0.0, 0.0);
-    assert_close(options.skin, 1e-6 * dem_model_spacing(model), 0.0);
+    assert_close(options.penetration_tolerance, 1e-6 * dem_model_spacing(model), 0.0);
     assert_close(options.v_scale, 4.0, 1e-14);
     assert_int_equal(options.max_impacts, 10000);
     dem_model_destroy(model);
@@ -172,7 +177,7 @@ static void what_is_given_counts(void **state)
     options.spacing = 0.125;
     options.v_scale = 0.25;
     options.max_step = 3e-5;
-    options.skin = 1e-3;
+    options.penetration_tolerance = 1e-3;
     options.rest_speed = 0.1;
     options.window = 2e-6;
     const dem_options asked = options;

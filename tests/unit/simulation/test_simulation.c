@@ -108,8 +108,8 @@ static void a_start_deeper_than_the_skin_is_refused(void **state)
     dem_options with_scale = options;
     with_scale.v_scale = 1.0;
     assert_int_equal(dem_simulation_create(&simulation, model, &with_scale), DEM_ERROR_MODEL);
-    assert_string_equal(dem_status_message(),
-                        "node 0 at (0.25, -0.125) m starts 0.125 m inside obstacle 0, deeper than the skin of 1e-06 m");
+    assert_string_equal(dem_status_message(), "node 0 at (0.25, -0.125) m starts 0.125 m inside obstacle 0, deeper "
+                                              "than the penetration tolerance of 1e-06 m");
     assert_null(simulation);
     dem_model_destroy(model);
 }
@@ -760,7 +760,7 @@ static void a_storm_of_impacts_ends_the_run(void **state)
     const char *expected = " m had more than 1 contact events within 0.6 s, at t = ";
     assert_non_null(strstr(dem_status_message(), expected));
     dem_simulation_state(simulation, &now);
-    assert_close(now.x[1], 0.0, 1e-6);       /* the skin */
+    assert_close(now.x[1], 0.0, 1e-6);       /* the penetration tolerance */
     assert_true(now.t > 0.4 && now.t < 0.5); /* 0.01 s of fall and 4.1 m/s/g of flight, both ways */
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);

@@ -351,12 +351,12 @@ static void a_guard_is_looked_for_only_as_it_falls(void **state)
     arkode_integrator_destroy(i);
 }
 
-/* Reflected at the floor it comes down again after 2 v/g; the skin of 1e-9 m below the restart makes the guard
- * positive there. The first step after the restart is as long as before. */
+/* Reflected at the floor it comes down again after 2 v/g; the penetration tolerance of 1e-9 m below the restart makes
+ * the guard positive there. The first step after the restart is as long as before. */
 static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state)
 {
-    const double y[4] = {0.0, 0.5, 1.0, 0.0}, skin = 1e-9, u = sqrt(2.0 * g * 0.5);
-    world w = {.fails_after = 1e9, .floor = -skin};
+    const double y[4] = {0.0, 0.5, 1.0, 0.0}, penetration_tolerance = 1e-9, u = sqrt(2.0 * g * 0.5);
+    world w = {.fails_after = 1e9, .floor = -penetration_tolerance};
     double reflected[4];
     dense_output p;
     bool rooted;
@@ -373,7 +373,7 @@ static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state
     assert_memory_equal(p.y0, reflected, sizeof reflected);
     assert_close(p.t1 - p.t0, 0.1, 1e-15);
     step_to_root(i, &p);
-    assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * skin)) / g, 1e-12);
+    assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * penetration_tolerance)) / g, 1e-12);
     assert_close(dense_output_position(&p, p.end, 0).x, p.end, 1e-12);
     arkode_integrator_destroy(i);
 }

@@ -4,7 +4,7 @@
 
 #include "time/integrator.h"
 
-static const double g = 9.81, skin = 1e-10;
+static const double g = 9.81, penetration_tolerance = 1e-10;
 
 static int fall(double t, const double *y, double *u, double *a, void *context)
 {
@@ -21,7 +21,7 @@ static void height(double t, const double *y, double *guard, void *context)
 {
     (void)t;
     (void)context;
-    guard[0] = y[1] + skin;
+    guard[0] = y[1] + penetration_tolerance;
 }
 
 static void every_method_finds_the_bounces_of_a_ball(void **state)
@@ -52,7 +52,7 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
             double y[4];
             assert_ok(integrator_step(&e, &p, &rooted));
             if (!rooted) continue;
-            assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9); /* what the skin delays */
+            assert_close(p.end, (2 * bounces++ + 1) * u / g, 1e-9); /* what the penetration tolerance delays */
             dense_output_state(&p, p.end, y);
             assert_close(y[0], p.end, 1e-12);
             y[1] = 0.0;

@@ -361,17 +361,18 @@ static void a_guard_is_looked_for_only_as_it_falls(void **state)
     verlet_integrator_destroy(V);
 }
 
-/* Reflected a skin above the floor it comes back after the time of the throw. Without a restart it goes on through. */
+/* Reflected a penetration tolerance above the floor it comes back after the time of the throw. Without a restart it
+ * goes on through. */
 static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
 {
-    const double y0[4] = {0.0, 0.5, 0.0, 0.0}, skin = 1e-9, u = sqrt(2.0 * g * 0.5);
+    const double y0[4] = {0.0, 0.5, 0.0, 0.0}, penetration_tolerance = 1e-9, u = sqrt(2.0 * g * 0.5);
     double reflected[4];
     (void)state;
     for (int restarted = 0; restarted < 2; restarted++) {
         world w = plain;
         dense_output p;
         bool rooted;
-        w.floor = -skin;
+        w.floor = -penetration_tolerance;
         verlet_integrator *V = make(&w, 0.07, 2, y0);
         step_to_root(V, &p);
         const double first = p.end, t1 = p.t1;
@@ -381,7 +382,7 @@ static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
         if (restarted) {
             verlet_integrator_restart(V, first, reflected);
             step_to_root(V, &p);
-            assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * skin)) / g, 1e-12);
+            assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * penetration_tolerance)) / g, 1e-12);
         } else {
             assert_ok(verlet_integrator_step(V, &p, &rooted));
             assert_false(rooted);

@@ -28,7 +28,7 @@ static void the_preview_tells_what_is_about_to_run(void **state)
     drop_logged(l);
 }
 
-/* Under a g of 5 m/s^2 a skin of 1e-5 m keeps up hops of 1e-2 m/s. */
+/* Under a g of 5 m/s^2 a penetration tolerance of 1e-5 m keeps up hops of 1e-2 m/s. */
 static void the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up(void **state)
 {
     static const double rest_speed[3] = {0.0, 9.9e-3, 1.01e-2};
@@ -45,7 +45,7 @@ static void the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up(void **stat
         options.max_step = 0.01;
         options.gravity[0] = 3.0;
         options.gravity[1] = -4.0;
-        options.skin = 1e-5;
+        options.penetration_tolerance = 1e-5;
         options.rest_speed = rest_speed[k];
         support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &node, NULL, 0, &options);
@@ -54,7 +54,8 @@ static void the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up(void **stat
         preview_print(l->file, &d, l->run.simulation, NULL);
         read_log(l);
         const char *told =
-            strstr(l->text, "\nwarning    'rest_speed' 0.0099 m/s is below sqrt(2 g skin) = 0.01 m/s: where ");
+            strstr(l->text,
+                   "\nwarning    'rest_speed' 0.0099 m/s is below sqrt(2 g penetration tolerance) = 0.01 m/s: where ");
         assert_int_equal(told != NULL, k == 1);
         assert_int_equal(strstr(l->text, "warning") != NULL, k == 1);
         drop_logged(l);

@@ -101,7 +101,8 @@ static void the_rebound_is_measured_against_gravity(void **state)
     dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
-    options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.skin = 1e-13, options.v_scale = 1.0;
+    options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.penetration_tolerance = 1e-13,
+    options.v_scale = 1.0;
     options.gravity[0] = -4.0, options.gravity[1] = 0.0;
     support_lattice(&lattice, 2, x, m, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = calloc(2, sizeof *lattice.body);

@@ -95,14 +95,14 @@ static void every_key_finds_its_place(void **state)
     deck d = good_deck("&run title = 'A title', t_end = 2.5, gravity = 1, -2 /\n" RUBBER
                        "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber', velocity = 4, -5 /\n"
                        "&obstacle points = 0, -1, 1, -2, 2, -1, restitution = 0.25 /\n" FLOOR
-                       "&contact skin = 1e-7, rest_speed = 1e-4, max_impacts = 77 /\n"
+                       "&contact penetration_tolerance = 1e-7, rest_speed = 1e-4, max_impacts = 77 /\n"
                        "&solver method = 'bs23', rtol = 1e-4, max_step = 1e-5, v_scale = 3, spacing = 0.5,\n"
                        "kernel = 'portable', threads = 2 /\n"
                        "&output name = 'n', frame_interval = 0.125, precision = 'double', deflate = 4, events = T /\n");
     assert_string_equal(d.title, "A title");
     assert_string_equal(d.name, "n");
     assert_string_equal(strrchr(d.path, '/'), "/a.nml");
-    assert_non_null(strstr(d.source, "&contact skin = 1e-7"));
+    assert_non_null(strstr(d.source, "&contact penetration_tolerance = 1e-7"));
     assert_non_null(strstr(d.echo, "A title"));
     assert_null(strstr(d.physics, "A title"));
     assert_close(d.t_end, 2.5, 0.0);
@@ -125,7 +125,7 @@ static void every_key_finds_its_place(void **state)
     assert_close(d.options.max_step, 1e-5, 0.0);
     assert_close(d.options.v_scale, 3.0, 0.0);
     assert_close(d.options.spacing, 0.5, 0.0);
-    assert_close(d.options.skin, 1e-7, 0.0);
+    assert_close(d.options.penetration_tolerance, 1e-7, 0.0);
     assert_close(d.options.rest_speed, 1e-4, 0.0);
     assert_close(d.options.fixed_step, 0.0, 0.0);
     assert_int_equal(d.options.max_impacts, 77);
@@ -282,7 +282,8 @@ static void keys_not_given_are_left_to_the_library(void **state)
     assert_int_equal(d.options.method, expected.method);
     assert_close(d.options.rtol, expected.rtol, 0.0);
     assert_close(d.options.gravity[1], expected.gravity[1], 0.0);
-    assert_close(d.options.spacing + d.options.v_scale + d.options.max_step + d.options.skin + d.options.rest_speed,
+    assert_close(d.options.spacing + d.options.v_scale + d.options.max_step + d.options.penetration_tolerance +
+                     d.options.rest_speed,
                  0.0, 0.0);
     assert_int_equal(d.options.max_impacts, expected.max_impacts);
     assert_int_equal(d.options.vertices, expected.vertices);
@@ -692,19 +693,21 @@ static void bodies_that_start_in_an_obstacle_are_named(void **state)
 {
     (void)state;
     const char *bodies = RUN RUBBER DISC("") DISC(", position = 0, 1")
-        DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR "&contact skin = 0.25 /\n";
-    expect_errors(bodies,
-                  "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the skin "
-                  "of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n"
-                  "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the skin of "
-                  "0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
+        DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR
+                                    "&contact penetration_tolerance = 0.25 /\n";
+    expect_errors(bodies, "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the "
+                          "penetration tolerance "
+                          "of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n"
+                          "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the "
+                          "penetration tolerance of "
+                          "0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
     const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
     deck d = good_deck(cleared);
     deck_free(&d);
-    expect_errors(
-        RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
-        "3:1: body 1 starts 2.54038e-05 m inside obstacle 1, at (-0.5, -2.54038e-05) m, deeper than the skin of "
-        "1e-06 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
+    expect_errors(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
+                  "3:1: body 1 starts 2.54038e-05 m inside obstacle 1, at (-0.5, -2.54038e-05) m, deeper than the "
+                  "penetration tolerance of "
+                  "1e-06 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
     d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
     deck_free(&d);
 }

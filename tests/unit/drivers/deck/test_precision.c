@@ -27,14 +27,15 @@ static void tolerances_beyond_rounding_are_taken(void **state)
 {
     (void)state;
     expect("", "");
-    expect("&contact skin = 1.8e-13 /\n&solver rtol = 1e-13, spacing = 0.1, v_scale = 0.1 /\n", "");
+    expect("&contact penetration_tolerance = 1.8e-13 /\n&solver rtol = 1e-13, spacing = 0.1, v_scale = 0.1 /\n", "");
 }
 
 static void a_skin_that_rounding_hides_is_refused(void **state)
 {
     (void)state;
-    expect("&contact skin = 1.7e-13 /\n",
-           "1:10 'skin' in &contact must be >= 1.8e-13 m, or rounding of coordinates of up to 8 m hides it, got "
+    expect("&contact penetration_tolerance = 1.7e-13 /\n",
+           "1:10 'penetration_tolerance' in &contact must be >= 1.8e-13 m, or rounding of coordinates of up to 8 m "
+           "hides it, got "
            "1.7e-13 m");
 }
 

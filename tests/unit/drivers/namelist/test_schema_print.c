@@ -210,7 +210,8 @@ static void the_physics_is_the_same_however_it_is_written(void **state)
 static void the_physics_depends_on_every_physical_key(void **state)
 {
     (void)state;
-    static const char *const changes[] = {"&solver rtol = 1e-5 /", "&contact skin = 1e-9 /", "&void centre = 0, 0 /"};
+    static const char *const changes[] = {"&solver rtol = 1e-5 /", "&contact penetration_tolerance = 1e-9 /",
+                                          "&void centre = 0, 0 /"};
     char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
     for (size_t k = 0; k < 3; k++) {
         char text[512];
