@@ -7,23 +7,6 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 
-# Folders of src: what each may include from besides itself. Within a folder nothing goes in circles.
-SRC = {
-    "base": set(),
-    "lattice": {"base"},
-    "elastic": {"base"},
-    "obstacle": {"base"},
-    "time": {"base"},
-    "model": {"base", "lattice", "elastic", "obstacle"},
-    "forces": {"base", "elastic", "model"},
-    "contact": {"base", "obstacle", "time", "model", "forces"},
-    "events": {"base", "time", "forces", "contact"},
-    "simulation": {"base", "time", "model", "forces", "contact", "events"},
-    "output": {"base", "lattice", "elastic"},
-}
-# The same of the drivers.
-DRIVERS = {"common": set(), "namelist": {"common"}, "body": {"common", "namelist"}, "deck": {"common", "namelist", "body"},
-           "batch": {"common", "namelist", "body", "deck"}, "plot": {"common"}, "export": {"common", "namelist"}}
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/time/arkode_compat.h", "src/time/arkode_integrator.c", "src/time/butcher.c", "src/time/nvector.c",
                                                  "src/time/nvector.h"}),
@@ -41,6 +24,16 @@ ROOMS = [  # pattern, files that may have it
 ]
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 
+
+
+def read_edges(heading):
+    """What each folder may include from besides itself: a table of docs/architecture.md."""
+    text = (ROOT / "docs/architecture.md").read_text(encoding="utf-8").split(f"## {heading}\n")[1].split("\n## ")[0]
+    rows = re.findall(r"^\| `(\w+)` \|[^|]*\|([^|]*)\|$", text, re.M)
+    return {folder: set(re.findall(r"`(\w+)`", others)) for folder, others in rows}
+
+
+SRC, DRIVERS = read_edges("Rooms of the library"), read_edges("Folders of the programs")
 faults = []
 beside = {}  # of a noun: the nouns of its folder that it includes
 
@@ -131,6 +124,8 @@ for source in sources:
         check_edges(source, rows)
         check_rooms(source, rows)
 check_circles()
+for top, rooms in (("src", SRC), ("drivers", DRIVERS)):
+    faults.extend(f"docs/architecture.md: {top}/{room} is not there" for room in rooms if not (ROOT / top / room).is_dir())
 
 print("\n".join(faults) if faults else f"{len(sources)} files stand where they should")
 sys.exit(1 if faults else 0)
