@@ -164,6 +164,18 @@ void contact_set_solve_forces(contact_set *c, dem_index k, const double *x, cons
     contact_set_store_forces(c, k);
 }
 
+void contact_set_solve_all(contact_set *c, const double *x, const double *v)
+{
+    for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, g, x, v);
+}
+
+/* A force without what should come from outside is none: the last known stays. */
+void contact_set_store_all(contact_set *c)
+{
+    if (external_force_failed(c->scene.rule.load.external)) return;
+    for (dem_index m = 0; m < c->forces.row[c->forces.n_groups]; m++) contact_set_store_forces(c, c->forces.members[m]);
+}
+
 double contact_set_stop(contact_set *c, dem_index group, const double *x, double *v)
 {
     contact_forces *r = &c->forces;
@@ -237,4 +249,28 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
             event.state =
                 candidate->closed[q].slide == 0 || candidate->closed[q].held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
     return event;
+}
+
+void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse, double *v)
+{
+    for (int p = 0; p < f->n; p++)
+        vec2_put(v, f->node[p],
+                 vec2_along(vec2_at(v, f->node[p]), f->weight[p] * c->scene.model->inverse_mass[f->node[p]], impulse));
+}
+
+void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal)
+{
+    const dem_obstacle *o = &c->scene.model->obstacles.list[obstacle];
+    const bool smooth = o->friction == 0.0 && o->friction_law == DEM_FRICTION_COULOMB;
+    const vec2 along = smooth ? impulse : vec2_scale(vec2_dot(impulse, normal), normal);
+    ledger_add_impulse(&c->ledger, obstacle, impulse, vec2_sub(impulse, along));
+}
+
+void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now)
+{
+    event->impulse[0] = impulse.x;
+    event->impulse[1] = impulse.y;
+    event->energy = energy;
+    c->ledger.impact += energy;
+    ledger_enter(&c->ledger, event, now);
 }

@@ -65,6 +65,10 @@ void contact_set_store_forces(contact_set *c, dem_index k);
 /** Solves for the forces of the site's group and stores them in the site's contacts. */
 void contact_set_solve_forces(contact_set *c, dem_index k, const double *x, const double *v);
 
+/** Solves for the forces of all groups; stores those of all closed contacts. */
+void contact_set_solve_all(contact_set *c, const double *x, const double *v);
+void contact_set_store_all(contact_set *c);
+
 /** Stops a group: closed contacts neither open nor slide where they stick. Leaves in `stop` of each the impulse that
  *  this takes.  \return the energy that it takes, J */
 double contact_set_stop(contact_set *c, dem_index group, const double *x, double *v);
@@ -85,5 +89,14 @@ dem_index contact_set_group_at(const contact_set *c, dem_index node);
 /** An event of a site at a feature: what is known without the impact. */
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
                             const contact_instant *now);
+
+/** Gives the nodes that carry a contact an impulse (N s) at it. */
+void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse, double *v);
+
+/** Adds an impulse (N s) to those that an obstacle gave: what is not along the normal is friction's, if it has any. */
+void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal);
+
+/** Tells of an impact and books its energy, J, and the impulse (N s) that the features gave together. */
+void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now);
 
 #endif

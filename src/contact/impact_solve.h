@@ -1,45 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Impacts: what a site strikes, what its velocity becomes, and whether the contact lasts. */
+/* Impacts: what the velocity of a site that strikes becomes, and whether the contact lasts. */
 #ifndef DEM_CONTACT_IMPACT_SOLVE_H
 #define DEM_CONTACT_IMPACT_SOLVE_H
 
-#include "contact/contact_set.h"
+#include "contact/impact_target.h"
 
-/** The one or two features that a site strikes: segments, the one approached faster first, or a vertex. */
-typedef struct impact_target {
-    int n;
-    dem_index feature[2];
-} impact_target;
-
-/** How deep a site can be at an impact, m: twice the penetration tolerance, how far it moves in ten times the time to
- *  which events are located, and how far it may have been moved to straighten a contact beside it. */
-double impact_depth(const contact_set *c, dem_index k, const contact_instant *now);
-
-/** Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:
- *  neighbours, which bend up here, form one at their vertex. */
-bool impact_is_corner(const contact_set *c, dem_index s, dem_index other, vec2 x, double tolerance);
-
-/** What a touching node meets: the segment approached fastest, and a second one that forms a corner with it. */
-impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now);
-
-/** The edge at a node whose side a vertex meets where the node is, and the vertex: when a flat side comes down with a
- *  node right on an apex, the side's normal counts. Returns -1 where there is none. */
-dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex);
-
-/** Puts a group of contacts on their surfaces, and books what that puts in.  \return how far nodes have moved, m */
-double impact_project(contact_set *c, dem_index group, contact_instant *now);
-
-/** Stops a group of contacts, and books what that takes. */
-void impact_stop(contact_set *c, dem_index group, contact_instant *now);
-
-/** A site strikes: it is put back on the surface, rebounds, and the contacts that last are closed. A node on a segment
- *  that it does not strike again leaves it. */
+/** A site strikes, as a node by itself or with the group of contacts that share its nodes. */
 dem_status impact_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now);
-
-/** Whether the node between two edges, on a vertex, comes to rest in the notch that they form there. */
-bool impact_rests_in_notch(const contact_set *c, dem_index edge, dem_index next, const contact_instant *now);
-
-/** A free site that nears a surface with this unit normal is reflected where it is: no contact closes. */
-void impact_early(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now);
 
 #endif

@@ -8,7 +8,8 @@
 #include "base/grow.h"
 #include "base/status.h"
 #include "base/threads.h"
-#include "contact/impact_solve.h"
+#include "contact/automaton_step.h"
+#include "contact/impact_group.h"
 
 /* ---- set-up ---- */
 
@@ -234,7 +235,7 @@ static void calm(event_queue *q)
     contact_set *c = &q->automaton->set;
     contact_instant now = {q->now, q->state, q->state + scene_velocities(&c->scene), NULL, DEM_OK};
     for (dem_index g = 0; g < q->correction.near.n_groups; g++)
-        impact_stop(c, q->correction.near.groups[g].group, &now);
+        impact_group_stop(c, q->correction.near.groups[g].group, &now);
 }
 
 /* What is due at a site, and what follows from it. */
@@ -338,8 +339,8 @@ static dem_status settle_end(event_queue *q)
     contact_instant now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
     for (dem_index g = 0; g < c->forces.n_groups; g++) {
         if (!has_moved(q, g)) continue;
-        (void)impact_project(c, g, &now);
-        impact_stop(c, g, &now);
+        (void)impact_group_project(c, g, &now);
+        impact_group_stop(c, g, &now);
     }
     q->settled = true;
     return renew_end(q);

@@ -9,6 +9,7 @@
 #include "base/aligned.h"
 #include "base/record.h"
 #include "base/status.h"
+#include "contact/automaton_step.h"
 #include "forces/diagnostics.h"
 #include "simulation/checkpoint.h"
 #include "simulation/options.h"

@@ -2,6 +2,8 @@
 /* broad_phase.c: who sleeps, until when, and who wakes in time. */
 #include "unit/scene.h"
 
+#include "contact/automaton_step.h"
+
 static const double penetration_tolerance = scene_skin, masses[4] = {2.0, 2.0, 2.0, 2.0},
                     max_step = 0.01; /* as in scene.h */
 

@@ -6,6 +6,8 @@
 
 #include <float.h>
 
+#include "contact/event_location.h"
+
 static const double penetration_tolerance = 1e-3, g = scene_gravity, masses[3] = {2.0, 2.0, 2.0};
 static const vec2 nothing = {0.0, 0.0};
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "contact/automaton.h"
+#include "contact/automaton_step.h"
 #include "events/local_correction.h"
 #include "forces/diagnostics.h"
 #include "verification/support.h"

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What happens to the contacts within a step, and after it. */
+#include "contact/automaton_step.h"
+
+#include "contact/event_location.h"
+#include "contact/impact_group.h"
+
+/* No node that may touch goes further in the step, which begins where the last look was. */
+static double furthest(const automaton *c, const dense_output *p)
+{
+    return 2.0 * (p->t1 - p->t0) *
+           fmax(c->broad_phase.speed, broad_phase_speed(&c->set, automaton_velocities(c, p->y1)));
+}
+
+/* The state at the end of a step, as far as the forces of a group depend on it. */
+static const double *end_of(automaton *c, dem_index group, const dense_output *p, double *state)
+{
+    if (p->end == p->t1) return p->y1;
+    event_location_state(&c->set.forces, group, p, p->end, state);
+    return state;
+}
+
+void automaton_solve_group(automaton *c, const dense_output *p, dem_index group, double *state)
+{
+    const double *y = end_of(c, group, p, state);
+    contact_forces_solve(&c->set.forces, group, y, automaton_velocities(c, y));
+}
+
+/* First time at which closed contacts of a site have to change that have to at the end of the step. */
+static double next_due(automaton *c, const dense_output *p, dem_index k, double from, double *state)
+{
+    contact_forces *r = &c->set.forces;
+    const contact_candidate *candidate = &c->set.list[k];
+    if (c->quiet) return INFINITY;
+    const double *y = end_of(c, r->group[k], p, state);
+    if (!candidate_due(&c->set.scene, candidate, r->force[k], y, automaton_velocities(c, y))) return INFINITY;
+    const double due = event_location_change(r, candidate, p, from, state);
+    automaton_solve_group(c, p, r->group[k], state);
+    return due;
+}
+
+void automaton_begin_step(automaton *c, const dense_output *p, double *state)
+{
+    const contact_forces *r = &c->set.forces;
+    const bool whole = p->end == p->t1, solved = whole && c->solved == p->t1;
+    c->way = furthest(c, p);
+    c->all = broad_phase_covers_all(&c->broad_phase, c->way);
+    c->quiet = solved && c->quiet;
+    for (dem_index g = 0; g < r->n_groups && !solved; g++) automaton_solve_group(c, p, g, state);
+    if (whole) c->solved = p->t1;
+}
+
+/* A free node that has not moved as far as it was clear, and yet is inside: it has passed a free end of the obstacle at
+ * a distance, and is behind it. */
+static bool come_round(contact_set *c, dem_index k, const candidate_positions *spot)
+{
+    const contact_candidate *candidate = &c->list[k];
+    dem_index nearest;
+    if (candidate_is_edge(candidate) || candidate->n_closed > 0 || candidate->behind[0] >= 0) return false;
+    if (!(candidate_moved(candidate, spot) < candidate->clear) ||
+        candidate_clearance(&c->scene, candidate, spot, &nearest) >= 0.0)
+        return false;
+    contact_set_pass_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
+    return true;
+}
+
+double automaton_crossing(automaton *c, const dense_output *p, dem_index k, double from)
+{
+    contact_candidate *candidate = &c->set.list[k];
+    if (!broad_phase_may_touch(&c->broad_phase, candidate, c->way)) return INFINITY;
+    candidate->inactive = false;
+    return candidate->n_closed < 2 ? event_location_crossing(&c->set.scene, candidate, p, from) : INFINITY;
+}
+
+double automaton_next_change(automaton *c, const dense_output *p, dem_index k, double from, double *state)
+{
+    const contact_candidate *candidate = &c->set.list[k];
+    const double due = candidate->n_closed > 0 ? next_due(c, p, k, from, state) : INFINITY;
+    double crossing = automaton_crossing(c, p, k, from);
+    if (crossing <= from) {
+        const candidate_positions spot = candidate_place_at(candidate, p, from);
+        if (come_round(&c->set, k, &spot)) crossing = automaton_crossing(c, p, k, from);
+    }
+    return fmin(due, crossing);
+}
+
+bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *state)
+{
+    contact_set *s = &c->set;
+    const double last =
+        rooted ? p->end - 4.0 * event_location_resolution(p) : INFINITY; /* later it is the root found */
+    double first = INFINITY;
+    automaton_begin_step(c, p, state);
+    for (dem_index a = 0; a < automaton_n_active(c); a++)
+        first = fmin(first, automaton_next_change(c, p, automaton_active_candidate(c, a), p->t0, state));
+    if (isfinite(first) || p->end < p->t1) c->solved = NAN;
+    if (!(first < last)) return false;
+    p->end = first;
+    s->ledger.counts.late++;
+    return true;
+}
+
+/* Whether an edge of a group has opened, or sunk in, by more than a quarter of the penetration tolerance. */
+static bool has_opened(const contact_set *c, dem_index group, const contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
+        const contact_candidate *candidate = &c->list[r->members[m]];
+        for (int q = 0; q < candidate->n_closed && candidate_is_edge(candidate); q++)
+            if (fabs(contact_frame_at(&c->scene, candidate, q, now->x, now->v).gap) >
+                0.25 * c->scene.rule.penetration_tolerance)
+                return true;
+    }
+    return false;
+}
+
+bool automaton_project(automaton *c, double t, double *y)
+{
+    contact_set *s = &c->set;
+    contact_instant now = {t, y, y + scene_velocities(&s->scene), NULL, DEM_OK};
+    bool any = false;
+    for (dem_index g = 0; g < s->forces.n_groups; g++) {
+        if (!has_opened(s, g, &now)) continue;
+        s->straightened = fmax(s->straightened, impact_group_project(s, g, &now));
+        impact_group_stop(s, g, &now);
+        any = true;
+    }
+    if (any) c->solved = NAN;
+    return any;
+}
+
+void automaton_end_step(automaton *c, const dense_output *p, const double *y)
+{
+    contact_set *s = &c->set;
+    c->broad_phase.travelled += c->way;
+    if (c->solved != p->t1 || p->end < p->t1) contact_set_solve_all(s, y, automaton_velocities(c, y));
+    contact_set_store_all(s);
+    broad_phase_update(&c->broad_phase, s, y, automaton_velocities(c, y));
+}

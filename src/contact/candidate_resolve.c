@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which reset of a site is due, in which order. */
+#include "contact/candidate_resolve.h"
+
+#include "base/status.h"
+#include "contact/impact_group.h"
+#include "contact/impact_rest.h"
+#include "contact/impact_solve.h"
+
+/* Of the penetration tolerance: as deep counts as touching, so that near ties are taken together. */
+static const double touch_share = 0.99;
+
+/* ---- free sites ---- */
+
+/* A node deeper inside than an impact can be has passed round the free end that it is at; else something is wrong. */
+static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, double depth, const contact_instant *now)
+{
+    const vec2 x = vec2_at(now->x, c->list[k].node);
+    const segment *s = scene_segment(&c->scene, feature);
+    const double place = segment_place(s, x), tolerance = impact_target_depth(c, k, now);
+    const double margin = scene_margin(&c->scene) + tolerance;
+    const bool at_free_end = (s->before < 0 && fabs(place) <= fmax(margin, s->buried[0] + tolerance)) ||
+                             (s->after < 0 && fabs(place - s->length) <= fmax(margin, s->buried[1] + tolerance));
+    CHECK(at_free_end && c->list[k].behind[0] < 0, DEM_ERROR_CONTACT,
+          "node %lld at (%g, %g) m is %g m inside obstacle %lld at t = %.9g s", (long long)c->list[k].node, x.x, x.y,
+          depth, (long long)s->obstacle, now->t);
+    contact_set_pass_behind(c, k, s->obstacle);
+    return DEM_OK;
+}
+
+/* A node that touches: what it strikes; right on an apex it is the side that comes down on it. */
+static dem_status touch_node(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
+{
+    dem_index at;
+    const impact_target with =
+        gap->distance >= -impact_target_depth(c, k, now) ? impact_target_of_node(c, k, now) : (impact_target){0};
+    if (with.n == 0) return go_behind(c, k, gap->feature, -gap->distance, now);
+    const dem_index side = with.n == 1 ? impact_target_edge(c, k, now, &at) : -1;
+    return side >= 0 ? impact_solve(c, side, (impact_target){1, {at}}, now) : impact_solve(c, k, with, now);
+}
+
+/* An edge that touches a vertex strikes it. */
+static dem_status touch_edge(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
+{
+    const contact_candidate *candidate = &c->list[k];
+    const vec2 ab = vec2_sub(vec2_at(now->x, candidate->other), vec2_at(now->x, candidate->node));
+    const segment *s = scene_segment(&c->scene, contact_point_segment(&c->scene, candidate, gap->feature));
+    CHECK(gap->distance >= -1e-3 * vec2_norm(ab), DEM_ERROR_CONTACT,
+          "the vertex at (%g, %g) m of obstacle %lld is %g m inside the body, behind the edge from node %lld to %lld, "
+          "at t = %.9g s",
+          s->end.x, s->end.y, (long long)s->obstacle, -gap->distance, (long long)candidate->node,
+          (long long)candidate->other, now->t);
+    return impact_solve(c, k, (impact_target){1, {gap->feature}}, now);
+}
+
+dem_status candidate_resolve_touch(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
+{
+    return candidate_is_edge(&c->list[k]) ? touch_edge(c, k, gap, now) : touch_node(c, k, gap, now);
+}
+
+static dem_status settle_free(contact_set *c, dem_index k, contact_instant *now, bool *changed)
+{
+    const candidate_positions spot = candidate_place(&c->list[k], now->x);
+    const contact_gap gap = candidate_gap(&c->scene, &c->list[k], &spot);
+    if (gap.distance > -touch_share * c->scene.rule.penetration_tolerance) return DEM_OK;
+    *changed = true;
+    return candidate_resolve_touch(c, k, &gap, now);
+}
+
+/* ---- closed sites ---- */
+
+static dem_status enter(contact_set *c, dem_index k, dem_index feature, dem_event_kind kind, contact_instant *now)
+{
+    const dem_event event = contact_set_event(c, k, feature, kind, now);
+    ledger_enter(&c->ledger, &event, now);
+    return DEM_OK;
+}
+
+static dem_status release(contact_set *c, dem_index k, int q, contact_instant *now)
+{
+    const dem_index feature = c->list[k].closed[q].feature;
+    TRY(contact_set_open(c, k, q));
+    return enter(c, k, feature, DEM_EVENT_RELEASE, now);
+}
+
+/* A node that slides past the end of its segment falls free, glides on, or runs into the next segment. */
+static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact_instant *now)
+{
+    contact_candidate *candidate = &c->list[k];
+    impact_target next = {.n = 1};
+    const dem_index here = candidate->closed[0].feature;
+    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, here, backwards, &next.feature[0]);
+    TRY(enter(c, k, here, DEM_EVENT_PASS, now));
+    if (bend == OBSTACLE_CONCAVE) return impact_solve(c, k, (impact_target){2, {next.feature[0], here}}, now);
+    if (bend != OBSTACLE_STRAIGHT) return release(c, k, 0, now);
+    const segment *s = scene_segment(&c->scene, next.feature[0]);
+    const vec2 v = vec2_at(now->v, candidate->node);
+    candidate->closed[0].feature = next.feature[0];
+    contact_set_move(c, candidate->node, vec2_scale(-segment_height(s, vec2_at(now->x, candidate->node)), s->normal),
+                     now->x);
+    vec2_put(now->v, candidate->node, vec2_along(v, -vec2_dot(v, s->normal), s->normal));
+    return DEM_OK;
+}
+
+/* The edge that goes on behind the end of edge k, and could take over its vertex; -1: none. */
+static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, dem_index feature)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index own = k - c->scene.model->n_contact_nodes, beyond = backwards ? s->previous[own] : s->next[own];
+    if (beyond < 0) return -1;
+    const contact_candidate *edge = &c->list[contact_set_of_edge(c, beyond)];
+    const bool taken = edge->n_closed == 2 || (edge->n_closed == 1 && edge->closed[0].feature == feature);
+    return taken ? -1 : contact_set_of_edge(c, beyond);
+}
+
+/* A vertex that has come to the end of an edge: its node is put there, and the next edge takes over. The vertex
+ * strikes that if the body bends in there, and comes to rest in the notch if it would not get far out of it; it glides
+ * on, or leaves if the body bends away faster than a hop that counts. */
+static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, contact_instant *now)
+{
+    const dem_index node = backwards ? c->list[k].node : c->list[k].other, feature = c->list[k].closed[q].feature;
+    const dem_index next = edge_beyond(c, k, backwards, feature);
+    TRY(enter(c, k, feature, DEM_EVENT_PASS, now));
+    if (next < 0) return release(c, k, q, now);
+    const vec2 at = c->scene.model->obstacles.vertices[feature].at;
+    contact_set_move(c, node, vec2_sub(at, vec2_at(now->x, node)), now->x);
+    if (impact_rest_in_notch(c, k, next, now)) return impact_solve(c, next, (impact_target){1, {feature}}, now);
+    TRY(release(c, k, q, now));
+    return impact_solve(c, next, (impact_target){1, {feature}}, now);
+}
+
+/* A sliding contact that has turned back comes to rest; if it does not stick there it slides the other way. */
+static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
+{
+    contact_point *point = &c->list[k].closed[q];
+    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+    point->slide = 0;
+    point->place = f.place;
+    impact_group_stop(c, c->forces.group[k], now);
+    contact_set_solve_forces(c, k, now->x, now->v);
+    const contact_force force = {point->force, point->friction};
+    if (candidate_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0)
+        point->slide = force.tangent > 0.0 ? -1 : 1;
+    return enter(c, k, point->feature, DEM_EVENT_STICK, now);
+}
+
+static dem_status begin_to_slide(contact_set *c, dem_index k, int q, contact_instant *now)
+{
+    contact_point *point = &c->list[k].closed[q];
+    point->slide = point->friction > 0.0 ? -1 : 1; /* against what friction holds */
+    return enter(c, k, point->feature, DEM_EVENT_SLIP, now);
+}
+
+/* Closed contact q: release comes first, then stick and slip, then the end of the segment or edge. */
+static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_instant *now, bool *changed)
+{
+    const contact_candidate *candidate = &c->list[k];
+    const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
+    const contact_force force = {candidate->closed[q].force, candidate->closed[q].friction};
+    *changed = true;
+    if (force.normal <= 0.0) return release(c, k, q, now);
+    const bool held = candidate->closed[q].held;
+    if (!held && candidate_turns(&c->scene, candidate, q, &f, now->v)) return stop(c, k, q, now);
+    if (!held && candidate_grip(&c->scene, candidate, q, &f, &force, now->x) < 0.0) return begin_to_slide(c, k, q, now);
+    const int passed = held ? 0 : candidate_end_passed(&c->scene, candidate, q, now->x, now->v);
+    if (passed != 0 && candidate_is_edge(candidate)) return pass_edge(c, k, q, passed < 0, now);
+    if (passed != 0) return pass_node(c, k, passed < 0, now);
+    *changed = false;
+    return DEM_OK;
+}
+
+/* Something else in the way of a site with one closed contact. */
+static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now, bool *changed)
+{
+    const contact_candidate *candidate = &c->list[k];
+    const candidate_positions spot = candidate_place(candidate, now->x);
+    const contact_gap gap = candidate_gap(&c->scene, candidate, &spot);
+    if (gap.distance > -touch_share * c->scene.rule.penetration_tolerance) return DEM_OK;
+    *changed = true;
+    if (candidate_is_edge(candidate)) return touch_edge(c, k, &gap, now);
+    const double depth = impact_target_depth(c, k, now);
+    if (gap.distance < -depth) return go_behind(c, k, gap.feature, -gap.distance, now);
+    const dem_index here = candidate->closed[0].feature;
+    const bool both = impact_target_is_corner(c, gap.feature, here, vec2_at(now->x, candidate->node), depth);
+    return impact_solve(c, k, (impact_target){both ? 2 : 1, {gap.feature, here}}, now);
+}
+
+static dem_status settle_closed(contact_set *c, dem_index k, contact_instant *now, bool *changed)
+{
+    contact_set_solve_forces(c, k, now->x, now->v);
+    for (int q = 0; q < c->list[k].n_closed && !*changed; q++) TRY(settle_contact(c, k, q, now, changed));
+    if (*changed || c->list[k].n_closed == 2) return DEM_OK;
+    return settle_other(c, k, now, changed);
+}
+
+dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, bool *changed)
+{
+    bool here = false;
+    contact_candidate *candidate = &c->list[k];
+    if (candidate->inactive && candidate->n_closed == 0) return DEM_OK;
+    TRY(candidate->n_closed == 0 ? settle_free(c, k, now, &here) : settle_closed(c, k, now, &here));
+    if (!here) return DEM_OK;
+    *changed = true;
+    if (now->t - candidate->storm_start > c->scene.rule.storm_time) {
+        candidate->storm_start = now->t;
+        candidate->storm = 0;
+    }
+    CHECK(++candidate->storm <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
+          "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s",
+          candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node,
+          now->x[2 * candidate->node], now->x[2 * candidate->node + 1], (long long)c->scene.rule.max_impacts,
+          c->scene.rule.storm_time, now->t);
+    return DEM_OK;
+}

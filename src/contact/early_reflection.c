@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Free sites that would touch within the window of an impact. */
+#include "contact/early_reflection.h"
+
+#include "contact/impact_rest.h"
+
+void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
+{
+    contact_candidate *candidate = &c->list[k];
+    contact_candidate alone = *candidate;
+    vec2 kick;
+    alone.closed[0] = (contact_point){.feature = gap->feature, .slide = 1};
+    contact_frame f = contact_frame_at(&c->scene, &alone, 0, now->x, now->v);
+    f.normal = gap->normal;
+    const impact_surface wall = impact_rest_surface(c, k, gap->feature, f.normal);
+    const vec2 after = impact_law_rebound(&wall, 1, f.velocity, &kick), impulse = vec2_scale(1.0 / f.mobility, kick);
+    dem_event event = contact_set_event(c, k, gap->feature, DEM_EVENT_IMPACT, now);
+    contact_set_push(c, &f, impulse, now->v);
+    event.normal[0] = f.normal.x;
+    event.normal[1] = f.normal.y;
+    event.after[0] = after.x;
+    event.after[1] = after.y;
+    c->ledger.counts.early++;
+    contact_set_add_impulse(c, event.obstacle, impulse, f.normal);
+    contact_set_enter_impact(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
+}
+
+/* Whether a site may come to touch within the window: what it is known to be clear of may be further than it gets. */
+static bool may_arrive(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
+                       const candidate_positions *v)
+{
+    const double way = c->scene.rule.window * fmax(vec2_norm(v->a), vec2_norm(v->b));
+    return candidate->clear - candidate_moved(candidate, x) < way;
+}
+
+/* Whether a site comes to touch within the window if it goes on straight: near a vertex it may pass by. */
+static bool arrives(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
+                    const candidate_positions *v)
+{
+    const double window = c->scene.rule.window;
+    const candidate_positions ahead = {vec2_along(x->a, window, v->a), vec2_along(x->b, window, v->b),
+                                       vec2_along(x->previous, window, v->previous),
+                                       vec2_along(x->next, window, v->next)};
+    return candidate_gap(&c->scene, candidate, &ahead).distance < -c->scene.rule.penetration_tolerance;
+}
+
+void early_reflection(contact_set *c, contact_instant *now)
+{
+    for (dem_index k = 0; k < c->n; k++) {
+        contact_candidate candidate = c->list[k];
+        const candidate_positions spot = candidate_place(&candidate, now->x), v = candidate_place(&candidate, now->v);
+        if (candidate.n_closed > 0 || contact_set_coupled(c, k) || !may_arrive(c, &candidate, &spot, &v)) continue;
+        candidate_forget_clearance(&candidate); /* its true gap */
+        const contact_gap gap = candidate_gap(&c->scene, &candidate, &spot);
+        if (gap.feature < 0) continue;
+        const vec2 at = vec2_add(vec2_scale(1.0 - gap.place, v.a), vec2_scale(gap.place, v.b));
+        const double speed = -vec2_dot(at, gap.normal);
+        if (speed > 0.0 && gap.distance + c->scene.rule.penetration_tolerance < speed * c->scene.rule.window &&
+            arrives(c, &candidate, &spot, &v))
+            early_reflection_of(c, k, &gap, now);
+    }
+}

@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The impact of a group of contacts that share nodes: they strike one another in turn. */
+#include "contact/impact_group.h"
+
+#include "base/status.h"
+#include "contact/impact_rest.h"
+
+/* Sweeps over a group of contacts that strike one another in turn; after half of them they do so without rebound. */
+enum { most_sweeps = 200 };
+
+static const double group_noise = 1e-11; /* of the speeds at hand: what is left to the closing of a group */
+
+double impact_group_project(contact_set *c, dem_index group, contact_instant *now)
+{
+    contact_forces *r = &c->forces;
+    double furthest = 0.0;
+    const double *shift = contact_forces_shift(r, group, now->x, now->v);
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_candidate *candidate = &c->list[r->members[p]];
+        const dem_index nodes[2] = {candidate->node, candidate->other};
+        for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
+            furthest = fmax(furthest, vec2_norm(vec2_at(shift, nodes[e])));
+            contact_set_move(c, nodes[e], vec2_at(shift, nodes[e]), now->x);
+            vec2_put(r->a, nodes[e], (vec2){0.0, 0.0}); /* an edge's node may come again */
+        }
+    }
+    return furthest;
+}
+
+/* Notes where the contacts of the group start from; returns their largest speed. */
+static double prepare(contact_set *c, dem_index group, const contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    double scale = 0.0;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        contact_candidate *candidate = &c->list[r->members[p]];
+        candidate->involved = true;
+        candidate->n_involved = candidate->n_closed;
+        for (int q = 0; q < candidate->n_closed; q++) {
+            const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
+            contact_point *point = &candidate->closed[q];
+            point->before = f.velocity;
+            point->impulse = (vec2){0.0, 0.0};
+            point->energy = 0.0;
+            point->opens = point->held = point->struck = point->plastic = false;
+            scale = fmax(scale, vec2_norm(f.velocity));
+        }
+    }
+    return scale;
+}
+
+/* One contact of the group by itself: whether it strikes. */
+static bool strike(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
+{
+    contact_point *point = &c->list[k].closed[q];
+    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+    vec2 kick;
+    if (vec2_dot(f.velocity, f.normal) >= -tolerance) return false;
+    impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
+    if (plastic || point->plastic) wall.restitution = 0.0;
+    const vec2 after = impact_law_rebound(&wall, 1, f.velocity, &kick);
+    const vec2 impulse = vec2_scale(1.0 / f.mobility, kick);
+    contact_set_push(c, &f, impulse, now->v);
+    point->struck = true;
+    point->impulse = vec2_add(point->impulse, impulse);
+    point->energy -= 0.5 * vec2_dot(impulse, vec2_add(f.velocity, after));
+    return true;
+}
+
+/* The contacts of a group strike in turn, those of site k first. Returns false if that has not come to an end. */
+static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    const dem_index group = r->group[k];
+    bool struck = true;
+    for (int q = 0; q < c->list[k].n_closed; q++) (void)strike(c, k, q, tolerance, false, now); /* it is the first */
+    for (int s = 0; s < most_sweeps && struck; s++) {
+        struck = false;
+        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+            for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
+                struck |= strike(c, r->members[p], q, tolerance, 2 * s >= most_sweeps, now);
+    }
+    return !struck;
+}
+
+/* Which contacts of the group last, and how they slide. */
+static void judge(contact_set *c, dem_index group, double tolerance, const contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    const bool shared = r->row[group + 1] - r->row[group] > 1;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const dem_index k = r->members[p];
+        for (int q = 0; q < c->list[k].n_closed; q++) {
+            contact_point *point = &c->list[k].closed[q];
+            const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+            const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
+            double back = f.turning;
+            for (int e = 0; e < f.n; e++)
+                back -= f.weight[e] * vec2_dot(f.normal, forces_acceleration(c->scene.model, &c->scene.rule.load,
+                                                                             f.node[e], now->x, now->v));
+            const impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
+            const double rest = impact_rest_speed(c, vec2_at(now->x, f.node[0]), back, &wall, shared);
+            point->opens = away > (point->fresh ? rest : fmax(rest, tolerance));
+            point->rests = rest > 0.0 && away <= rest;
+            const int sign = impact_rest_slide(c, k, point->feature, fabs(speed) <= tolerance ? 0.0 : speed);
+            if (point->fresh || point->slide != 0) point->place = fmin(fmax(f.place, 0.0), 1.0);
+            point->slide = sign;
+        }
+    }
+}
+
+/* If contacts last that have rebounded, takes all impulses back, to be given again with those plastic: what stays has
+ * not rebounded, and friction goes with the impulse given. */
+static bool take_back(contact_set *c, dem_index group, contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    bool any = false;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
+            contact_point *point = &c->list[r->members[p]].closed[q];
+            point->plastic = point->struck && point->rests;
+            any |= point->plastic;
+        }
+    for (dem_index p = r->row[group]; p < r->row[group + 1] && any; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
+            contact_point *point = &c->list[r->members[p]].closed[q];
+            const contact_frame f = contact_frame_at(&c->scene, &c->list[r->members[p]], q, now->x, now->v);
+            contact_set_push(c, &f, vec2_scale(-1.0, point->impulse), now->v);
+            point->impulse = (vec2){0.0, 0.0};
+            point->energy = 0.0;
+            point->struck = false;
+        }
+    return any;
+}
+
+/* What still strikes after all sweeps is held for now: it stops exactly with the others, and opens if nothing
+ * presses. */
+static void keep_struck(contact_set *c, dem_index group)
+{
+    const contact_forces *r = &c->forces;
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
+        for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
+            if (c->list[r->members[p]].closed[q].struck) c->list[r->members[p]].closed[q].opens = false;
+}
+
+/* Takes the contacts that open out of the closed ones, but keeps them behind these. */
+static void part(contact_candidate *candidate)
+{
+    candidate_forget_clearance(candidate);
+    if (candidate->n_closed == 2 && candidate->closed[0].opens && !candidate->closed[1].opens) {
+        const contact_point first = candidate->closed[0];
+        candidate->closed[0] = candidate->closed[1];
+        candidate->closed[1] = first;
+    }
+    while (candidate->n_closed > 0 && candidate->closed[candidate->n_closed - 1].opens) candidate->n_closed--;
+}
+
+void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    c->ledger.impact += contact_set_stop(c, group, now->x, now->v);
+    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
+        const contact_candidate *candidate = &c->list[r->members[p]];
+        for (int q = 0; q < candidate->n_closed; q++) {
+            const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
+            const dem_obstacle *on = contact_point_obstacle(&c->scene, candidate, candidate->closed[q].feature);
+            contact_set_add_impulse(c, on - c->scene.model->obstacles.list, candidate->closed[q].stop, f.normal);
+        }
+    }
+}
+
+/* Stops the groups that have a node in common with a site: what the integrator's error has left them of velocity is no
+ * approach. */
+static void stop_around(contact_set *c, dem_index k, contact_instant *now)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
+    for (int e = 0; e < (candidate_is_edge(&c->list[k]) ? 2 : 1); e++) {
+        const dem_index own = c->of_node[nodes[e]];
+        if (own >= 0 && c->list[own].n_closed > 0) impact_group_stop(c, c->forces.group[own], now);
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+            const dem_index edge = contact_set_of_edge(c, s->at[p]);
+            if (c->list[edge].n_closed > 0) impact_group_stop(c, c->forces.group[edge], now);
+        }
+    }
+}
+
+/* What the sweeps have left of velocities that closed contacts do not allow goes. */
+static void settle_velocities(contact_set *c, contact_instant *now)
+{
+    const contact_forces *r = &c->forces;
+    for (dem_index g = 0; g < r->n_groups; g++) {
+        if (!c->list[r->members[r->row[g]]].involved) continue;
+        c->ledger.impact += contact_set_stop(c, g, now->x, now->v);
+        for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
+            contact_candidate *candidate = &c->list[r->members[p]];
+            for (int q = 0; q < candidate->n_closed; q++)
+                candidate->closed[q].impulse = vec2_add(candidate->closed[q].impulse, candidate->closed[q].stop);
+        }
+    }
+}
+
+/* Books and tells what the contacts of a site got. */
+static void tell_party(contact_set *c, dem_index k, contact_instant *now)
+{
+    contact_candidate *candidate = &c->list[k];
+    for (int q = 0; q < candidate->n_involved; q++) {
+        const contact_point *point = &candidate->closed[q];
+        const bool kept = q < candidate->n_closed;
+        dem_event event = contact_set_event(c, k, point->feature, DEM_EVENT_IMPACT, now);
+        c->ledger.counts.closings += point->fresh && kept;
+        contact_set_add_impulse(c, event.obstacle, point->impulse, vec2_at(event.normal, 0));
+        if (point->struck) {
+            event.before[0] = point->before.x;
+            event.before[1] = point->before.y;
+            contact_set_enter_impact(c, &event, point->energy, point->impulse, now);
+        }
+        if (kept == !point->fresh || (point->struck && kept)) continue;
+        event = contact_set_event(c, k, point->feature, kept ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
+        ledger_enter(&c->ledger, &event, now);
+    }
+    for (int q = 0; q < candidate->n_closed; q++) candidate->closed[q].fresh = false;
+    candidate->involved = false;
+    candidate->n_involved = 0;
+}
+
+/* Takes up the hit among the closed contacts of the site, in place of those it does not go with. */
+static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
+{
+    contact_candidate *candidate = &c->list[k];
+    for (int q = 0; q < candidate->n_closed; q++) candidate->closed[q].fresh = false;
+    if (!candidate_is_edge(candidate) && candidate->n_closed == 1 && hit.n == 1) candidate->n_closed = 0;
+    for (int h = 0; h < hit.n && candidate->n_closed < 2; h++) {
+        const bool known = candidate->n_closed == 1 && candidate->closed[0].feature == hit.feature[h];
+        if (!known) TRY(contact_set_close(c, k, (contact_point){.feature = hit.feature[h], .slide = 1, .fresh = true}));
+    }
+    return contact_set_regroup(c);
+}
+
+dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now)
+{
+    stop_around(c, k, now);
+    TRY(take_up(c, k, hit));
+    const dem_index group = c->forces.group[k];
+    (void)impact_group_project(c, c->forces.group[k], now);
+    const double tolerance = group_noise * prepare(c, group, now);
+    bool done = sweep(c, k, tolerance, now);
+    judge(c, group, tolerance, now);
+    if (take_back(c, group, now)) {
+        done = sweep(c, k, tolerance, now);
+        judge(c, group, tolerance, now);
+    }
+    if (!done) keep_struck(c, group);
+    for (dem_index m = 0; m < c->n; m++)
+        if (c->list[m].involved) part(&c->list[m]);
+    TRY(contact_set_regroup(c));
+    settle_velocities(c, now);
+    for (dem_index m = 0; m < c->n; m++)
+        if (c->list[m].involved) tell_party(c, m, now);
+    return DEM_OK;
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The impact of a node that shares no closed contact. */
+#include "contact/impact_node.h"
+
+#include <float.h>
+
+#include "base/status.h"
+#include "contact/impact_rest.h"
+
+static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
+
+/* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
+static vec2 way_back(const contact_set *c, impact_target hit, vec2 x)
+{
+    const segment *a = scene_segment(&c->scene, hit.feature[0]), *b = scene_segment(&c->scene, hit.feature[hit.n - 1]);
+    vec2 vertex;
+    if (hit.n == 2 && obstacles_share(&c->scene.model->obstacles, hit.feature[0], hit.feature[1], &vertex))
+        return vec2_sub(vertex, x);
+    const double h0 = segment_height(a, x), h1 = segment_height(b, x), place = segment_place(a, x);
+    if (hit.n == 2) /* n0.shift = -h0 and n1.shift = -h1 */
+        return vec2_scale(1.0 / vec2_cross(a->tangent, b->tangent),
+                          vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
+    const double beyond =
+        (place < 0.0 && a->before >= 0) ? place : (place > a->length && a->after >= 0 ? place - a->length : 0.0);
+    return vec2_along(vec2_scale(-h0, a->normal), -beyond, a->tangent);
+}
+
+/* Of the segments struck, those on which a node with velocity v stays. At rest it is all that push it; in a corner at
+ * rest means that it would not get further out than a hop before the corner has it back. Otherwise it is the one
+ * segment it moves along. */
+static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, vec2 v, const contact_instant *now)
+{
+    const dem_index i = c->list[k].node;
+    const vec2 a = forces_acceleration(c->scene.model, &c->scene.rule.load, i, now->x, now->v), at = vec2_at(now->x, i);
+    const double speed = vec2_norm(v);
+    impact_surface wall[2];
+    double push[2], away[2];
+    impact_target held = {0};
+    for (int q = 0; q < hit.n; q++) {
+        wall[q] = impact_rest_surface(c, k, hit.feature[q], scene_segment(&c->scene, hit.feature[q])->normal);
+        away[q] = vec2_dot(v, wall[q].normal);
+    }
+    const int holding = impact_law_holding(wall, hit.n, a, push);
+    const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
+    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= impact_rest_speed(c, at, back, &wall[0], false)))) {
+        for (int q = 0; q < hit.n; q++)
+            if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
+        return held;
+    }
+    const int along = hit.n == 2 && away[1] < away[0] ? 1 : 0;
+    if (away[along] <= impact_rest_speed(c, at, -vec2_dot(a, wall[along].normal), &wall[along], false))
+        held = (impact_target){1, {hit.feature[along]}};
+    return held;
+}
+
+static vec2 without_normals(const contact_set *c, impact_target held, vec2 v)
+{
+    if (held.n == 2) return (vec2){0.0, 0.0};
+    if (held.n == 0) return v;
+    const vec2 n = scene_segment(&c->scene, held.feature[0])->normal;
+    return vec2_along(v, -vec2_dot(v, n), n);
+}
+
+/* Leaves what is closed and closes what is held, quietly. */
+static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const contact_instant *now)
+{
+    contact_candidate *candidate = &c->list[k];
+    const bool stays_free = candidate->n_closed == 0 && held.n == 0;
+    candidate->n_closed = 0;
+    candidate_forget_clearance(candidate);
+    if (stays_free) return DEM_OK;
+    for (int q = 0; q < held.n; q++) {
+        const segment *s = scene_segment(&c->scene, held.feature[q]);
+        const double speed = vec2_dot(vec2_at(now->v, candidate->node), s->tangent);
+        candidate->closed[candidate->n_closed++] =
+            (contact_point){.feature = held.feature[q], .slide = impact_rest_slide(c, k, held.feature[q], speed)};
+    }
+    return contact_set_regroup(c);
+}
+
+/* Tells that contacts began or ceased to last where no impact tells it. */
+static void tell_change(contact_set *c, dem_index k, int was_closed, dem_index feature, bool struck,
+                        contact_instant *now)
+{
+    const int is_closed = c->list[k].n_closed;
+    c->ledger.counts.closings += is_closed > was_closed;
+    if (is_closed == was_closed || (struck && is_closed > was_closed)) return;
+    const dem_event event =
+        contact_set_event(c, k, feature, is_closed > was_closed ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
+    ledger_enter(&c->ledger, &event, now);
+}
+
+dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now)
+{
+    const dem_index i = c->list[k].node;
+    const int was_closed = c->list[k].n_closed;
+    const vec2 before = vec2_at(now->v, i);
+    impact_surface wall[2];
+    vec2 kick[2];
+    for (int q = 0; q < hit.n; q++)
+        wall[q] = impact_rest_surface(c, k, hit.feature[q], scene_segment(&c->scene, hit.feature[q])->normal);
+    contact_set_move(c, i, way_back(c, hit, vec2_at(now->x, i)), now->x);
+    vec2 after = impact_law_rebound(wall, hit.n, before, kick);
+    if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
+    const impact_target held = lasting(c, k, hit, after, now);
+    if (held.n > 0) { /* what stays has not rebounded, and friction goes with the impulse given */
+        for (int q = 0; q < hit.n; q++)
+            for (int h = 0; h < held.n; h++)
+                if (held.feature[h] == hit.feature[q]) wall[q].restitution = 0.0;
+        after = without_normals(c, held, impact_law_rebound(wall, hit.n, before, kick));
+    }
+    vec2_put(now->v, i, after);
+    TRY(hold_on(c, k, held, now));
+    const bool struck = after.x != before.x || after.y != before.y;
+    if (struck) {
+        const double m = c->scene.model->lattice.mass[i];
+        vec2 rest = vec2_sub(after, before); /* what rounding and closing add goes with the first that acts */
+        for (int q = 0; q < hit.n; q++) rest = vec2_sub(rest, kick[q]);
+        const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
+        kick[first] = vec2_add(kick[first], rest);
+        for (int q = 0; q < hit.n; q++)
+            contact_set_add_impulse(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]),
+                                    wall[q].normal);
+        dem_event event = contact_set_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
+        event.before[0] = before.x;
+        event.before[1] = before.y;
+        contact_set_enter_impact(c, &event, 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after)),
+                                 vec2_scale(m, vec2_sub(after, before)), now);
+    }
+    tell_change(c, k, was_closed, hit.feature[0], struck, now);
+    return DEM_OK;
+}

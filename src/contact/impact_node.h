@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The impact of a node that shares no closed contact. */
+#ifndef DEM_CONTACT_IMPACT_NODE_H
+#define DEM_CONTACT_IMPACT_NODE_H
+
+#include "contact/impact_target.h"
+
+/** A node by itself strikes: it is put back on the surface, rebounds, and the contacts that last are closed. One on a
+ *  segment that it does not strike again leaves it. */
+dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now);
+
+#endif

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What impacts of nodes and of groups have in common: the surface met, and what counts as rest on it. */
+#include "contact/impact_rest.h"
+
+#include <float.h>
+
+static const double noise = 64.0 * DBL_EPSILON; /* what rounding leaves, as a share */
+
+impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index feature, vec2 normal)
+{
+    const dem_obstacle *o = contact_point_obstacle(&c->scene, &c->list[k], feature);
+    return (impact_surface){normal, o->restitution, o->friction, o->friction_law};
+}
+
+int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, double speed)
+{
+    if (speed == 0.0 && contact_point_friction(&c->scene, &c->list[k], feature) > 0.0) return 0;
+    return speed < 0.0 ? -1 : 1;
+}
+
+/* Hops of this many penetration tolerances are kept up where one contact's impact opens another that shares a node, or
+ * the other side of a notch: each is taken a penetration tolerance deep. */
+static const double shared_skins = 8.0;
+
+double impact_rest_speed(const contact_set *c, vec2 x, double back, const impact_surface *on, bool shared)
+{
+    const contact_rule *rule = &c->scene.rule;
+    if (!(back > 0.0)) return -1.0;
+    const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
+    const double skins = fmax(shared ? shared_skins : 0.0, 2.0 * impact_law_kept_up(on));
+    const double height = fmax(fmax(rule->position_error, rounding), skins * rule->penetration_tolerance);
+    return fmax(rule->rest_speed, fmax(sqrt(2.0 * back * height), back * rule->window));
+}
+
+/* Unit normal of an edge, into the body. */
+static vec2 edge_normal(const contact_candidate *edge, const double *x)
+{
+    const vec2 way = vec2_sub(vec2_at(x, edge->other), vec2_at(x, edge->node));
+    return vec2_scale(1.0 / vec2_norm(way), (vec2){-way.y, way.x});
+}
+
+bool impact_rest_in_notch(const contact_set *c, dem_index edge, dem_index next, const contact_instant *now)
+{
+    const contact_candidate *here = &c->list[edge], *there = &c->list[next];
+    const dem_index node = here->node == there->other ? here->node : here->other, feature = here->closed[0].feature;
+    const vec2 a = forces_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
+    const impact_surface sides[2] = {impact_rest_surface(c, edge, feature, edge_normal(here, now->x)),
+                                     impact_rest_surface(c, edge, feature, edge_normal(there, now->x))};
+    double push_on[2];
+    vec2 kick;
+    if (impact_law_holding(sides, 2, a, push_on) != 3) return false;
+    const vec2 after = impact_law_rebound(&sides[1], 1, vec2_at(now->v, node), &kick);
+    const double speed = vec2_norm(after), back = speed > 0.0 ? -vec2_dot(a, after) / speed : 0.0;
+    return speed == 0.0 || speed <= impact_rest_speed(c, vec2_at(now->x, node), back, &sides[0], true);
+}

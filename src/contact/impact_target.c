@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a site that touches strikes. */
+#include "contact/impact_target.h"
+
+#include <float.h>
+
+double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now)
+{
+    const contact_candidate *candidate = &c->list[k];
+    const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
+    const double speed = vec2_norm(vec2_at(now->v, candidate->node));
+    const double other = candidate_is_edge(candidate) ? vec2_norm(vec2_at(now->v, candidate->other)) : 0.0;
+    return 2.0 * c->scene.rule.penetration_tolerance + c->straightened + located * fmax(speed, other);
+}
+
+/* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the
+ * one approached faster, on a tie the one that ends there. */
+static bool yields(const contact_set *c, dem_index s, dem_index to, vec2 v)
+{
+    dem_index after, before;
+    const obstacle_bend ahead = obstacles_bend(&c->scene.model->obstacles, s, false, &after);
+    const obstacle_bend behind = obstacles_bend(&c->scene.model->obstacles, s, true, &before);
+    const bool follows = before == to && behind != OBSTACLE_CONCAVE, leads = after == to && ahead != OBSTACLE_CONCAVE;
+    if (!follows && !leads) return false;
+    const double mine = vec2_dot(v, scene_segment(&c->scene, s)->normal),
+                 other = vec2_dot(v, scene_segment(&c->scene, to)->normal);
+    return mine > other || (mine == other && follows);
+}
+
+bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, vec2 x, double tolerance)
+{
+    vec2 vertex;
+    if (obstacles_share(&c->scene.model->obstacles, s, other, &vertex))
+        return vec2_norm(vec2_sub(x, vertex)) <= 4.0 * tolerance;
+    return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
+}
+
+static double approach(const contact_set *c, dem_index s, vec2 v)
+{
+    return -vec2_dot(v, scene_segment(&c->scene, s)->normal);
+}
+
+impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now)
+{
+    enum { capacity = 8 };
+    dem_index hits[capacity];
+    impact_target out = {0};
+    const contact_candidate *candidate = &c->list[k];
+    const vec2 x = vec2_at(now->x, candidate->node), v = vec2_at(now->v, candidate->node);
+    const obstacle_touch point = {impact_target_depth(c, k, now), scene_margin(&c->scene), candidate->behind[0]};
+    const int n = obstacles_touching(&c->scene.model->obstacles, x, &point, hits, capacity);
+    for (int h = 0; h < n; h++) {
+        bool meets = true;
+        for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[h], hits[q], v);
+        if (!meets) continue;
+        const int place = out.n > 0 && approach(c, hits[h], v) <= approach(c, out.feature[0], v) ? 1 : 0;
+        if (place == 1 && out.n == 2 && approach(c, hits[h], v) <= approach(c, out.feature[1], v)) continue;
+        if (place == 0) out.feature[1] = out.feature[0];
+        out.feature[place] = hits[h];
+        out.n = out.n < 2 ? out.n + 1 : 2;
+    }
+    if (out.n == 2 && !impact_target_is_corner(c, out.feature[0], out.feature[1], x, point.tolerance)) out.n = 1;
+    return out;
+}
+
+/* Whether a direction lies between the normals of a convex vertex. */
+static bool in_cone(const contact_set *c, const obstacle_vertex *at, vec2 n)
+{
+    return vec2_cross(scene_segment(&c->scene, at->before)->normal, n) <= 0.0 &&
+           vec2_cross(n, scene_segment(&c->scene, at->after)->normal) <= 0.0;
+}
+
+dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index node = c->list[k].node;
+    const double tolerance = impact_target_depth(c, k, now);
+    double fastest = 0.0;
+    dem_index best = -1;
+    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+        const dem_index e = contact_set_of_edge(c, s->at[p]);
+        const candidate_positions spot = candidate_place(&c->list[e], now->x);
+        const contact_gap gap = candidate_gap(&c->scene, &c->list[e], &spot);
+        if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
+        const obstacle_vertex *v = &c->scene.model->obstacles.vertices[gap.feature];
+        if (vec2_norm(vec2_sub(v->at, vec2_at(now->x, node))) > 2.0 * tolerance || !in_cone(c, v, gap.normal)) continue;
+        const double speed = -vec2_dot(vec2_at(now->v, node), gap.normal);
+        if (speed <= fastest) continue;
+        fastest = speed;
+        best = e;
+        *vertex = gap.feature;
+    }
+    return best;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a site that touches strikes. */
+#ifndef DEM_CONTACT_IMPACT_TARGET_H
+#define DEM_CONTACT_IMPACT_TARGET_H
+
+#include "contact/contact_set.h"
+
+/** The one or two features that a site strikes: segments, the one approached faster first, or a vertex. */
+typedef struct impact_target {
+    int n;
+    dem_index feature[2];
+} impact_target;
+
+/** How deep a site can be at an impact, m: twice the penetration tolerance, how far it moves in ten times the time to
+ *  which events are located, and how far it may have been moved to straighten a contact beside it. */
+double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now);
+
+/** Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:
+ *  neighbours, which bend up here, form one at their vertex. */
+bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, vec2 x, double tolerance);
+
+/** What a touching node meets: the segment approached fastest, and a second one that forms a corner with it. */
+impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now);
+
+/** The edge at a node whose side a vertex meets where the node is, and the vertex: when a flat side comes down with a
+ *  node right on an apex, the side's normal counts. Returns -1 where there is none. */
+dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex);
+
+#endif

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* impact_node.c: impacts of nodes by themselves. Numbers are worked out by hand; tolerances of
+ * 1e-15 to 1e-12 are rounding unless said otherwise. */
+#include "unit/impacts.h"
+
+/* ---- a node by itself ---- */
+
+/* eta = 1/2, mu = 1/4: 4 m/s down give 2 * 6 N s, of which a quarter takes 1.5 m/s of the 3 along, or all of 1. */
+static void coulomb_friction_takes_at_most_its_share_of_the_normal_impulse(void **state)
+{
+    const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
+    const double u[4] = {3.0, -3.0, 1.0, 1.5}, after[4] = {1.5, -1.5, 0.0, 0.0};
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        scene s;
+        open_node(&s, &rough, 1, u[k], -4.0);
+        hit(&s, 0, 1, 0, 0);
+        scene_check(&s, 0, 0.25, 0.0, after[k], 2.0);
+        assert_int_equal(s.n_events, 1);
+        assert_int_equal(s.events[0].kind, DEM_EVENT_IMPACT);
+        assert_close(s.events[0].impulse[0], 2.0 * (after[k] - u[k]), 1e-15);
+        assert_close(s.events[0].impulse[1], 12.0, 1e-15);
+        assert_close(s.events[0].energy, u[k] * u[k] + 16.0 - after[k] * after[k] - 4.0, 1e-14);
+        assert_close(s.c.set.ledger.friction_impulse[0], 2.0 * (after[k] - u[k]), 1e-15);
+        assert_close(s.c.set.ledger.friction_impulse[1], 0.0, 1e-15);
+        assert_close(s.c.set.ledger.impact, s.events[0].energy, 0.0);
+        scene_close(&s);
+    }
+}
+
+/* mu = 1/4 leaves 3 - 1 of 3 m/s when 4 m/s end in it, and nothing of 0.5. */
+static void a_plastic_impact_closes_a_contact_that_slides_or_sticks(void **state)
+{
+    const dem_obstacle rough = obstacle(2, floor_points, 0.0, 0.25);
+    const double u[3] = {3.0, -3.0, 0.5}, after[3] = {2.0, -2.0, 0.0};
+    const int sign[3] = {1, -1, 0};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        scene s;
+        open_node(&s, &rough, 1, u[k], -4.0);
+        hit(&s, 0, 1, 0, 0);
+        scene_check(&s, 0, 0.25, 0.0, after[k], 0.0);
+        assert_int_equal(s.c.set.list[0].n_closed, 1);
+        assert_int_equal(s.c.set.list[0].closed[0].slide, sign[k]);
+        assert_int_equal(s.c.set.ledger.counts.closings, 1);
+        assert_int_equal(s.n_events, 1);
+        assert_int_equal(s.events[0].state, sign[k] == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
+        scene_close(&s);
+    }
+}
+
+/* A rebound of 2 m/s that counts as rest is none: the floor gives 2 * 4 N s, and friction a quarter of that. */
+static void what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given(void **state)
+{
+    const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
+    scene s;
+    (void)state;
+    open_node(&s, &rough, 1, 3.0, -4.0);
+    s.c.set.scene.rule.rest_speed = 10.0;
+    hit(&s, 0, 1, 0, 0);
+    scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    check_vec(vec2_at(s.c.set.ledger.impulse, 0), -2.0, 8.0, 1e-14);
+    scene_close(&s);
+}
+
+/* A window of 1 ms takes hops of up to 2 ms for rest, which start with g times that. A smaller speed of rest does not
+ * change that. */
+static void a_hop_of_less_than_twice_the_window_is_rest(void **state)
+{
+    const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        const bool rests = k % 2 == 0;
+        scene s;
+        open_node(&s, &smooth, 1, 0.0, rests ? -0.0198 : -0.0202);
+        s.c.set.scene.rule.window = 1e-3;
+        s.c.set.scene.rule.rest_speed = k < 2 ? 0.0 : 1e-3;
+        hit(&s, 0, 1, 0, 0);
+        scene_check(&s, 0, 0.25, 0.0, 0.0, rests ? 0.0 : 0.0101);
+        assert_int_equal(s.c.set.list[0].n_closed, rests);
+        scene_close(&s);
+    }
+}
+
+/* At rest on the floor nothing is struck: the contact closes without an impact. */
+static void a_node_that_is_laid_down_closes_without_an_impact(void **state)
+{
+    const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
+    scene s;
+    (void)state;
+    open_node(&s, &smooth, 1, 2.0, 0.0);
+    hit(&s, 0, 1, 0, 0);
+    scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
+    assert_int_equal(s.n_events, 1);
+    assert_int_equal(s.events[0].kind, DEM_EVENT_CLOSE);
+    assert_int_equal(s.events[0].state, DEM_CONTACT_SLIP);
+    assert_int_equal(s.c.set.ledger.counts.impacts, 0);
+    assert_int_equal(s.c.set.ledger.counts.closings, 1);
+    scene_close(&s);
+}
+
+/* Floor and wall, plastic: driven into both it is held; without a wind the wall does not press and the node stays on
+ * the floor alone. */
+static void a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it(void **state)
+{
+    const dem_obstacle corner[2] = {obstacle(2, floor_points, 0.0, 0.0), obstacle(2, wall_points, 0.0, 0.0)};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        open_node(&s, corner, 2, 3.0, -4.0);
+        s.c.set.scene.rule.load.gravity[0] = k == 0 ? 1.0 : 0.0;
+        scene_put(&s, 0, 2.0 + 0.5 * penetration_tolerance, -0.5 * penetration_tolerance, 3.0, -4.0);
+        hit(&s, 0, 2, 0, 1);
+        scene_check(&s, 0, 2.0, 0.0, 0.0, 0.0);
+        assert_int_equal(s.c.set.list[0].n_closed, k == 0 ? 2 : 1);
+        assert_int_equal(s.c.set.list[0].closed[0].held, k == 0);
+        assert_close(s.c.set.ledger.impulse[1], 8.0, 1e-15);
+        assert_close(s.c.set.ledger.impulse[2], -6.0, 1e-15);
+        scene_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coulomb_friction_takes_at_most_its_share_of_the_normal_impulse),
+        cmocka_unit_test(a_plastic_impact_closes_a_contact_that_slides_or_sticks),
+        cmocka_unit_test(what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given),
+        cmocka_unit_test(a_hop_of_less_than_twice_the_window_is_rest),
+        cmocka_unit_test(a_node_that_is_laid_down_closes_without_an_impact),
+        cmocka_unit_test(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
