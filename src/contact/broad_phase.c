@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "obstacle/point_gap.h"
 
 dem_status broad_phase_create(broad_phase *out, dem_index n_candidates)
 {

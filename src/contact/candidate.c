@@ -2,6 +2,9 @@
 /* Gaps and guards of one contact site. */
 #include "contact/candidate.h"
 
+#include "obstacle/point_gap.h"
+#include "obstacle/vertex_gap.h"
+
 /* ---- gaps ---- */
 
 candidate_positions candidate_place(const contact_candidate *candidate, const double *x)

@@ -2,6 +2,8 @@
 /* What a site that touches strikes. */
 #include "contact/impact_target.h"
 
+#include "obstacle/point_gap.h"
+
 #include <float.h>
 
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now)

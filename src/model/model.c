@@ -8,6 +8,8 @@
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
+#include "obstacle/obstacle_set.h"
+#include "obstacle/point_gap.h"
 
 /* ---- validation ---- */
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles of any points. What compiles has a distance everywhere: finite, with a unit normal, as a search through all
  * segments finds it, and of the sign of the side. */
-#include "obstacle/obstacle.h"
+#include "obstacle/obstacle_set.h"
+#include "obstacle/point_gap.h"
+#include "obstacle/vertex_gap.h"
 
 #include "bytes.h"
 #include "polygon.h"

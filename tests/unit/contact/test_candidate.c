@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* candidate.c: gaps and guards of one contact site in each of its states, and what is due. Numbers are worked out by
  * hand; tolerances of 1e-15 to 1e-13 are rounding. */
+#include "obstacle/point_gap.h"
 #include "unit/scene.h"
 
 static const double penetration_tolerance = 1e-3;

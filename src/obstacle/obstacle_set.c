@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Polylines compiled to segments with their trees, what each does behind others, and their convex vertices. */
+#include "obstacle/obstacle_set.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "obstacle/point_gap.h"
+#include "obstacle/polyline.h"
+
+static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
+{
+    const size_t size = 2 * (size_t)obstacle->n_points * sizeof(double);
+    double *points = malloc(size);
+    CHECK_MEMORY(points);
+    memcpy(points, obstacle->points, size);
+    *copy = *obstacle;
+    copy->points = points;
+    return DEM_OK;
+}
+
+static dem_status plant_tree(obstacle_set *set, dem_index o)
+{
+    const dem_index n = set->list[o].n_points - 1;
+    TRY(box_tree_create(&set->trees[o], n));
+    for (dem_index k = 0; k < n; k++) {
+        const box around = segment_cover(&set->segments[set->first[o] + k]);
+        box_tree_cover(&set->trees[o], k, &around);
+    }
+    return DEM_OK;
+}
+
+/* Whether the end meets the free end of another obstacle's segment, behind which it would go on: the length of that. */
+static double behind_free_end(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
+{
+    double length = 0.0;
+    for (dem_index k = 0; k < o->n_segments; k++) {
+        const segment *b = &o->segments[k];
+        if (b->obstacle == s->obstacle || vec2_dot(out, b->normal) >= 0.0) continue;
+        const double start = b->before < 0 ? vec2_norm(vec2_sub(b->start, end)) : INFINITY;
+        const double stop = b->after < 0 ? vec2_norm(vec2_sub(b->end, end)) : INFINITY;
+        if (fmin(start, stop) <= 1e-6 * s->length) length = fmax(length, b->length);
+    }
+    return length;
+}
+
+/* A wall that stands on another obstacle, or meets its free end in a corner, goes on behind it, so that nothing slips
+ * through the joint: how far, m, up to its own length. */
+static double buried_length(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
+{
+    const double touching = 1e-6 * s->length;
+    if (obstacles_gap(o, end, 0.0, s->obstacle, -1).distance > touching) return 0.0;
+    for (double length = s->length; length > touching; length *= 0.5)
+        if (obstacles_gap(o, vec2_along(end, length, out), 0.0, s->obstacle, -1).distance < 0.0) return length;
+    return fmin(s->length, behind_free_end(o, s, end, out));
+}
+
+static void bury_ends(obstacle_set *o)
+{
+    for (dem_index k = 0; k < o->n_segments && o->n > 1; k++) {
+        const segment *s = &o->segments[k];
+        const double before = s->before < 0 ? buried_length(o, s, s->start, vec2_scale(-1.0, s->tangent)) : 0.0;
+        const double after = s->after < 0 ? buried_length(o, s, s->end, s->tangent) : 0.0;
+        o->segments[k].buried[0] = before;
+        o->segments[k].buried[1] = after;
+        const box around = segment_cover(s);
+        box_tree_cover(&o->trees[s->obstacle], s->index, &around);
+    }
+}
+
+/* At most as many as segments. */
+static dem_status find_vertices(obstacle_set *o)
+{
+    o->vertices = malloc(((size_t)o->n_segments + 1) * sizeof *o->vertices);
+    CHECK_MEMORY(o->vertices);
+    for (dem_index k = 0; k < o->n_segments; k++) {
+        dem_index after;
+        if (obstacles_bend(o, k, false, &after) == OBSTACLE_CONVEX)
+            o->vertices[o->n_vertices++] = (obstacle_vertex){o->segments[k].end, k, after};
+    }
+    TRY(box_tree_create(&o->vertex_tree, o->n_vertices));
+    for (dem_index k = 0; k < o->n_vertices; k++) {
+        const box around = box_around(o->vertices[k].at, o->vertices[k].at, 0.0);
+        box_tree_cover(&o->vertex_tree, k, &around);
+    }
+    return DEM_OK;
+}
+
+static dem_status reserve(obstacle_set *o, dem_index n)
+{
+    o->list = calloc((size_t)n + 1, sizeof *o->list);
+    o->segments = malloc(((size_t)o->n_segments + 1) * sizeof *o->segments);
+    o->first = calloc((size_t)n + 1, sizeof *o->first);
+    o->trees = calloc((size_t)n + 1, sizeof *o->trees);
+    CHECK(o->list && o->segments && o->first && o->trees, DEM_ERROR_MEMORY, "out of memory for obstacles");
+    return DEM_OK;
+}
+
+static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
+{
+    const dem_index o = set->n;
+    TRY(copy_points(&set->list[o], obstacle));
+    set->n++;
+    polyline_compile(set, o);
+    return plant_tree(set, o);
+}
+
+/* All but what obstacles are to each other. */
+static dem_status compile_all(obstacle_set *o, const dem_obstacle *list, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++) {
+        TRY(polyline_check(&list[k], k));
+        o->n_segments += list[k].n_points - 1;
+    }
+    TRY(reserve(o, n));
+    for (dem_index k = 0; k < n; k++) TRY(append(o, &list[k]));
+    return DEM_OK;
+}
+
+dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
+{
+    obstacle_set o = {0};
+    dem_status status = compile_all(&o, list, n);
+    for (dem_index k = 0; k < n && status == DEM_OK; k++) status = polyline_check_crossings(&o, k);
+    if (status == DEM_OK) status = find_vertices(&o);
+    if (status == DEM_OK) bury_ends(&o);
+    if (status == DEM_OK)
+        *out = o;
+    else
+        obstacles_free(&o);
+    return status;
+}
+
+dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2])
+{
+    obstacle_set o = {0};
+    CHECK(obstacle != NULL && segments != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_check: %s is NULL",
+          obstacle ? "segments" : "obstacle");
+    segments[0] = segments[1] = -1;
+    dem_status status = compile_all(&o, obstacle, 1);
+    if (status == DEM_OK) status = polyline_check_crossings(&o, 0);
+    if (status == DEM_ERROR_MODEL && o.n == 1) (void)polyline_find_crossing(segments, &o, 0);
+    obstacles_free(&o);
+    return status;
+}
+
+void obstacles_free(obstacle_set *o)
+{
+    for (dem_index k = 0; k < o->n; k++) {
+        free((void *)(uintptr_t)o->list[k].points);
+        box_tree_free(&o->trees[k]);
+    }
+    free(o->list);
+    free(o->segments);
+    free(o->first);
+    free(o->trees);
+    free(o->vertices);
+    box_tree_free(&o->vertex_tree);
+    *o = (obstacle_set){0};
+}

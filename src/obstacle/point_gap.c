@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Queries take from a tree of boxes what may matter and judge it as a loop over all would: ties go to the lowest index
+ * whatever the order of visits. */
+#include "obstacle/point_gap.h"
+
+/* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
+static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
+{
+    return neighbour < 0 ? (vec2){0.0, 0.0} : vec2_add(s->normal, o->segments[neighbour].normal);
+}
+
+/* Whether a place along the segment is on it, free ends being longer by `margin`, or by what of it is buried. */
+static bool on_segment(const segment *s, double place, double tolerance, double margin)
+{
+    const double before = s->before < 0 ? fmax(margin, s->buried[0]) : 0.0;
+    const double after = s->after < 0 ? fmax(margin, s->buried[1]) : 0.0;
+    return place >= -(tolerance + before) && place <= s->length + tolerance + after;
+}
+
+/* Whether what is at this distance is nearer than what was nearest so far. */
+static bool nearer(double distance, dem_index k, const obstacle_gap *nearest)
+{
+    const double so_far = fabs(nearest->distance);
+    return distance < so_far || (distance == so_far && k < nearest->segment);
+}
+
+/* Takes segment k for the nearest if it is. */
+static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, double margin, obstacle_gap *nearest)
+{
+    const segment *s = &o->segments[k];
+    const double place = segment_place(s, x), height = segment_height(s, x);
+    if (on_segment(s, place, 0.0, margin)) {
+        if (nearer(fabs(height), k, nearest)) *nearest = (obstacle_gap){height, k, s->normal};
+        return;
+    }
+    const vec2 from = vec2_sub(x, place < 0.0 ? s->start : s->end);
+    const double distance = vec2_norm(from);
+    if (!nearer(distance, k, nearest)) return;
+    const vec2 mean = vertex_normal(o, s, place < 0.0 ? s->before : s->after);
+    const double signed_distance = vec2_dot(mean, from) >= 0.0 ? distance : -distance;
+    *nearest = (obstacle_gap){signed_distance, k, s->normal};
+    if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
+}
+
+/* Twice how far x is outside an interval, 0 in it: without a branch, which would be a coin's throw. */
+static inline double outside_twice(double low, double high, double x)
+{
+    const double below = low - x, above = x - high, most = below > above ? below : above;
+    return most + fabs(most);
+}
+
+/* Square of a distance below which nothing in the box is, even if it is longer by the margin. */
+static inline double clearance(const box *b, vec2 x, double margin)
+{
+    const double dx = outside_twice(b->low.x - margin, b->high.x + margin, x.x),
+                 dy = outside_twice(b->low.y - margin, b->high.y + margin, x.y);
+    return 0.25 * (1.0 - BOX_TREE_ROUNDING) * (dx * dx + dy * dy);
+}
+
+obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
+{
+    const box_tree *tree = &o->trees[obstacle];
+    const double longer = (1.0 + BOX_TREE_ROUNDING) * margin;
+    const dem_index first = o->first[obstacle];
+    obstacle_gap nearest = {INFINITY, -1, {0.0, 0.0}};
+    box_tree_walk walk;
+    for (dem_index node = box_tree_start(&walk, INFINITY); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, clearance(&children[0], x, longer), clearance(&children[1], x, longer));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            take_nearer(o, first + k, x, margin, &nearest);
+        walk.limit = nearest.distance * nearest.distance;
+        node = box_tree_back(&walk);
+    }
+    return nearest;
+}
+
+obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, double margin, dem_index without, dem_index without_too)
+{
+    obstacle_gap smallest = {INFINITY, -1, {0.0, 0.0}};
+    for (dem_index k = 0; k < o->n; k++) {
+        if (k == without || k == without_too) continue;
+        const obstacle_gap gap = obstacles_gap_of(o, x, margin, k);
+        if (gap.distance < smallest.distance) smallest = gap;
+    }
+    return smallest;
+}
+
+static bool touches(const segment *s, vec2 x, const obstacle_touch *point)
+{
+    return fabs(segment_height(s, x)) <= point->tolerance &&
+           on_segment(s, segment_place(s, x), point->tolerance, point->margin);
+}
+
+int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *point, dem_index *hits, int capacity)
+{
+    const box around = box_around(x, x, 2.0 * point->tolerance + point->margin); /* tolerance along and across */
+    int n = 0;
+    for (dem_index q = 0; q < o->n; q++) {
+        const box_tree *tree = &o->trees[q];
+        if (q == point->without) continue;
+        for (dem_index k = -1; n < capacity && (k = box_tree_seek(tree, k + 1, &around)) < tree->n;)
+            if (touches(&o->segments[o->first[q] + k], x, point)) hits[n++] = o->first[q] + k;
+    }
+    return n;
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One obstacle as a polyline: what it must be, and its segments. */
+#ifndef DEM_OBSTACLE_POLYLINE_H
+#define DEM_OBSTACLE_POLYLINE_H
+
+#include "obstacle/obstacle.h"
+
+/** DEM_ERROR_MODEL names obstacle o and what is wrong with it. */
+dem_status polyline_check(const dem_obstacle *obstacle, dem_index o);
+
+/** Fills the segments of obstacle o, from set->first[o] on, and set->first[o + 1]. */
+void polyline_compile(obstacle_set *set, dem_index o);
+
+/** Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told.
+ *  \param[out] pair  two that have more; the second follows the first if it goes back over it */
+bool polyline_find_crossing(dem_index pair[2], const obstacle_set *set, dem_index o);
+
+/** DEM_ERROR_MODEL names the segments of obstacle o that meet. */
+dem_status polyline_check_crossings(const obstacle_set *set, dem_index o);
+
+#endif

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Queries take from the tree of vertices what may matter and judge it as a loop over all would. */
+#include "obstacle/vertex_gap.h"
+
+#include <float.h>
+
+/* An edge with its directions: what is asked of every box and vertex. */
+typedef struct line {
+    const obstacle_edge *edge;
+    vec2 tangent, normal;
+    double length; /* m */
+} line;
+
+static bool out_of_question(const obstacle_set *o, const obstacle_edge *edge, dem_index k)
+{
+    const dem_index obstacle = o->segments[o->vertices[k].before].obstacle;
+    return k == edge->except[0] || k == edge->except[1] || obstacle == edge->without[0] || obstacle == edge->without[1];
+}
+
+/* Signed distance of x in front of the edge from p to q, if its foot is on it; else -infinity. */
+static double distance_beside(vec2 p, vec2 q, vec2 x)
+{
+    const vec2 way = vec2_sub(q, p), from = vec2_sub(x, p);
+    const double square = vec2_dot(way, way), along = vec2_dot(from, way);
+    return along >= 0.0 && along <= square && square > 0.0 ? -vec2_cross(way, from) / sqrt(square) : -INFINITY;
+}
+
+/* Whether x, behind the edge by -distance, belongs to the neighbour from p to q round a convex corner of the body: it
+ * is nearer to that, and outside the body in front of it, or inside with the obstacle's corner pointing against it. */
+static bool belongs(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
+{
+    const double beside = distance_beside(p, q, x);
+    return beside > distance && (beside >= 0.0 || vec2_cross(vec2_sub(q, p), mean) > 0.0);
+}
+
+static bool round_corner(const obstacle_edge *edge, vec2 x, vec2 mean, double distance)
+{
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const bool before = vec2_cross(vec2_sub(edge->a, edge->previous), way) > 0.0;
+    const bool after = vec2_cross(way, vec2_sub(edge->next, edge->b)) > 0.0;
+    return (before && belongs(edge->previous, edge->a, x, mean, distance)) ||
+           (after && belongs(edge->b, edge->next, x, mean, distance));
+}
+
+/* Whether x, behind the edge with its foot beyond an end of it, is in a notch of the body there: where the boundary
+ * turns in, and its foot is beyond that end of the neighbour, too. */
+static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
+{
+    const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
+               previous = vec2_sub(edge->a, edge->previous);
+    if (fabs(beyond) > edge->depth) return false;
+    if (beyond > 0.0) return vec2_cross(way, next) < 0.0 && vec2_dot(next, vec2_sub(x, edge->b)) < 0.0;
+    return vec2_cross(previous, way) < 0.0 && vec2_dot(previous, vec2_sub(x, edge->a)) > 0.0;
+}
+
+/* Takes vertex k if it is deeper than the deepest so far. */
+static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
+{
+    const obstacle_edge *edge = l->edge;
+    const obstacle_vertex *v = &o->vertices[k];
+    const double distance = vec2_dot(vec2_sub(edge->a, v->at), l->normal);
+    const double place = vec2_dot(vec2_sub(v->at, edge->a), l->tangent);
+    if (!(distance > -edge->depth && distance < edge->reach)) return;
+    const double beyond = place - fmin(fmax(place, 0.0), l->length);
+    if (fabs(beyond) > edge->tolerance && !(distance < 0.0 && in_notch(edge, v->at, beyond))) return;
+    if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
+    const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
+    if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
+    if (distance < 0.0 && round_corner(edge, v->at, mean, distance)) return;
+    *deepest = (obstacle_poke){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
+}
+
+/* A distance below which no vertex in the box is that could be taken; infinity if none could. */
+static double shallowest(const box *b, const line *l)
+{
+    const obstacle_edge *edge = l->edge;
+    const vec2 half = {0.5 * (b->high.x - b->low.x), 0.5 * (b->high.y - b->low.y)};
+    const vec2 centre = vec2_sub((vec2){0.5 * (b->low.x + b->high.x), 0.5 * (b->low.y + b->high.y)}, edge->a);
+    const double rounding = BOX_TREE_ROUNDING * (fabs(centre.x) + fabs(centre.y) + half.x + half.y);
+    const double tx = fabs(l->tangent.x), ty = fabs(l->tangent.y);
+    const double place = vec2_dot(centre, l->tangent), along = tx * half.x + ty * half.y + rounding;
+    const double distance = -vec2_dot(centre, l->normal), across = ty * half.x + tx * half.y + rounding;
+    const double longer = fmax(edge->tolerance, edge->depth);
+    const bool beside = place + along < -longer || place - along > l->length + longer;
+    return beside || distance + across < -edge->depth ? INFINITY : distance - across;
+}
+
+static line line_along(const obstacle_edge *edge)
+{
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const double length = vec2_norm(way);
+    const vec2 tangent = vec2_scale(1.0 / length, way);
+    return (line){edge, tangent, {-tangent.y, tangent.x}, length};
+}
+
+obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const box_tree *tree = &o->vertex_tree;
+    const line l = line_along(edge);
+    obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
+    box_tree_walk walk;
+    for (dem_index node = box_tree_start(&walk, fmin(edge->reach, DBL_MAX)); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, shallowest(&children[0], &l), shallowest(&children[1], &l));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            take_deeper(o, k, &l, &deepest);
+        if (deepest.vertex >= 0) walk.limit = deepest.distance;
+        node = box_tree_back(&walk);
+    }
+    return deepest;
+}
+
+/* A distance from the edge below which nothing in the box is. */
+static double apart_by(const box *b, const line *l)
+{
+    const vec2 half = {0.5 * (b->high.x - b->low.x), 0.5 * (b->high.y - b->low.y)};
+    const vec2 centre = vec2_sub((vec2){0.5 * (b->low.x + b->high.x), 0.5 * (b->low.y + b->high.y)}, l->edge->a);
+    const double rounding = BOX_TREE_ROUNDING * (fabs(centre.x) + fabs(centre.y) + half.x + half.y);
+    const double tx = fabs(l->tangent.x), ty = fabs(l->tangent.y), place = vec2_dot(centre, l->tangent);
+    const double beyond = fabs(place - 0.5 * l->length) - 0.5 * l->length - tx * half.x - ty * half.y;
+    const double across = fabs(vec2_dot(centre, l->normal)) - ty * half.x - tx * half.y;
+    return fmax(0.0, fmax(beyond, across) - rounding);
+}
+
+static double distance_of(const obstacle_set *o, dem_index k, const line *l)
+{
+    const vec2 from = vec2_sub(o->vertices[k].at, l->edge->a);
+    const double place = vec2_dot(from, l->tangent), beyond = place - fmin(fmax(place, 0.0), l->length);
+    return out_of_question(o, l->edge, k) ? INFINITY : hypot(beyond, vec2_dot(from, l->normal));
+}
+
+double obstacles_clearance(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const box_tree *tree = &o->vertex_tree;
+    const line l = line_along(edge);
+    box_tree_walk walk;
+    double nearest = edge->reach;
+    for (dem_index node = box_tree_start(&walk, nearest); node > 0;) {
+        if (!box_tree_is_leaf(tree, node)) {
+            const box *children = &tree->boxes[2 * node];
+            node = box_tree_down(&walk, node, apart_by(&children[0], &l), apart_by(&children[1], &l));
+            continue;
+        }
+        for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
+            nearest = fmin(nearest, distance_of(o, k, &l));
+        walk.limit = nearest;
+        node = box_tree_back(&walk);
+    }
+    return nearest;
+}

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* vertex_gap.c: which vertex enters through an edge. Tolerances of 1e-15 are the rounding of coordinates of order
+ * 1 m. */
+#include "obstacle/vertex_gap.h"
+
+#include "unit/obstacle/landscape.h"
+
+/* An edge of a body above: from the left to the right, its body on the left. */
+static obstacle_edge edge_between(double ax, double ay, double bx, double by)
+{
+    return (obstacle_edge){.previous = {ax, ay},
+                           .next = {bx, by},
+                           .a = {ax, ay},
+                           .b = {bx, by},
+                           .tolerance = 1e-9,
+                           .depth = 0.5,
+                           .reach = 0.5,
+                           .without = {-1, -1},
+                           .except = {-1, -1}};
+}
+
+static void assert_no_poke(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const obstacle_poke poke = obstacles_poke(o, edge);
+    assert_int_equal(poke.vertex, -1);
+    assert_true(poke.distance == (double)INFINITY);
+}
+
+static void a_vertex_pokes_an_edge_from_the_front_or_from_behind(void **state)
+{
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    obstacle_edge edge = edge_between(-1.0, 0.25, 3.0, 0.25);
+    obstacle_poke poke = obstacles_poke(&o, &edge);
+    assert_int_equal(poke.vertex, 0);
+    assert_close(poke.distance, 0.25, 1e-15);
+    assert_close(poke.place, 0.25, 1e-15);
+    assert_close(poke.normal.x, 0.0, 0.0);
+    assert_close(poke.normal.y, 1.0, 0.0);
+    edge = edge_between(-0.3, 0.2, 0.3, -0.6); /* falls 4 on 3: its normal is (0.8, 0.6) */
+    poke = obstacles_poke(&o, &edge);
+    assert_close(poke.distance, -0.12, 1e-15);
+    assert_close(poke.place, 0.34, 1e-15);
+    assert_close(poke.normal.x, 0.8, 1e-15);
+    assert_close(poke.normal.y, 0.6, 1e-15);
+    obstacles_free(&o);
+}
+
+static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_does_not_poke(void **state)
+{
+    (void)state;
+    obstacle_set o = compile(valley, 4, 0.0);
+    obstacle_edge edge = edge_between(0.125, 0.25, 1.0, 0.25);
+    assert_no_poke(&o, &edge);
+    edge.tolerance = 0.125;
+    assert_close(obstacles_poke(&o, &edge).place, 0.0, 0.0);
+    edge = edge_between(-1.0, 0.25, -0.125, 0.25);
+    assert_no_poke(&o, &edge);
+    edge.tolerance = 0.125;
+    assert_close(obstacles_poke(&o, &edge).place, 1.0, 0.0);
+    edge = edge_between(-1.0, 0.5, 1.0, 0.5);
+    assert_no_poke(&o, &edge); /* as far as the reach */
+    edge = edge_between(-1.0, -0.5, 1.0, -0.5);
+    assert_no_poke(&o, &edge); /* as far as the depth */
+    edge = edge_between(1.0, 0.25, -1.0, 0.25);
+    assert_no_poke(&o, &edge); /* the corner points out of this body */
+    edge = edge_between(-1.0, 0.25, -1.0, 0.25);
+    assert_no_poke(&o, &edge); /* no length */
+    obstacles_free(&o);
+    o = compile(block, 5, 0.0);
+    edge = edge_between(4.75, 1.25, 5.25, 0.75);
+    assert_no_poke(&o, &edge); /* the corner points along the edge */
+    obstacles_free(&o);
+}
+
+/* Teeth whose tips are at y = 0, but the fifth which is 0.125 m lower and the ninth 0.125 m higher. */
+static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void **state)
+{
+    enum { n = 25 };
+    double points[2 * n];
+    (void)state;
+    for (int k = 0; k < n; k++)
+        vec2_put(points, k, (vec2){k, k % 2 == 0 ? -1.0 : (k == 9 ? -0.125 : (k == 17 ? 0.125 : 0.0))});
+    obstacle_set o = compile(points, n, 0.0);
+    obstacle_edge edge = edge_between(0.0, 0.25, 24.0, 0.25);
+    assert_int_equal(o.n_vertices, 12);
+    assert_int_equal(obstacles_poke(&o, &edge).vertex, 8);
+    edge.except[1] = 8;
+    assert_int_equal(obstacles_poke(&o, &edge).vertex, 0);
+    edge.except[0] = 0;
+    assert_int_equal(obstacles_poke(&o, &edge).vertex, 1);
+    edge = edge_between(6.5, 0.25, 15.5, 0.25);
+    assert_int_equal(obstacles_poke(&o, &edge).vertex, 3);
+    edge = edge_between(6.5, -0.25, 15.5, -0.25);
+    assert_close(obstacles_poke(&o, &edge).distance, -0.25, 1e-15);
+    edge.without[1] = 0;
+    assert_no_poke(&o, &edge);
+    edge.without[0] = 0;
+    edge.without[1] = -1;
+    assert_no_poke(&o, &edge);
+    obstacles_free(&o);
+}
+
+/* Whether x, `distance` in front of an edge, is further in front of its neighbour pq, on which its foot is, where the
+ * boundary turns left from one to the other, and outside the body there or pointing into it. */
+static bool beside_neighbour(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
+{
+    const vec2 way = vec2_sub(q, p);
+    const double along = vec2_dot(vec2_sub(x, p), way), height = -vec2_cross(way, vec2_sub(x, p));
+    if (along < 0.0 || along > vec2_dot(way, way) || height / vec2_norm(way) <= distance) return false;
+    return height >= 0.0 || vec2_cross(way, mean) > 0.0;
+}
+
+static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
+{
+    const vec2 way = vec2_sub(edge->b, edge->a);
+    const double length = vec2_norm(way);
+    const vec2 tangent = vec2_scale(1.0 / length, way), normal = {-tangent.y, tangent.x};
+    obstacle_poke first = {(double)INFINITY, -1, 0.0, normal};
+    for (dem_index k = 0; k < o->n_vertices && length > 0.0; k++) {
+        const segment *before = &o->segments[o->vertices[k].before], *after = &o->segments[o->vertices[k].after];
+        const double distance = vec2_dot(vec2_sub(edge->a, o->vertices[k].at), normal);
+        const double place = vec2_dot(vec2_sub(o->vertices[k].at, edge->a), tangent);
+        if (k == edge->except[0] || k == edge->except[1]) continue;
+        if (before->obstacle == edge->without[0] || before->obstacle == edge->without[1]) continue;
+        if (distance <= -edge->depth || distance >= edge->reach || distance >= first.distance) continue;
+        const vec2 next = vec2_sub(edge->next, edge->b), previous = vec2_sub(edge->a, edge->previous);
+        const bool notch_b = vec2_cross(way, next) < 0.0 && place > length && place - length <= edge->depth &&
+                             distance < 0.0 && vec2_dot(next, vec2_sub(o->vertices[k].at, edge->b)) < 0.0;
+        const bool notch_a = vec2_cross(previous, way) < 0.0 && place < 0.0 && -place <= edge->depth &&
+                             distance < 0.0 && vec2_dot(previous, vec2_sub(o->vertices[k].at, edge->a)) > 0.0;
+        if ((place < -edge->tolerance && !notch_a) || (place > length + edge->tolerance && !notch_b)) continue;
+        if (vec2_dot(normal, vec2_add(before->normal, after->normal)) <= 0.0) continue;
+        const vec2 mean = vec2_add(before->normal, after->normal);
+        if (distance < 0.0 && vec2_cross(previous, way) > 0.0 &&
+            beside_neighbour(edge->previous, edge->a, o->vertices[k].at, mean, distance))
+            continue;
+        if (distance < 0.0 && vec2_cross(way, next) > 0.0 &&
+            beside_neighbour(edge->b, edge->next, o->vertices[k].at, mean, distance))
+            continue;
+        first = (obstacle_poke){distance, k, fmin(fmax(place / length, 0.0), 1.0), normal};
+    }
+    return first;
+}
+
+/* Edges between telling points: many pass exactly through vertices, end on their foot, or lie along segments. */
+static void the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit(void **state)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_pokes = 0;
+    (void)state;
+    for (int c = 0; c < 200; c++) {
+        landscape l = random_landscape(rng);
+        const double size = vec2_norm(l.axis);
+        for (int k = 0; k < 200; k++) {
+            const dem_index some = (dem_index)gsl_rng_uniform_int(rng, (unsigned long)l.set.n_vertices);
+            obstacle_edge edge = {.a = telling_point(rng, &l),
+                                  .b = telling_point(rng, &l),
+                                  .tolerance = k % 2 == 0 ? 0.0 : uniform(rng, 0.0, 0.2) * size,
+                                  .depth = k % 3 == 0 ? (double)INFINITY : uniform(rng, 0.0, 1.0) * size,
+                                  .reach = k % 5 == 0 ? (double)INFINITY : uniform(rng, 0.0, 1.0) * size,
+                                  .without = {k % 7 - 1, k % 11 - 1},
+                                  .except = {k % 4 == 0 ? some : -1, k % 4 == 1 ? some : -1}};
+            edge.previous = k % 2 == 0 ? edge.a : telling_point(rng, &l);
+            edge.next = k % 3 == 0 ? edge.b : telling_point(rng, &l);
+            const obstacle_poke poke = obstacles_poke(&l.set, &edge), expected = poke_by_loop(&l.set, &edge);
+            assert_int_equal(poke.vertex, expected.vertex);
+            assert_true(poke.distance == expected.distance && poke.place == expected.place);
+            n_pokes += poke.vertex >= 0;
+        }
+        obstacles_free(&l.set);
+    }
+    assert_true(n_pokes > 5000 && n_pokes < 35000);
+    gsl_rng_free(rng);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_vertex_pokes_an_edge_from_the_front_or_from_behind),
+        cmocka_unit_test(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_does_not_poke),
+        cmocka_unit_test(of_several_vertices_the_deepest_pokes_and_of_equals_the_first),
+        cmocka_unit_test(the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
