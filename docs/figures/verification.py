@@ -79,7 +79,7 @@ def bounce(axes, folder):
     axes.plot(fine, [height(now) for now in fine], "k-", lw=0.8, label="exact")
     axes.plot(t, x[:, 0, 1], ".", label="dem")
     axes.set(title="a ball of restitution 0.8", xlabel="t, s", ylabel="height, m")
-    expect("bounce", numpy.abs(x[:, 0, 1] - [height(now) for now in t]).max(), 1e-5)  # the penetration_tolerance is 1e-6 m deep, four times
+    expect("bounce", numpy.abs(x[:, 0, 1] - [height(now) for now in t]).max(), 1e-5)  # the penetration tolerance is 1e-6 m deep, four times
 
 
 def incline(axes, folder):
@@ -106,7 +106,7 @@ def incline(axes, folder):
         axes.plot(t, x[:, 0, :2] @ along, ".", color=colour, label=f"mu = {mu:g}")
         worst = max(worst, numpy.abs(x[:, 0, :2] @ along - way(t)).max())
     axes.set(title="a point thrown up an incline of 30 degrees", xlabel="t, s", ylabel="way, m")
-    expect("incline", worst, 1e-8)  # rtol in each of a hundred steps; along the incline the penetration_tolerance does not count
+    expect("incline", worst, 1e-8)  # rtol in each of a hundred steps; along the incline the penetration tolerance does not count
 
 
 def pair(axes, errors, folder):

@@ -13,8 +13,7 @@
 #include "material.h"
 
 static const double degree = 0.017453292519943295769; /* pi/180 */
-static const double lost =
-    1e-6; /* of the spacing: the penetration tolerance, which rounding of coordinates must not hide */
+static const double lost = 1e-6; /* of the spacing: the default penetration tolerance, which rounding must not hide */
 
 static namelist_place place_of(const schema_instance *group, const char *key)
 {

@@ -50,7 +50,7 @@ typedef struct body_facts {
 bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
                 namelist_errors *errors);
 
-/* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `penetration tolerance`, m. Returns
+/* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `penetration_tolerance`, m. Returns
  * false only when memory runs out. */
 bool body_check_start(const body_scene *scene, size_t k, const body_start *start, double penetration_tolerance,
                       namelist_errors *errors);

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-static const double skin_roundings = 100.0; /* gaps are differences of coordinates, some times over */
+static const double least_roundings = 100.0; /* gaps are differences of coordinates, some times over */
 
 static double largest_of(const double *array, dem_index n)
 {
@@ -20,9 +20,9 @@ static double shortest_spring(const dem_lattice *lattice)
     return shortest;
 }
 
-static void check_skin(const schema_instance *contact, double coordinate, namelist_errors *errors)
+static void check_penetration_tolerance(const schema_instance *contact, double coordinate, namelist_errors *errors)
 {
-    const double least = skin_roundings * DBL_EPSILON * coordinate;
+    const double least = least_roundings * DBL_EPSILON * coordinate;
     if (schema_given(contact, "penetration_tolerance") && schema_real(contact, "penetration_tolerance") < least)
         namelist_errors_add(
             errors, schema_place(contact, "penetration_tolerance"),
@@ -39,7 +39,7 @@ void precision_check(const schema_deck *groups, const dem_lattice *lattice, name
     const double speed = largest_of(lattice->velocity, 2 * lattice->n_nodes), scale = schema_real(solver, "v_scale");
     const bool given = schema_given(solver, "spacing");
     const double spacing = given ? schema_real(solver, "spacing") : shortest_spring(lattice);
-    check_skin(contact, coordinate, errors);
+    check_penetration_tolerance(contact, coordinate, errors);
     if (rtol * spacing < DBL_EPSILON * coordinate)
         namelist_errors_add(errors, schema_place(solver, given ? "spacing" : "rtol"),
                             "'rtol' in &solver, %g of a spacing of %g m, asks for less than rounding makes of "

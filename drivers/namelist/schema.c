@@ -109,18 +109,36 @@ static void check_group_names(resolver *r)
     }
 }
 
+/* Names that keys had in earlier releases: a deck of that time is refused, and the error gives the new name. */
+static const struct renamed_key {
+    const char *group, *before, *now;
+} renamed_keys[] = {{"contact", "skin", "penetration_tolerance"}};
+
+/* As suggest(), but first for the new name of a renamed key. */
+static bool suggest_key(char out[MAX_NAME + 32], const schema_group *group, const char *name, size_t *nearest)
+{
+    const char *names[MAX_NAMES];
+    for (size_t k = 0; k < sizeof renamed_keys / sizeof *renamed_keys; k++) {
+        const struct renamed_key *key = &renamed_keys[k];
+        if (strcmp(key->group, group->name) != 0 || strcmp(key->before, name) != 0) continue;
+        (void)snprintf(out, MAX_NAME + 32, ": it is called '%s' now", key->now);
+        *nearest = (size_t)find_key(group, key->now);
+        return true;
+    }
+    for (int k = 0; k < group->n_keys; k++) names[k] = group->keys[k].name;
+    return suggest(out, name, names, (size_t)group->n_keys, false, nearest);
+}
+
 /* Returns a bit for each key that an unknown one was likely meant to be. */
 static uint32_t check_key_names(resolver *r, const schema_group *group, const namelist_group *given)
 {
-    const char *names[MAX_NAMES];
     char hint[MAX_NAME + 32];
     size_t nearest;
     uint32_t meant = 0;
-    for (int k = 0; k < group->n_keys; k++) names[k] = group->keys[k].name;
     for (size_t k = 0; k < given->n_keys; k++) {
         const namelist_key *key = &given->keys[k];
         if (find_key(group, key->name) >= 0) continue;
-        if (suggest(hint, key->name, names, (size_t)group->n_keys, false, &nearest)) meant |= 1u << nearest;
+        if (suggest_key(hint, group, key->name, &nearest)) meant |= 1u << nearest;
         namelist_errors_add(r->errors, key->place, "unknown key '%.40s' in &%s%s", key->name, group->name, hint);
     }
     return meant;

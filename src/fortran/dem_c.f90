@@ -383,8 +383,8 @@ module dem_c
   type, bind(c) :: dem_options
     integer(c_size_t) :: struct_size = 0
     integer(dem_method) :: method = 0
-    real(c_double) :: gravity(2) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0, penetration_tolerance = 0
-    real(c_double) :: rest_speed = 0
+    real(c_double) :: gravity(2) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
+    real(c_double) :: penetration_tolerance = 0, rest_speed = 0
     integer(dem_index) :: max_impacts = 0
     real(c_double) :: window = 0, mass_damping = 0
     integer(c_int32_t) :: vertices = 0

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A rectangle of 8 x 13 cm falls on a flat floor (W2): 10 m/s, tilted by 0.03, every impact by itself.
  *
- *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE [ETA FRICTION DAMPING]]
+ *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING]]
  *      bench_impact SPACING lammps FILE
  *
- * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step, times
- * omega_max; SKIN is in spacings, DAMPING the damping time in s. The state at the end goes into FILE. Elastic, without
- * friction and undamped unless the last three say else. Prints: nodes, springs, evaluations, steps, events, impacts,
- * late ones; the least CPU time of a run in s and, of method local, what of it went into finding contact events inside
- * steps and into taking them. With `lammps`: the body as a data file of LAMMPS. */
+ * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step,
+ * times omega_max; TOLERANCE is the penetration tolerance in spacings, DAMPING the damping time in s. The state at
+ * the end goes into FILE. Elastic, without friction and undamped unless the last three say else. Prints: nodes,
+ * springs, evaluations, steps, events, impacts, late ones; the least CPU time of a run in s and, of method local,
+ * what of it went into finding contact events inside steps and into taking them. With `lammps`: the body as a data
+ * file of LAMMPS. */
 #include <math.h>
 #include <string.h>
 
@@ -119,7 +120,7 @@ static void print(const dem_simulation *simulation, times t)
 int main(int argc, char **argv)
 {
     must(argc == 4 || argc == 9 || argc == 10 || argc == 13,
-         "SPACING TIME TURNS METHOD CONTACT RTOL STEP SKIN [FILE [ETA FRICTION DAMPING]] or SPACING lammps FILE");
+         "SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING]] or SPACING lammps FILE");
     const double spacing = atof(argv[1]), t_end = atof(argv[2]);
     if (argc == 4) {
         dem_lattice body = make_body(spacing);

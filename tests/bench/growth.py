@@ -16,7 +16,7 @@ import re
 from lammps import call, numbers
 
 COARSEST, TIME = 5e-3, 1e-3     # m, s
-OPTIONS = (1e-6, 0.5, 1e-6)     # rtol, longest step times omega_max, penetration_tolerance over spacing: the defaults
+OPTIONS = (1e-6, 0.5, 1e-6)     # rtol, longest step times omega_max, penetration tolerance over spacing: the defaults
 COUNT = ("valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", "--log-file=callgrind.log",
          "--toggle-collect=dem_simulation_advance")
 

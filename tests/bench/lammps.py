@@ -32,7 +32,7 @@ comm_modify cutoff {cutoff}
 read_data body.data
 bond_style harmonic
 bond_coeff 1 {constant} {length}
-neighbor {penetration_tolerance} bin
+neighbor {skin} bin
 neigh_modify every 1000000000 delay 0 check no
 fix 1 all nve
 {fixes}
@@ -51,7 +51,7 @@ IMPACTS = {"coarse": (5e-3, 2e-3, (1.3e-5, 1e-4, 4.4e-4, 1e-2)),    # spacing, m
            "fine": (1.25e-3, 1e-3, (4.4e-4, 1e-2))}
 REFERENCE = ("fehlberg45", "exact", 1e-12, 0.5, 1e-12)
 ENGINES = (("fehlberg45", "exact"), ("fehlberg45", "local"), ("dopri45", "local"), ("verlet", "exact"), ("verlet", "local"))
-RTOL, SKIN = 1e-4, 1e-9     # so loose and so thin that steps alone decide
+RTOL, PENETRATION_TOLERANCE = 1e-4, 1e-9     # so loose and so thin that steps alone decide
 LONGEST, SHRINK, SHORTEST = 1.5, 0.75, 1e-4     # steps tried, times omega_max
 
 
@@ -87,7 +87,7 @@ class Body:
         """Seconds of the loop: of CPU on one core, of wall on more."""
         length = self.spacing
         (self.work / "in.body").write_text(INPUT.format(step=step, steps=steps, fixes=fixes, cutoff=2.5 * length,
-                                                        penetration_tolerance=0.3 * length, **self.values))
+                                                        skin=0.3 * length, **self.values))
         ranks = [PROGRAMS / "mpiexec", "-n", cores] if cores > 1 else []
         out = call(["env", "OMP_NUM_THREADS=1", *ranks, PROGRAMS / "lmp", "-sf", "omp", "-pk", "omp", "1", "-log", "none",
                     "-in", "in.body"], self.work)
@@ -173,7 +173,7 @@ class Impact(Body):
         return self.error(self.theirs()), time, steps
 
     def try_here(self, engine, step):
-        time = self.run(*engine, RTOL, step, SKIN)
+        time = self.run(*engine, RTOL, step, PENETRATION_TOLERANCE)
         return self.error(self.ours()), time
 
     def sweep(self, attempt, least):

@@ -195,7 +195,7 @@ class Check(Case):
             "impacts    local, window # s (each by itself), vertices on: # may touch # edges", out)
         self.assertTrue(window >= 0 and vertices >= 0 and edges >= 0)
         spacing, omega_max, v_scale, penetration_tolerance = numbers(
-            "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, penetration_tolerance # m", out)
+            "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, penetration tolerance # m", out)
         self.assertAlmostEqual(spacing, 0.01)
         self.assertTrue(1e4 < omega_max < 1e5 and v_scale == 10 and 0 < penetration_tolerance <= 1e-8)
         t_end, order, rtol, step = numbers("time       t_end # s, fehlberg45 of order #, rtol #, largest step # s", out)

@@ -170,31 +170,31 @@ DECKS = [
      ["16:5 body 1 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 0.01 m"]),
     ("obstacle that overflows", edit(BASE, "-0.1, 0, 0.1, 0 -> -1e300, 0, 1e300, 0"),
      ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too long"]),
-    ("body deeper in the obstacle than the penetration_tolerance", edit(BASE, "0, 0.001 -> 0, -0.001"),
-     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration_tolerance of 1e-08 m; "
+    ("body deeper in the obstacle than the penetration tolerance", edit(BASE, "0, 0.001 -> 0, -0.001"),
+     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("body just deeper than the penetration_tolerance", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
-     ["11:1 body 1 starts 1.1e-08 m inside obstacle 1, at (-0.02, -1.1e-08) m, deeper than the penetration_tolerance of 1e-08 m; "
+    ("body just deeper than the penetration tolerance", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
+     ["11:1 body 1 starts 1.1e-08 m inside obstacle 1, at (-0.02, -1.1e-08) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
     ("second body in the obstacle",
      BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n",
-     ["27:1 body 2 starts 0.0173205 m inside obstacle 1, at (0.05, -0.0173205) m, deeper than the penetration_tolerance of 1e-08 m; "
+     ["27:1 body 2 starts 0.0173205 m inside obstacle 1, at (0.05, -0.0173205) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
     ("two bodies in two obstacles", edit(BASE, "0, 0.001 -> 0, -0.001") + "&obstacle points = 0.2, 0, 0.1, 0 /\n"
      "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.15, 0.01 /\n",
-     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration_tolerance of 1e-08 m; "
+     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED,
-      "28:1 body 2 starts 0.0273205 m inside obstacle 2, at (0.14, 0.0273205) m, deeper than the penetration_tolerance of 1e-08 m; "
+      "28:1 body 2 starts 0.0273205 m inside obstacle 2, at (0.14, 0.0273205) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("body deeper than the penetration_tolerance given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact penetration_tolerance = 1e-4 /\n",
-     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration_tolerance of 0.0001 m; "
+    ("body deeper than the penetration tolerance given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact penetration_tolerance = 1e-4 /\n",
+     ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration tolerance of 0.0001 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
     ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> position = 0, 1e-4") +
      "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n",
      ["11:1 body 1 starts with point 2 of obstacle 2, at (0.002, 0.004) m, 0.0039 m inside it between its nodes, "
-      "deeper than the penetration_tolerance of 1e-08 m; 'position' or 'clearance' can put it in front"]),
+      "deeper than the penetration tolerance of 1e-08 m; 'position' or 'clearance' can put it in front"]),
     ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
-     ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the penetration_tolerance of 1e-08 m; "
+     ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
     ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),
      ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1; move it"

@@ -177,7 +177,7 @@ class Shapes(unittest.TestCase):
                         f"&crack points = {-5 * a}, {-deep}, {5 * a}, {deep} /\n")
         way = gap + 0.7 * math.sqrt(3) * a
         self.assertAlmostEqual(self.numbers("contact    first", log)[0],
-                               (math.sqrt(speed * speed + 2 * g * way) - speed) / g, delta=2e-9)  # the penetration_tolerance / speed
+                               (math.sqrt(speed * speed + 2 * g * way) - speed) / g, delta=2e-9)  # the penetration tolerance / speed
 
     def test_files_make_the_problem(self):
         deck = HEAD + FLOOR + "&body material = 'rubber', shape = 'mesh', file = 'arc.msh', scale = 0.01, clearance = 1e-4 /\n"

@@ -198,7 +198,7 @@ def energies_of_frames(run, deck):
     return mistold(run, deck), 1.3e-7
 
 
-def skin_of(run, deck):
+def penetration_tolerance_of(run, deck):
     return deck.contact.get("penetration_tolerance", 1e-6 * run.lattice["rest_length"].min())
 
 
@@ -207,13 +207,13 @@ def depth_of_nodes(run, deck):
     prescribed pays no heed to obstacles, and what passed round an end is behind."""
     if is_prescribed(deck) or run.history["behind"].any():
         return None
-    return node_depth(run, deck) / skin_of(run, deck), 5.0
+    return node_depth(run, deck) / penetration_tolerance_of(run, deck), 5.0
 
 
 def depth_of_vertices(run, deck):
     if is_prescribed(deck) or run.history["behind"].any() or not deck.contact.get("vertices", True):
         return None
-    return vertex_depth(run) / skin_of(run, deck), 5.0
+    return vertex_depth(run) / penetration_tolerance_of(run, deck), 5.0
 
 
 def events_per_node(run, deck):

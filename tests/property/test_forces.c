@@ -121,7 +121,7 @@ static void judge(const watch *w, const stage *s, unsigned long seed)
                  most = o.method == DEM_METHOD_VERLET ? 1.0 / 64.0 : 2e-3;
     if (!(w->open <= most * w->scale)) fail_msg("seed %lu: the ledger is open by %g of %g J", seed, w->open, w->scale);
     if (!(w->depth <= 5.0 * penetration_tolerance) && !w->round)
-        fail_msg("seed %lu: %g skins deep", seed, w->depth / penetration_tolerance);
+        fail_msg("seed %lu: %g penetration tolerances deep", seed, w->depth / penetration_tolerance);
 }
 
 static const dem_contact_method contacts[2] = {DEM_CONTACT_LOCAL, DEM_CONTACT_EXACT};

@@ -240,9 +240,9 @@ static void judge_case(unsigned long seed, census *all, const scene *sc, const v
     if (!v->round) all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.penetration_tolerance);
     all->closure = fmax(all->closure, closure);
     if (!(v->node_depth <= 5.0 * o.penetration_tolerance) && !v->round)
-        fault(seed, "a node %g skins deep", v->node_depth / o.penetration_tolerance);
+        fault(seed, "a node %g penetration tolerances deep", v->node_depth / o.penetration_tolerance);
     if (!(v->vertex_depth <= 5.0 * o.penetration_tolerance) && !v->round)
-        fault(seed, "a vertex %g skins deep", v->vertex_depth / o.penetration_tolerance);
+        fault(seed, "a vertex %g penetration tolerances deep", v->vertex_depth / o.penetration_tolerance);
     if (!(v->gained <= 1e-12)) fault(seed, "an impact gave %g of its energy", v->gained);
     if (!(v->fall <= 1e-12 * scale)) fault(seed, "impacts gave %g J", v->fall);
     if (!(closure <= 2e-3)) fault(seed, "ledger open by %g", closure);
@@ -280,7 +280,8 @@ static void print_census(const census *all)
                   all->cases, (long long)s->impacts, (long long)s->vertex_impacts, (long long)s->early,
                   (long long)s->closings, (long long)s->releases, (long long)s->sticks, (long long)s->slips,
                   (long long)s->passings, (long long)s->late, (long long)s->behind);
-    print_message("# with stick %ld, slip %ld, vertices %ld; nodes %.2g and vertices %.2g skins deep, gained %.1e, "
+    print_message("# with stick %ld, slip %ld, vertices %ld; nodes %.2g and vertices %.2g penetration tolerances deep, "
+                  "gained %.1e, "
                   "closure %.1e, order parts by %.1e, chaotic %ld\n",
                   all->stick, all->slip, all->vertex, all->deepest, all->deepest_vertex, all->gained, all->closure,
                   all->parted, all->chaotic);

@@ -5,7 +5,7 @@
 
 #include "unit/scene.h"
 
-static const double penetration_tolerance = scene_skin, g = scene_gravity;
+static const double penetration_tolerance = scene_penetration_tolerance, g = scene_gravity;
 
 /* n nodes of 2 kg, each a body of its own, somewhere above. */
 static inline void open_scene(scene *s, dem_index n, const dem_obstacle *obstacles, dem_index n_obstacles)

@@ -12,7 +12,7 @@
 
 enum { SCENE_NODES = 6, SCENE_EVENTS = 32 };
 
-static const double scene_skin = 1e-6, scene_gravity = 10.0;
+static const double scene_penetration_tolerance = 1e-6, scene_gravity = 10.0;
 
 typedef struct scene {
     dem_model *model;
@@ -34,7 +34,7 @@ static inline dem_status scene_note(void *context, const dem_event *event)
 
 static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n)
 {
-    const contact_rule rule = {.penetration_tolerance = scene_skin,
+    const contact_rule rule = {.penetration_tolerance = scene_penetration_tolerance,
                                .position_error = 1e-9,
                                .max_step = 0.01,
                                .storm_time = 0.5,

@@ -298,13 +298,13 @@ static verdict run_wedge(const wedge *c, double t_end)
     assert_true(w.least_energy >= -1e-15 * kinetic); /* rounding */
     outline_free(&w.body);
     support_close(&run);
-    print_message(
-        "# flank %g, at %g, eta %g, mu %g, rtol %g, %d cells: apex %.3g node %.3g skins, balance %.1e, told %.1e, "
-        "skew %.1e, closure %.1e, rebound %.3f, %lld impacts (%lld of vertices), %lld passings, %lld late, "
-        "%lld lasting\n",
-        c->flank, c->at / spacing, c->restitution, c->friction, c->rtol, c->cells, v.apex, v.node, v.balance, v.told,
-        v.skew, v.closure, v.rebound, (long long)v.counts.impacts, (long long)v.counts.vertex_impacts,
-        (long long)v.counts.passings, (long long)v.counts.late, (long long)v.lasting);
+    print_message("# flank %g, at %g, eta %g, mu %g, rtol %g, %d cells: apex %.3g node %.3g penetration tolerances, "
+                  "balance %.1e, told %.1e, "
+                  "skew %.1e, closure %.1e, rebound %.3f, %lld impacts (%lld of vertices), %lld passings, %lld late, "
+                  "%lld lasting\n",
+                  c->flank, c->at / spacing, c->restitution, c->friction, c->rtol, c->cells, v.apex, v.node, v.balance,
+                  v.told, v.skew, v.closure, v.rebound, (long long)v.counts.impacts, (long long)v.counts.vertex_impacts,
+                  (long long)v.counts.passings, (long long)v.counts.late, (long long)v.lasting);
     return v;
 }
 

@@ -344,8 +344,8 @@ static void check_drop(double slope, double friction, double speed)
     (void)support_at(&run, 0.08);
     const double penetration_tolerance = dem_simulation_options(run.simulation).penetration_tolerance;
     dem_index k = 0;
-    print_message("# slope %g, mu %g, %g m/s: apex %.2g and node %.2g skins deep\n", slope, friction, speed,
-                  w.deepest_apex / penetration_tolerance, w.deepest_node / penetration_tolerance);
+    print_message("# slope %g, mu %g, %g m/s: apex %.2g and node %.2g penetration tolerances deep\n", slope, friction,
+                  speed, w.deepest_apex / penetration_tolerance, w.deepest_node / penetration_tolerance);
     while (k < w.n && w.events[k].kind != DEM_EVENT_PASS) k++;
     assert_true(k + 2 < w.n);
     assert_int_equal(w.events[k].node, w.corner);

@@ -3,7 +3,7 @@
  * worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
 #include "unit/resets.h"
 
-static void touching_is_admissible_and_deeper_than_the_skin_is_not(void **state)
+static void touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not(void **state)
 {
     scene s;
     (void)state;
@@ -110,7 +110,7 @@ static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void
     scene_close(&s);
 }
 
-static void a_node_not_yet_as_deep_as_the_skin_is_left_alone(void **state)
+static void a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone(void **state)
 {
     scene s;
     (void)state;
@@ -600,12 +600,12 @@ static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(touching_is_admissible_and_deeper_than_the_skin_is_not),
+        cmocka_unit_test(touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not),
         cmocka_unit_test(at_the_start_touching_is_enough_for_a_contact),
         cmocka_unit_test(a_node_that_leaves_the_surface_at_the_start_is_free),
         cmocka_unit_test(an_impact_is_reflected_reported_and_booked),
         cmocka_unit_test(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force),
-        cmocka_unit_test(a_node_not_yet_as_deep_as_the_skin_is_left_alone),
+        cmocka_unit_test(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone),
         cmocka_unit_test(a_rebound_too_slow_becomes_a_contact),
         cmocka_unit_test(a_contact_does_not_last_where_nothing_presses),
         cmocka_unit_test(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes),

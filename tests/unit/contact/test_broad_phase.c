@@ -4,7 +4,7 @@
 
 #include "contact/automaton_step.h"
 
-static const double penetration_tolerance = scene_skin, masses[4] = {2.0, 2.0, 2.0, 2.0},
+static const double penetration_tolerance = scene_penetration_tolerance, masses[4] = {2.0, 2.0, 2.0, 2.0},
                     max_step = 0.01; /* as in scene.h */
 
 static const double floor_points[4] = {-4.0, 0.0, 4.0, 0.0};

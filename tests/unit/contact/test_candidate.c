@@ -76,7 +76,7 @@ static void check_free(const contact_scene *world, const contact_candidate *cand
     check_guards(world, candidate, &s, (double[]){guard, 1.0, 1.0, 1.0});
 }
 
-static void a_free_site_watches_its_gap_down_to_the_skin(void **state)
+static void a_free_site_watches_its_gap_down_to_the_penetration_tolerance(void **state)
 {
     scene s;
     (void)state;
@@ -242,7 +242,7 @@ static int end_passed(const contact_scene *world, double x, double vx)
     return candidate_end_passed(world, &candidate, 0, at, v);
 }
 
-static void an_end_is_passed_by_the_skin_heading_out(void **state)
+static void an_end_is_passed_by_the_penetration_tolerance_heading_out(void **state)
 {
     scene s;
     (void)state;
@@ -648,7 +648,7 @@ static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_free_site_watches_its_gap_down_to_the_skin),
+        cmocka_unit_test(a_free_site_watches_its_gap_down_to_the_penetration_tolerance),
         cmocka_unit_test(far_from_everything_its_guard_is_finite),
         cmocka_unit_test(a_site_behind_an_obstacle_does_not_see_it),
         cmocka_unit_test(a_sliding_site_watches_reaction_end_and_other_obstacles),
@@ -657,7 +657,7 @@ int main(void)
         cmocka_unit_test(a_held_site_watches_both_reactions),
         cmocka_unit_test(only_what_sticks_by_friction_has_a_grip),
         cmocka_unit_test(what_slides_with_friction_turns_when_it_goes_the_other_way),
-        cmocka_unit_test(an_end_is_passed_by_the_skin_heading_out),
+        cmocka_unit_test(an_end_is_passed_by_the_penetration_tolerance_heading_out),
         cmocka_unit_test(at_rest_the_force_tells_where_it_heads),
         cmocka_unit_test(what_sticks_passes_no_end),
         cmocka_unit_test(a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle),

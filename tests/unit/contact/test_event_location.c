@@ -46,7 +46,7 @@ static void times_are_located_to_a_hundred_units_of_rounding(void **state)
 
 /* Falls from 0.2 m: at the penetration tolerance's depth after sqrt(2 (0.2 + penetration tolerance)/g). The end found
  * is on the deep side. */
-static void a_fall_reaches_the_skin_at_the_time_of_free_fall(void **state)
+static void a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall(void **state)
 {
     const double start = 7.0, t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
     scene s;
@@ -344,7 +344,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(times_are_located_to_a_hundred_units_of_rounding),
-        cmocka_unit_test(a_fall_reaches_the_skin_at_the_time_of_free_fall),
+        cmocka_unit_test(a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall),
         cmocka_unit_test(a_crossing_just_before_the_end_is_found),
         cmocka_unit_test(a_dip_within_the_step_is_found),
         cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),

@@ -93,7 +93,7 @@ static void null_arguments_are_named(void **state)
     dem_model_destroy(model);
 }
 
-static void a_start_deeper_than_the_skin_is_refused(void **state)
+static void a_start_deeper_than_the_penetration_tolerance_is_refused(void **state)
 {
     const double x[2] = {0.25, -0.125}, mass = 2.0;
     const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = 0.5};
@@ -866,7 +866,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(options_that_cannot_be_leave_no_simulation),
         cmocka_unit_test(null_arguments_are_named),
-        cmocka_unit_test(a_start_deeper_than_the_skin_is_refused),
+        cmocka_unit_test(a_start_deeper_than_the_penetration_tolerance_is_refused),
         cmocka_unit_test(the_options_in_force_have_no_defaults_left),
         cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
         cmocka_unit_test(a_run_cut_anywhere_is_the_whole_run_bit_for_bit),

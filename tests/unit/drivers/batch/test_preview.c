@@ -29,7 +29,7 @@ static void the_preview_tells_what_is_about_to_run(void **state)
 }
 
 /* Under a g of 5 m/s^2 a penetration tolerance of 1e-5 m keeps up hops of 1e-2 m/s. */
-static void the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up(void **state)
+static void the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up(void **state)
 {
     static const double rest_speed[3] = {0.0, 9.9e-3, 1.01e-2};
     const double x[2] = {0.0, 1.0}, one = 1.0;
@@ -305,7 +305,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_preview_tells_what_is_about_to_run),
-        cmocka_unit_test(the_preview_warns_of_a_rest_speed_that_the_skin_keeps_up),
+        cmocka_unit_test(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up),
         cmocka_unit_test(the_preview_tells_what_is_probed_and_where),
         cmocka_unit_test(the_preview_tells_what_was_measured_of_each_body),
         cmocka_unit_test(the_preview_tells_the_constants_of_a_slice),

@@ -274,7 +274,7 @@ static void clearance_moves_along_gravity(void **state)
     drop_built(&b);
 }
 
-static void a_start_is_refused_if_deeper_than_the_skin(void **state)
+static void a_start_is_refused_if_deeper_than_the_penetration_tolerance(void **state)
 {
     (void)state;
     built b;
@@ -389,7 +389,7 @@ int main(void)
         cmocka_unit_test(the_seed_makes_the_pores),
         cmocka_unit_test(the_start_is_told_by_the_lowest_node),
         cmocka_unit_test(clearance_moves_along_gravity),
-        cmocka_unit_test(a_start_is_refused_if_deeper_than_the_skin),
+        cmocka_unit_test(a_start_is_refused_if_deeper_than_the_penetration_tolerance),
         cmocka_unit_test(a_fault_is_placed_and_leaves_no_lattice),
         cmocka_unit_test(sizes_of_the_spacing_and_more_pass),
         cmocka_unit_test(files_need_no_material_and_others_do),

@@ -695,19 +695,17 @@ static void bodies_that_start_in_an_obstacle_are_named(void **state)
     const char *bodies = RUN RUBBER DISC("") DISC(", position = 0, 1")
         DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR
                                     "&contact penetration_tolerance = 0.25 /\n";
-    expect_errors(bodies, "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the "
-                          "penetration tolerance "
-                          "of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n"
-                          "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the "
-                          "penetration tolerance of "
-                          "0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
+    expect_errors(bodies,
+                  "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the "
+                  "penetration tolerance of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n"
+                  "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the "
+                  "penetration tolerance of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
     const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
     deck d = good_deck(cleared);
     deck_free(&d);
     expect_errors(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
                   "3:1: body 1 starts 2.54038e-05 m inside obstacle 1, at (-0.5, -2.54038e-05) m, deeper than the "
-                  "penetration tolerance of "
-                  "1e-06 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
+                  "penetration tolerance of 1e-06 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
     d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
     deck_free(&d);
 }

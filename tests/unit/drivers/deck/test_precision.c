@@ -30,7 +30,7 @@ static void tolerances_beyond_rounding_are_taken(void **state)
     expect("&contact penetration_tolerance = 1.8e-13 /\n&solver rtol = 1e-13, spacing = 0.1, v_scale = 0.1 /\n", "");
 }
 
-static void a_skin_that_rounding_hides_is_refused(void **state)
+static void a_penetration_tolerance_that_rounding_hides_is_refused(void **state)
 {
     (void)state;
     expect("&contact penetration_tolerance = 1.7e-13 /\n",
@@ -56,7 +56,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tolerances_beyond_rounding_are_taken),
-        cmocka_unit_test(a_skin_that_rounding_hides_is_refused),
+        cmocka_unit_test(a_penetration_tolerance_that_rounding_hides_is_refused),
         cmocka_unit_test(an_error_that_rounding_hides_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

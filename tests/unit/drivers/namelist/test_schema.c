@@ -232,6 +232,14 @@ static void a_misspelt_key_is_not_missed_as_well(void **state)
                   "2:11 unknown key 'youngs' in &material (did you mean 'youngs_modulus'?)");
 }
 
+static void a_renamed_key_is_refused_with_its_new_name(void **state)
+{
+    (void)state;
+    assert_errors(RUN MATERIAL BODY "&contact skin = 1e-8 /",
+                  "4:10 unknown key 'skin' in &contact: it is called 'penetration_tolerance' now");
+    assert_body_errors("shape = 'disc' skin = 1", "1:22 unknown key 'skin' in &body (did you mean 'spin'?)");
+}
+
 static void components_are_unknown_keys(void **state)
 {
     (void)state;
@@ -412,6 +420,7 @@ int main(void)
         cmocka_unit_test(a_far_name_is_not_suggested),
         cmocka_unit_test(an_unknown_key_names_the_nearest),
         cmocka_unit_test(a_misspelt_key_is_not_missed_as_well),
+        cmocka_unit_test(a_renamed_key_is_refused_with_its_new_name),
         cmocka_unit_test(components_are_unknown_keys),
         cmocka_unit_test(an_unknown_group_names_the_nearest),
         cmocka_unit_test(required_groups_must_be_given),
