@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A sum of doubles that does not depend on their order: it is kept as an integer of 2176 bits in units of the smallest
+ * subnormal number, 2^-1074, which has room for 2^64 terms of any size, and is rounded once, when it is read. */
+#ifndef DEM_BASE_EXACT_SUM_H
+#define DEM_BASE_EXACT_SUM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+enum {
+    EXACT_SUM_LIMBS = 68,
+    EXACT_SUM_MOST = 1024 /* terms between two carries: each adds less than 2^52 to a limb, which has room for 2^63 */
+};
+
+/** What has been added so far; {0} is the empty sum. */
+typedef struct exact_sum {
+    int64_t limb[EXACT_SUM_LIMBS]; /* limb[k] is in units of 2^(32 k - 1074); carries are taken now and then */
+    int n_terms;                   /* since the last time */
+    bool has_infinity[2], has_nan; /* whether infinity, minus infinity, NAN is among the terms */
+} exact_sum;
+
+/** Takes the carries, and notes a term that is not finite. */
+void exact_sum_carry(exact_sum *s);
+void exact_sum_add_special(exact_sum *s, double term);
+
+/** Adds a term: the 53 bits of its mantissa go into two limbs next to each other. */
+static inline void exact_sum_add(exact_sum *s, double term)
+{
+    uint64_t bits;
+    memcpy(&bits, &term, sizeof bits);
+    const int exponent = (int)(bits >> 52 & 0x7ff);
+    if (exponent == 0x7ff) {
+        exact_sum_add_special(s, term);
+        return;
+    }
+    const uint64_t fraction = bits & 0xfffffffffffff, mantissa = exponent > 0 ? fraction | 1ULL << 52 : fraction;
+    const int place = exponent > 0 ? exponent - 1 : 0, shift = place % 32;
+    const int64_t low = (int64_t)(mantissa << shift & 0xffffffff), high = (int64_t)(mantissa >> (32 - shift));
+    const int64_t sign = bits >> 63 != 0 ? -1 : 1;
+    s->limb[place / 32] += sign * low;
+    s->limb[place / 32 + 1] += sign * high;
+    if (++s->n_terms == EXACT_SUM_MOST) exact_sum_carry(s);
+}
+
+/** The sum rounded to the nearest double, ties to the even one: +0 if it is 0 or empty, infinite where it overflows.
+ *  With terms that are not finite it is what additions of doubles give in any order. */
+double exact_sum_value(const exact_sum *s);
+
+#endif

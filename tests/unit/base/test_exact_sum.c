@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* exact_sum.c: against sums of fractions worked out by Python, sums known by hand, and itself in other orders. Every
+ * comparison is to the bit: the nearest double is one number. */
+#include "unit/close.h"
+
+#include <float.h>
+#include <string.h>
+
+#include "base/exact_sum.h"
+
+enum { most = 20000 };
+
+static double terms[most];
+
+static double sum_of(const double *x, int n)
+{
+    exact_sum s = {0};
+    for (int k = 0; k < n; k++) exact_sum_add(&s, x[k]);
+    return exact_sum_value(&s);
+}
+
+/* The same bits, so that +0 is not -0. */
+static void assert_same(double actual, double expected)
+{
+    if (memcmp(&actual, &expected, sizeof actual) != 0) fail_msg("%a, expected %a", actual, expected);
+}
+
+/* ---- pseudo-random terms ---- */
+
+/* Knuth's generator of period 2^64, 53 bits of it. */
+static int64_t draw(uint64_t *state)
+{
+    *state = *state * 6364136223846793005 + 1442695040888963407;
+    return (int64_t)(*state >> 11);
+}
+
+/* A mantissa of 53 bits, an exponent in [low, high), a sign. */
+static void fill(uint64_t state, int n, int low, int high)
+{
+    for (int k = 0; k < n; k++) {
+        const double mantissa = (double)draw(&state);
+        const int exponent = low + (int)(draw(&state) % (high - low));
+        const double size = ldexp(mantissa, exponent);
+        terms[k] = draw(&state) >> 40 & 1 ? -size : size;
+    }
+}
+
+static void shuffle(uint64_t state, int n)
+{
+    for (int k = n - 1; k > 0; k--) {
+        const int j = (int)(draw(&state) % (k + 1));
+        const double kept = terms[k];
+        terms[k] = terms[j];
+        terms[j] = kept;
+    }
+}
+
+/* ---- tests ---- */
+
+/* Expected is float(sum(map(Fraction, terms))): over all exponents, near each other, subnormal, near overflow. */
+static void a_sum_is_the_double_nearest_to_the_sum_of_fractions(void **state)
+{
+    static const struct {
+        uint64_t seed;
+        int n, low, high;
+        double expected;
+    } cases[] = {
+        {1, 3000, -1126, 918, 0x1.10decb3ddda4cp+968},     {2, 3000, -60, -50, 0x1.30ab76d207678p+6},
+        {3, 3000, -1126, -1074, -0x0.cc3e5bc22d3acp-1022}, {4, 3000, -20, 20, -0x1.6589952ab618fp+70},
+        {5, 2, -1074, -1020, -0x1.9aef4881914a9p-998},     {6, 3000, 900, 908, 0x1.fa0bdb50ca191p+961},
+        {7, 100, -1126, 918, 0x1.73db8aa16e501p+950},      {8, 100, -53, -52, 0x1.4cce64a4b6d13p+2},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        fill(cases[k].seed, cases[k].n, cases[k].low, cases[k].high);
+        assert_same(sum_of(terms, cases[k].n), cases[k].expected);
+    }
+}
+
+static void the_order_of_the_terms_does_not_matter(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 10; seed < 30; seed++) {
+        const int low = seed % 2 ? -1126 : -30, high = seed % 2 ? 900 : 30;
+        fill(seed, most, low, high);
+        const double first = sum_of(terms, most);
+        for (uint64_t k = 1; k <= 5; k++) {
+            shuffle(k, most);
+            assert_same(sum_of(terms, most), first);
+        }
+    }
+}
+
+/* What is left of the sum without its rounded value is at most half a unit of its last place. With that taken away too,
+ * and so on, nothing is left: the sum is known to its last bit. */
+static void what_rounding_leaves_is_at_most_half_a_unit(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 40; seed < 60; seed++) {
+        exact_sum s = {0};
+        int n_parts = 0;
+        fill(seed, most, -1126, 900);
+        for (int k = 0; k < most; k++) exact_sum_add(&s, terms[k]);
+        for (double value = exact_sum_value(&s); value != 0.0; n_parts++) {
+            exact_sum_add(&s, -value);
+            const double rest = exact_sum_value(&s), unit = nextafter(fabs(value), INFINITY) - fabs(value);
+            assert_true(fabs(rest) <= 0.5 * unit);
+            value = rest;
+        }
+        assert_true(n_parts > 20); /* 2000 bits and more, 53 in each part */
+    }
+}
+
+static void small_terms_outlive_large_ones_that_cancel(void **state)
+{
+    const double large[] = {1e300, 1.0, -1e300}, all[] = {DBL_MAX, 1e-300, DBL_MAX, -DBL_MAX, 0x1p-1074, -DBL_MAX};
+    (void)state;
+    assert_same(sum_of(large, 3), 1.0);
+    assert_same(sum_of(all, 6), 1e-300);
+    terms[0] = 1.0;
+    for (int k = 1; k < most; k++) terms[k] = k % 2 ? 0x1p-60 : -0x1p-60;
+    assert_same(sum_of(terms, most - 1), 1.0);
+}
+
+static void ties_go_to_the_even_double(void **state)
+{
+    const double down[] = {1.0, 0x1p-53}, up[] = {1.0 + 0x1p-52, 0x1p-53}, above[] = {1.0, 0x1p-53, 0x1p-1074},
+                 below[] = {-1.0, -0x1p-53, 0x1p-1074}, carry[] = {0x1.fffffffffffffp0, 0x1p-53};
+    (void)state;
+    assert_same(sum_of(down, 2), 1.0);
+    assert_same(sum_of(up, 2), 1.0 + 0x1p-51);
+    assert_same(sum_of(above, 3), 1.0 + 0x1p-52);
+    assert_same(sum_of(below, 3), -1.0);
+    assert_same(sum_of(carry, 2), 2.0);
+}
+
+static void subnormal_numbers_are_terms_and_sums_like_others(void **state)
+{
+    const double least[] = {0x1p-1074, 0x1p-1074, -0x1p-1073}, gradual[] = {DBL_MIN, -0x1p-1074};
+    (void)state;
+    for (int k = 0; k < most; k++) terms[k] = 0x1p-1074;
+    assert_same(sum_of(terms, most), most * 0x1p-1074);
+    assert_same(sum_of(least, 1), 0x1p-1074);
+    assert_same(sum_of(least, 3), 0.0);
+    assert_same(sum_of(gradual, 2), DBL_MIN - 0x1p-1074);
+}
+
+static void a_sum_that_is_zero_is_plus_zero(void **state)
+{
+    const double zeros[] = {-0.0, -0.0}, opposite[] = {-3.0, 3.0};
+    (void)state;
+    assert_same(sum_of(zeros, 0), 0.0);
+    assert_same(sum_of(zeros, 2), 0.0);
+    assert_same(sum_of(opposite, 2), 0.0);
+}
+
+/* More of the largest mantissa than limbs have room for without carries, at every place in a limb: a power of two times
+ * a term is a double. */
+static void limbs_do_not_overflow(void **state)
+{
+    (void)state;
+    for (int exponent = 0; exponent < 32; exponent++) {
+        exact_sum s = {0};
+        const double term = ldexp(0x1.fffffffffffffp0, exponent);
+        for (int k = 0; k < 16 * EXACT_SUM_MOST; k++) exact_sum_add(&s, term);
+        assert_same(exact_sum_value(&s), 16.0 * EXACT_SUM_MOST * term);
+    }
+}
+
+static void many_large_terms_overflow_only_when_they_are_read(void **state)
+{
+    exact_sum s = {0};
+    (void)state;
+    for (int k = 0; k < 3 * EXACT_SUM_MOST; k++) exact_sum_add(&s, DBL_MAX);
+    assert_same(exact_sum_value(&s), INFINITY);
+    for (int k = 0; k < 3 * EXACT_SUM_MOST - 1; k++) exact_sum_add(&s, -DBL_MAX);
+    assert_same(exact_sum_value(&s), DBL_MAX);
+    for (int k = 0; k < 3 * EXACT_SUM_MOST; k++) exact_sum_add(&s, -DBL_MAX);
+    assert_same(exact_sum_value(&s), -INFINITY);
+    const double half[] = {DBL_MAX, 0x1p970}, less[] = {DBL_MAX, 0x1.fffffffffffffp969};
+    assert_same(sum_of(half, 2), INFINITY); /* a tie, and the even neighbour is 2^1024 */
+    assert_same(sum_of(less, 2), DBL_MAX);
+}
+
+static void terms_that_are_not_finite_count_in_any_order(void **state)
+{
+    const double up[] = {1.0, INFINITY, -DBL_MAX}, down[] = {-INFINITY, -INFINITY, 5.0},
+                 both[] = {-INFINITY, 1.0, INFINITY}, none[] = {INFINITY, NAN, 1.0};
+    (void)state;
+    assert_same(sum_of(up, 3), INFINITY);
+    assert_same(sum_of(down, 3), -INFINITY);
+    assert_true(isnan(sum_of(both, 3)));
+    assert_true(isnan(sum_of(none, 3)));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sum_is_the_double_nearest_to_the_sum_of_fractions),
+        cmocka_unit_test(the_order_of_the_terms_does_not_matter),
+        cmocka_unit_test(what_rounding_leaves_is_at_most_half_a_unit),
+        cmocka_unit_test(small_terms_outlive_large_ones_that_cancel),
+        cmocka_unit_test(ties_go_to_the_even_double),
+        cmocka_unit_test(subnormal_numbers_are_terms_and_sums_like_others),
+        cmocka_unit_test(a_sum_that_is_zero_is_plus_zero),
+        cmocka_unit_test(limbs_do_not_overflow),
+        cmocka_unit_test(many_large_terms_overflow_only_when_they_are_read),
+        cmocka_unit_test(terms_that_are_not_finite_count_in_any_order),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
