@@ -187,19 +187,24 @@ dem_status automaton_restore(automaton *c, const double *y)
     return DEM_OK;
 }
 
+/* What the closed contacts of one candidate add. */
+static void add_rates_of(const contact_set *s, dem_index k, const double *y, double *rate)
+{
+    double *friction = rate + 2 * s->scene.model->obstacles.n, *power = rate + 4 * s->scene.model->obstacles.n;
+    for (int q = 0; q < s->list[k].n_closed; q++) {
+        const contact_contribution of = contact_set_contribution(s, k, q, y, y + scene_velocities(&s->scene));
+        vec2_put(rate, of.obstacle, vec2_add(vec2_at(rate, of.obstacle), of.force));
+        vec2_put(friction, of.obstacle, vec2_add(vec2_at(friction, of.obstacle), of.friction));
+        *power += of.power;
+    }
+}
+
 void automaton_add_rates(const automaton *c, const double *y, double *rate)
 {
-    const contact_set *s = &c->set;
-    double *friction = rate + 2 * s->scene.model->obstacles.n, *power = rate + 4 * s->scene.model->obstacles.n;
-    for (dem_index m = 0; m < s->forces.row[s->forces.n_groups]; m++) {
-        const dem_index k = s->forces.members[m];
-        for (int q = 0; q < s->list[k].n_closed; q++) {
-            const contact_contribution of = contact_set_contribution(s, k, q, y, automaton_velocities(c, y));
-            vec2_put(rate, of.obstacle, vec2_add(vec2_at(rate, of.obstacle), of.force));
-            vec2_put(friction, of.obstacle, vec2_add(vec2_at(friction, of.obstacle), of.friction));
-            *power += of.power;
-        }
-    }
+    const contact_forces *r = &c->set.forces;
+    for (dem_index g = 0; g < r->n_groups; g++)
+        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
+            add_rates_of(&c->set, k, y, rate);
 }
 
 dem_index automaton_list(const automaton *c, const double *x, dem_contact *list)

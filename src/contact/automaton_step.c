@@ -46,7 +46,7 @@ void automaton_begin_step(automaton *c, const dense_output *p, double *state)
     c->way = furthest(c, p);
     c->all = broad_phase_covers_all(&c->broad_phase, c->way);
     c->quiet = solved && c->quiet;
-    for (dem_index g = 0; g < r->n_groups && !solved; g++) automaton_solve_group(c, p, g, state);
+    for (dem_index g = 0; g < r->n_groups && !solved; g++) automaton_solve_group(c, p, r->groups[g], state);
     if (whole) c->solved = p->t1;
 }
 
@@ -104,8 +104,8 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
 static bool has_opened(const contact_set *c, dem_index group, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
-    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
-        const contact_candidate *candidate = &c->list[r->members[m]];
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed && candidate_is_edge(candidate); q++)
             if (fabs(contact_frame_at(&c->scene, candidate, q, now->x, now->v).gap) >
                 0.25 * c->scene.rule.penetration_tolerance)
@@ -120,9 +120,10 @@ bool automaton_project(automaton *c, double t, double *y)
     contact_instant now = {t, y, y + scene_velocities(&s->scene), NULL, DEM_OK};
     bool any = false;
     for (dem_index g = 0; g < s->forces.n_groups; g++) {
-        if (!has_opened(s, g, &now)) continue;
-        s->straightened = fmax(s->straightened, impact_group_project(s, g, &now));
-        impact_group_stop(s, g, &now);
+        const dem_index group = s->forces.groups[g];
+        if (!has_opened(s, group, &now)) continue;
+        s->straightened = fmax(s->straightened, impact_group_project(s, group, &now));
+        impact_group_stop(s, group, &now);
         any = true;
     }
     if (any) c->solved = NAN;

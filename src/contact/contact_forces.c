@@ -3,11 +3,15 @@
 #include "contact/contact_forces.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/status.h"
 
 /* Of a row's own mobility: what is left of it, below which the others hold the contact already. */
 static const double redundant = 1e-10;
+
+/* In place of the group of a site: it is among those whose groups are found next. */
+enum { collected = -2 };
 
 /* What the system is solved for. */
 typedef enum aim { FORCE, IMPULSE, SHIFT } aim;
@@ -47,41 +51,7 @@ static void sort_sites(contact_forces *r)
     }
     for (dem_index k = 0; k < n_nodes; k++)
         if (site_of[r->candidates[k].node] >= 0) r->order[n++] = k;
-}
-
-/* Joins the nodes of closed edges; a group has one root. */
-static void join_nodes(contact_forces *r)
-{
-    for (dem_index k = 0; k < r->n_candidates; k++) {
-        const contact_candidate *s = &r->candidates[k];
-        if (s->n_closed == 0) continue;
-        r->root[s->node] = s->node;
-        if (candidate_is_edge(s)) r->root[s->other] = s->other;
-    }
-    for (dem_index k = r->scene->model->n_contact_nodes; k < r->n_candidates; k++)
-        if (r->candidates[k].n_closed > 0) join(r, r->candidates[k].node, r->candidates[k].other);
-}
-
-/* Numbers the groups in the order in which their first members come; returns how many sites are closed. */
-static dem_index number_groups(contact_forces *r)
-{
-    dem_index n_closed = 0;
-    r->n_groups = 0;
-    for (dem_index k = 0; k < r->n_candidates; k++)
-        if (r->candidates[k].n_closed > 0) r->first[root_of(r, r->candidates[k].node)] = -1;
-    for (dem_index p = 0; p < r->n_candidates; p++) {
-        const dem_index k = r->order[p];
-        if (r->candidates[k].n_closed == 0) continue;
-        dem_index *number = &r->first[root_of(r, r->candidates[k].node)];
-        if (*number < 0) {
-            *number = r->n_groups;
-            r->row[r->n_groups++] = 0;
-        }
-        r->group[k] = *number;
-        r->row[*number]++;
-        n_closed++;
-    }
-    return n_closed;
+    for (dem_index p = 0; p < n; p++) r->rank[r->order[p]] = p;
 }
 
 /* How far from the diagonal rows share nodes, the rows being those of a group if all its contacts stuck. */
@@ -90,8 +60,8 @@ static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_ro
     dem_index width = 0;
     *n_rows = 0;
     for (int pass = 0; pass < 2; pass++)
-        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-            const contact_candidate *s = &r->candidates[r->members[p]];
+        for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+            const contact_candidate *s = &r->candidates[k];
             const dem_index nodes[2] = {s->node, candidate_is_edge(s) ? s->other : s->node};
             if (pass == 1) *n_rows += 2 * s->n_closed;
             for (int e = 0; e < 2; e++) {
@@ -106,35 +76,148 @@ static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_ro
     return width;
 }
 
-/* Makes room for the largest band. */
-static dem_status reserve(contact_forces *r)
+/* Makes room for the band of a group. */
+static dem_status reserve(contact_forces *r, dem_index group)
 {
-    size_t most = 0;
-    for (dem_index g = 0; g < r->n_groups; g++) {
-        dem_index n;
-        const dem_index width = group_width(r, g, &n);
-        const size_t size = (size_t)n * (2 * (size_t)width + 1);
-        if (size > most) most = size;
-    }
-    if (most <= r->capacity) return DEM_OK;
-    double *band = realloc(r->band, 2 * most * sizeof *band);
-    CHECK(band != NULL, DEM_ERROR_MEMORY, "out of memory for %zu coupled contact forces", most);
+    dem_index n;
+    const dem_index width = group_width(r, group, &n);
+    const size_t size = (size_t)n * (2 * (size_t)width + 1);
+    if (size <= r->capacity) return DEM_OK;
+    double *band = realloc(r->band, 2 * size * sizeof *band);
+    CHECK(band != NULL, DEM_ERROR_MEMORY, "out of memory for %zu coupled contact forces", size);
     r->band = band;
-    r->capacity = 2 * most;
+    r->capacity = 2 * size;
     return DEM_OK;
+}
+
+/* Where a group is, or would be, in the list of all. */
+static dem_index place_of(const contact_forces *r, dem_index group)
+{
+    dem_index low = 0, high = r->n_groups;
+    while (low < high) {
+        const dem_index middle = low + (high - low) / 2;
+        if (r->groups[middle] < group)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void list_group(contact_forces *r, dem_index group)
+{
+    const dem_index at = place_of(r, group);
+    memmove(&r->groups[at + 1], &r->groups[at], (size_t)(r->n_groups++ - at) * sizeof *r->groups);
+    r->groups[at] = group;
+}
+
+static void delist_group(contact_forces *r, dem_index group)
+{
+    const dem_index at = place_of(r, group);
+    memmove(&r->groups[at], &r->groups[at + 1], (size_t)(--r->n_groups - at) * sizeof *r->groups);
+}
+
+/* Sets the group at the nodes of a site. */
+static void set_at_nodes(contact_forces *r, dem_index k, dem_index group)
+{
+    r->at_node[r->candidates[k].node] = group;
+    if (candidate_is_edge(&r->candidates[k])) r->at_node[r->candidates[k].other] = group;
+}
+
+/* Puts a site among the n whose groups are to be found, unless it is there or is not closed. */
+static dem_index collect(contact_forces *r, dem_index k, dem_index n)
+{
+    if (r->candidates[k].n_closed == 0 || r->group[k] == collected) return n;
+    r->group[k] = collected;
+    r->ranks[n] = r->rank[k];
+    return n + 1;
+}
+
+/* The same for all of a group, which there is no more. */
+static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
+{
+    if (group < 0) return n;
+    delist_group(r, group);
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+        r->group[k] = -1;
+        set_at_nodes(r, k, -1);
+        n = collect(r, k, n);
+    }
+    return n;
+}
+
+/* Joins the nodes of the sites that were collected; a group has one root. */
+static void join_nodes(contact_forces *r, dem_index n)
+{
+    for (dem_index p = 0; p < n; p++) {
+        const contact_candidate *s = &r->candidates[r->order[r->ranks[p]]];
+        r->root[s->node] = s->node;
+        if (candidate_is_edge(s)) r->root[s->other] = s->other;
+    }
+    for (dem_index p = 0; p < n; p++) {
+        const contact_candidate *s = &r->candidates[r->order[r->ranks[p]]];
+        if (candidate_is_edge(s)) join(r, s->node, s->other);
+    }
+}
+
+/* Makes groups of the sites that were collected, from the last to the first, so that each takes the place of the one
+ * that was the first of its group. */
+static void make_groups(contact_forces *r, dem_index n)
+{
+    for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[r->order[r->ranks[p]]].node)] = -1;
+    for (dem_index p = n - 1; p >= 0; p--) {
+        const dem_index k = r->order[r->ranks[p]];
+        dem_index *first = &r->first[root_of(r, r->candidates[k].node)];
+        r->next[k] = *first;
+        *first = k;
+    }
+    for (dem_index p = 0; p < n; p++) {
+        const dem_index k = r->order[r->ranks[p]], first = r->first[root_of(r, r->candidates[k].node)];
+        r->group[k] = r->rank[first];
+        set_at_nodes(r, k, r->group[k]);
+        if (k == first) list_group(r, r->group[k]);
+    }
+}
+
+static int by_rank(const void *a, const void *b)
+{
+    const dem_index x = *(const dem_index *)a, y = *(const dem_index *)b;
+    return (x > y) - (x < y);
+}
+
+/* Finds the groups of the n sites that were collected. */
+static dem_status group_collected(contact_forces *r, dem_index n)
+{
+    if (n > 1) qsort(r->ranks, (size_t)n, sizeof *r->ranks, by_rank);
+    join_nodes(r, n);
+    make_groups(r, n);
+    for (dem_index p = 0; p < n; p++)
+        if (r->group[r->order[r->ranks[p]]] == r->ranks[p]) TRY(reserve(r, r->ranks[p]));
+    return DEM_OK;
+}
+
+dem_status contact_forces_regroup_some(contact_forces *r, const dem_index *changed, dem_index n)
+{
+    dem_index n_collected = 0;
+    for (dem_index c = 0; c < n; c++) {
+        const contact_candidate *s = &r->candidates[changed[c]];
+        n_collected = dissolve(r, r->at_node[s->node], n_collected);
+        if (candidate_is_edge(s)) n_collected = dissolve(r, r->at_node[s->other], n_collected);
+        n_collected = collect(r, changed[c], n_collected);
+    }
+    return group_collected(r, n_collected);
 }
 
 dem_status contact_forces_regroup(contact_forces *r)
 {
-    join_nodes(r);
-    const dem_index n_closed = number_groups(r);
-    for (dem_index g = 1; g < r->n_groups; g++) r->row[g] += r->row[g - 1];
-    for (dem_index p = r->n_candidates - 1; p >= 0; p--) {
-        const dem_index k = r->order[p];
-        if (r->candidates[k].n_closed > 0) r->members[--r->row[r->group[k]]] = k;
+    dem_index n_collected = 0;
+    r->n_groups = 0;
+    for (dem_index i = 0; i < r->scene->model->lattice.n_nodes; i++) r->at_node[i] = -1;
+    for (dem_index k = 0; k < r->n_candidates; k++) {
+        r->group[k] = -1;
+        n_collected = collect(r, k, n_collected);
     }
-    r->row[r->n_groups] = n_closed;
-    return reserve(r);
+    return group_collected(r, n_collected);
 }
 
 /* ---- one contact by itself ---- */
@@ -199,8 +282,7 @@ static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const c
 static dem_index set_rows(contact_forces *r, dem_index group, aim to, const double *x, const double *v, const double *u)
 {
     dem_index n = 0;
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const dem_index k = r->members[p];
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(r->scene, candidate, q, x, v);
@@ -300,12 +382,13 @@ static void solve(contact_forces *r, dem_index group, aim to, const double *x, c
 /* Whether a group is one node. */
 static bool alone(const contact_forces *r, dem_index group)
 {
-    return r->row[group + 1] - r->row[group] == 1 && !candidate_is_edge(&r->candidates[r->members[r->row[group]]]);
+    const dem_index first = contact_forces_first(r, group);
+    return r->next[first] < 0 && !candidate_is_edge(&r->candidates[first]);
 }
 
 static void hold(contact_forces *r, dem_index group, const double *x, const double *v, double *a)
 {
-    const dem_index k = r->members[r->row[group]];
+    const dem_index k = contact_forces_first(r, group);
     if (!alone(r, group))
         solve(r, group, FORCE, x, v, a);
     else if (r->candidates[k].n_closed == 2)
@@ -318,7 +401,7 @@ static void hold(contact_forces *r, dem_index group, const double *x, const doub
 
 void contact_forces_hold(contact_forces *r, const double *x, const double *v, double *a)
 {
-    for (dem_index g = 0; g < r->n_groups; g++) hold(r, g, x, v, a);
+    for (dem_index g = 0; g < r->n_groups; g++) hold(r, r->groups[g], x, v, a);
 }
 
 /* The free acceleration of a node, once for all contacts that share it. */
@@ -331,13 +414,13 @@ static void set_free(contact_forces *r, dem_index node, const double *x, const d
 
 void contact_forces_solve(contact_forces *r, dem_index group, const double *x, const double *v)
 {
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_candidate *candidate = &r->candidates[r->members[p]];
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+        const contact_candidate *candidate = &r->candidates[k];
         r->first[candidate->node] = -1;
         if (candidate_is_edge(candidate)) r->first[candidate->other] = -1;
     }
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_candidate *candidate = &r->candidates[r->members[p]];
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+        const contact_candidate *candidate = &r->candidates[k];
         set_free(r, candidate->node, x, v);
         if (candidate_is_edge(candidate)) set_free(r, candidate->other, x, v);
     }
@@ -361,15 +444,15 @@ static void stop_node(contact_forces *r, dem_index k, double *v)
 void contact_forces_stop(contact_forces *r, dem_index group, const double *x, double *v)
 {
     if (alone(r, group))
-        stop_node(r, r->members[r->row[group]], v);
+        stop_node(r, contact_forces_first(r, group), v);
     else
         solve(r, group, IMPULSE, x, v, v);
 }
 
 const double *contact_forces_shift(contact_forces *r, dem_index group, const double *x, const double *v)
 {
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_candidate *candidate = &r->candidates[r->members[p]];
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+        const contact_candidate *candidate = &r->candidates[k];
         vec2_put(r->a, candidate->node, (vec2){0.0, 0.0});
         if (candidate_is_edge(candidate)) vec2_put(r->a, candidate->other, (vec2){0.0, 0.0});
     }
@@ -383,19 +466,25 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
     const size_t n = (size_t)n_candidates + 1, n_nodes = (size_t)scene->model->lattice.n_nodes;
     contact_forces r = {.scene = scene, .candidates = candidates, .n_candidates = n_candidates};
     r.order = malloc(n * sizeof *r.order);
-    r.row = calloc(n + 1, sizeof *r.row);
-    r.members = malloc(n * sizeof *r.members);
+    r.rank = malloc(n * sizeof *r.rank);
+    r.groups = malloc(n * sizeof *r.groups);
     r.group = malloc(n * sizeof *r.group);
+    r.next = malloc(n * sizeof *r.next);
+    r.at_node = malloc(n_nodes * sizeof *r.at_node);
+    r.ranks = malloc(n * sizeof *r.ranks);
     r.force = calloc(n, sizeof *r.force);
     r.root = malloc(n_nodes * sizeof *r.root);
     r.first = malloc(n_nodes * sizeof *r.first);
     r.a = calloc(2 * n_nodes, sizeof *r.a);
     r.rows = malloc(4 * n * sizeof *r.rows);
-    if (!(r.order && r.row && r.members && r.group && r.force && r.root && r.first && r.a && r.rows)) {
+    const bool grouped = r.order && r.rank && r.groups && r.group && r.next && r.at_node && r.ranks;
+    if (!(grouped && r.force && r.root && r.first && r.a && r.rows)) {
         contact_forces_destroy(&r);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_candidates);
     }
     sort_sites(&r);
+    for (dem_index k = 0; k < n_candidates; k++) r.group[k] = -1;
+    for (size_t i = 0; i < n_nodes; i++) r.at_node[i] = -1;
     *out = r;
     return DEM_OK;
 }
@@ -403,9 +492,12 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
 void contact_forces_destroy(contact_forces *r)
 {
     free(r->order);
-    free(r->row);
-    free(r->members);
+    free(r->rank);
+    free(r->groups);
     free(r->group);
+    free(r->next);
+    free(r->at_node);
+    free(r->ranks);
     free(r->force);
     free(r->root);
     free(r->first);

@@ -36,8 +36,7 @@ typedef struct contact_candidate {
     vec2 clear_at[2];         /* m, where its nodes were when all that it could touch besides */
     double clear;             /* m, was this far away */
     contact_point closed[2];
-    bool involved;      /* it takes part in the impact under way */
-    int n_involved;     /* contacts that do: behind the closed ones are those that have opened */
+    int n_involved;     /* contacts in the impact under way: behind the closed ones are those that have opened */
     double storm_start; /* s */
     dem_index storm;    /* changes of this site since then */
 } contact_candidate;

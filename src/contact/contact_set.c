@@ -24,7 +24,8 @@ dem_status contact_set_create(contact_set *c, const dem_model *model, const cont
     c->n = model->n_contact_nodes + (vertices ? model->surface.n_edges : 0);
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
     c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
-    if (c->list == NULL || c->of_node == NULL) {
+    c->involved = malloc(((size_t)c->n + 1) * sizeof *c->involved);
+    if (c->list == NULL || c->of_node == NULL || c->involved == NULL) {
         contact_set_destroy(c);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)c->n);
     }
@@ -45,6 +46,7 @@ void contact_set_destroy(contact_set *c)
 {
     free(c->list);
     free(c->of_node);
+    free(c->involved);
     ledger_destroy(&c->ledger);
     contact_forces_destroy(&c->forces);
     *c = (contact_set){0};
@@ -102,27 +104,45 @@ static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index 
 
 /* Which contacts are of a corner: both of a node on two segments, and a vertex on two edges that meet in it. One that
  * is not any more is at rest. */
-static void mark_corners(contact_set *c)
+static void mark_corners(contact_set *c, dem_index k)
 {
-    for (dem_index k = 0; k < c->n; k++) {
-        contact_candidate *candidate = &c->list[k];
-        for (int q = 0; q < candidate->n_closed; q++) {
-            contact_point *point = &candidate->closed[q];
-            const bool held = candidate_is_edge(candidate) ? shared(c, candidate->node, k, point->feature) ||
-                                                                 shared(c, candidate->other, k, point->feature)
-                                                           : candidate->n_closed == 2;
-            if (point->held && !held)
-                point->slide = contact_point_friction(&c->scene, candidate, point->feature) > 0.0 ? 0 : 1;
-            if (held) point->slide = 1;
-            point->held = held;
-        }
+    contact_candidate *candidate = &c->list[k];
+    for (int q = 0; q < candidate->n_closed; q++) {
+        contact_point *point = &candidate->closed[q];
+        const bool held = candidate_is_edge(candidate) ? shared(c, candidate->node, k, point->feature) ||
+                                                             shared(c, candidate->other, k, point->feature)
+                                                       : candidate->n_closed == 2;
+        if (point->held && !held)
+            point->slide = contact_point_friction(&c->scene, candidate, point->feature) > 0.0 ? 0 : 1;
+        if (held) point->slide = 1;
+        point->held = held;
     }
+}
+
+/* The same of an edge and those that meet it: they may be of one corner. */
+static void mark_around(contact_set *c, dem_index k)
+{
+    const surface *s = &c->scene.model->surface;
+    const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
+    for (int e = 0; e < 2; e++)
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1]; p++)
+            mark_corners(c, contact_set_of_edge(c, s->at[p]));
 }
 
 dem_status contact_set_regroup(contact_set *c)
 {
-    mark_corners(c);
+    for (dem_index k = 0; k < c->n; k++) mark_corners(c, k);
     return contact_forces_regroup(&c->forces);
+}
+
+dem_status contact_set_regroup_some(contact_set *c, const dem_index *changed, dem_index n)
+{
+    for (dem_index m = 0; m < n; m++)
+        if (candidate_is_edge(&c->list[changed[m]]))
+            mark_around(c, changed[m]);
+        else
+            mark_corners(c, changed[m]);
+    return contact_forces_regroup_some(&c->forces, changed, n);
 }
 
 dem_status contact_set_close(contact_set *c, dem_index k, contact_point point)
@@ -130,7 +150,7 @@ dem_status contact_set_close(contact_set *c, dem_index k, contact_point point)
     contact_candidate *candidate = &c->list[k];
     candidate->closed[candidate->n_closed++] = point;
     candidate_forget_clearance(candidate);
-    return contact_set_regroup(c);
+    return contact_set_regroup_some(c, &k, 1);
 }
 
 dem_status contact_set_open(contact_set *c, dem_index k, int q)
@@ -139,7 +159,7 @@ dem_status contact_set_open(contact_set *c, dem_index k, int q)
     if (q == 0) candidate->closed[0] = candidate->closed[1];
     candidate->n_closed--;
     candidate_forget_clearance(candidate);
-    return contact_set_regroup(c);
+    return contact_set_regroup_some(c, &k, 1);
 }
 
 void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x)
@@ -166,14 +186,17 @@ void contact_set_solve_forces(contact_set *c, dem_index k, const double *x, cons
 
 void contact_set_solve_all(contact_set *c, const double *x, const double *v)
 {
-    for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, g, x, v);
+    for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, c->forces.groups[g], x, v);
 }
 
 /* A force without what should come from outside is none: the last known stays. */
 void contact_set_store_all(contact_set *c)
 {
     if (external_force_failed(c->scene.rule.load.external)) return;
-    for (dem_index m = 0; m < c->forces.row[c->forces.n_groups]; m++) contact_set_store_forces(c, c->forces.members[m]);
+    const contact_forces *r = &c->forces;
+    for (dem_index g = 0; g < r->n_groups; g++)
+        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
+            contact_set_store_forces(c, k);
 }
 
 double contact_set_stop(contact_set *c, dem_index group, const double *x, double *v)
@@ -181,11 +204,11 @@ double contact_set_stop(contact_set *c, dem_index group, const double *x, double
     contact_forces *r = &c->forces;
     double energy = 0.0;
     for (int after = 0; after < 2; after++) { /* impulses at points take -J.(v + v')/2 */
-        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-            contact_candidate *candidate = &c->list[r->members[p]];
+        for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+            contact_candidate *candidate = &c->list[k];
             for (int q = 0; q < candidate->n_closed; q++) {
                 const contact_frame f = contact_frame_at(&c->scene, candidate, q, x, v);
-                const contact_force got = r->force[r->members[p]][q];
+                const contact_force got = r->force[k][q];
                 const vec2 impulse = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
                 if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(candidate->closed[q].stop, f.velocity));
                 candidate->closed[q].stop = after ? impulse : f.velocity;
@@ -210,17 +233,6 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
                                   .force = vec2_along(along, force->normal, f.normal),
                                   .friction = along,
                                   .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
-}
-
-dem_index contact_set_group_at(const contact_set *c, dem_index node)
-{
-    const surface *s = &c->scene.model->surface;
-    if (node_closed(c, node)) return c->forces.group[c->of_node[node]];
-    if (c->n == c->scene.model->n_contact_nodes) return -1;
-    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
-        if (c->list[contact_set_of_edge(c, s->at[p])].n_closed > 0)
-            return c->forces.group[contact_set_of_edge(c, s->at[p])];
-    return -1;
 }
 
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,

@@ -12,7 +12,9 @@ typedef struct contact_set {
     contact_candidate *list; /* [n] the model's nodes that may touch, then its edges */
     contact_forces forces;
     contact_ledger ledger;
-    dem_index *of_node;  /* [n_nodes] site of a node, or -1 */
+    dem_index *of_node; /* [n_nodes] site of a node, or -1 */
+    dem_index n_involved;
+    dem_index *involved; /* [n_involved] sites that take part in the impact under way; room for all */
     double straightened; /* m, the furthest that nodes were moved after a step to put closed contacts back */
 } contact_set;
 
@@ -49,8 +51,11 @@ bool contact_set_coupled(const contact_set *c, dem_index k);
 /** A node has passed round the free end of an obstacle, or come back (-1); its edges know as well. */
 void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle);
 
-/** Finds the groups of contacts and which of them are corners, when closed contacts have changed. */
+/** Finds the groups of all contacts, and which of them are corners. */
 dem_status contact_set_regroup(contact_set *c);
+
+/** The same when these sites have opened or closed contacts, and no others. */
+dem_status contact_set_regroup_some(contact_set *c, const dem_index *changed, dem_index n);
 
 /** Adds or takes away a closed contact. */
 dem_status contact_set_close(contact_set *c, dem_index k, contact_point point);
@@ -84,7 +89,10 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
                                               const double *v);
 
 /** The group that has closed contacts at a node, or -1. */
-dem_index contact_set_group_at(const contact_set *c, dem_index node);
+static inline dem_index contact_set_group_at(const contact_set *c, dem_index node)
+{
+    return c->forces.at_node[node];
+}
 
 /** An event of a site at a feature: what is known without the impact. */
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,

@@ -212,8 +212,8 @@ static void put_around(const dem_model *model, const dense_output *p, double t, 
 
 void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
 {
-    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++) {
-        const contact_candidate *candidate = &r->candidates[r->members[m]];
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        const contact_candidate *candidate = &r->candidates[m];
         put_around(r->scene->model, p, t, candidate->node, state);
         if (!candidate_is_edge(candidate)) continue;
         put_around(r->scene->model, p, t, candidate->other, state);

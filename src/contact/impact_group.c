@@ -2,6 +2,8 @@
 /* The impact of a group of contacts that share nodes: they strike one another in turn. */
 #include "contact/impact_group.h"
 
+#include <stdlib.h>
+
 #include "base/status.h"
 #include "contact/impact_rest.h"
 
@@ -15,8 +17,8 @@ double impact_group_project(contact_set *c, dem_index group, contact_instant *no
     contact_forces *r = &c->forces;
     double furthest = 0.0;
     const double *shift = contact_forces_shift(r, group, now->x, now->v);
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_candidate *candidate = &c->list[r->members[p]];
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        const contact_candidate *candidate = &c->list[m];
         const dem_index nodes[2] = {candidate->node, candidate->other};
         for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
             furthest = fmax(furthest, vec2_norm(vec2_at(shift, nodes[e])));
@@ -32,9 +34,10 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
 {
     const contact_forces *r = &c->forces;
     double scale = 0.0;
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        contact_candidate *candidate = &c->list[r->members[p]];
-        candidate->involved = true;
+    c->n_involved = 0;
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        contact_candidate *candidate = &c->list[m];
+        c->involved[c->n_involved++] = m;
         candidate->n_involved = candidate->n_closed;
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
@@ -76,9 +79,9 @@ static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant
     for (int q = 0; q < c->list[k].n_closed; q++) (void)strike(c, k, q, tolerance, false, now); /* it is the first */
     for (int s = 0; s < most_sweeps && struck; s++) {
         struck = false;
-        for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
-            for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
-                struck |= strike(c, r->members[p], q, tolerance, 2 * s >= most_sweeps, now);
+        for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+            for (int q = 0; q < c->list[m].n_closed; q++)
+                struck |= strike(c, m, q, tolerance, 2 * s >= most_sweeps, now);
     }
     return !struck;
 }
@@ -87,9 +90,8 @@ static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant
 static void judge(contact_set *c, dem_index group, double tolerance, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
-    const bool shared = r->row[group + 1] - r->row[group] > 1;
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const dem_index k = r->members[p];
+    const bool shared = r->next[contact_forces_first(r, group)] >= 0;
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         for (int q = 0; q < c->list[k].n_closed; q++) {
             contact_point *point = &c->list[k].closed[q];
             const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
@@ -115,16 +117,16 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
     bool any = false;
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
-        for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
-            contact_point *point = &c->list[r->members[p]].closed[q];
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+        for (int q = 0; q < c->list[m].n_closed; q++) {
+            contact_point *point = &c->list[m].closed[q];
             point->plastic = point->struck && point->rests;
             any |= point->plastic;
         }
-    for (dem_index p = r->row[group]; p < r->row[group + 1] && any; p++)
-        for (int q = 0; q < c->list[r->members[p]].n_closed; q++) {
-            contact_point *point = &c->list[r->members[p]].closed[q];
-            const contact_frame f = contact_frame_at(&c->scene, &c->list[r->members[p]], q, now->x, now->v);
+    for (dem_index m = contact_forces_first(r, group); m >= 0 && any; m = r->next[m])
+        for (int q = 0; q < c->list[m].n_closed; q++) {
+            contact_point *point = &c->list[m].closed[q];
+            const contact_frame f = contact_frame_at(&c->scene, &c->list[m], q, now->x, now->v);
             contact_set_push(c, &f, vec2_scale(-1.0, point->impulse), now->v);
             point->impulse = (vec2){0.0, 0.0};
             point->energy = 0.0;
@@ -138,9 +140,9 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
 static void keep_struck(contact_set *c, dem_index group)
 {
     const contact_forces *r = &c->forces;
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++)
-        for (int q = 0; q < c->list[r->members[p]].n_closed; q++)
-            if (c->list[r->members[p]].closed[q].struck) c->list[r->members[p]].closed[q].opens = false;
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+        for (int q = 0; q < c->list[m].n_closed; q++)
+            if (c->list[m].closed[q].struck) c->list[m].closed[q].opens = false;
 }
 
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
@@ -159,8 +161,8 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
     c->ledger.impact += contact_set_stop(c, group, now->x, now->v);
-    for (dem_index p = r->row[group]; p < r->row[group + 1]; p++) {
-        const contact_candidate *candidate = &c->list[r->members[p]];
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
             const dem_obstacle *on = contact_point_obstacle(&c->scene, candidate, candidate->closed[q].feature);
@@ -189,11 +191,12 @@ static void stop_around(contact_set *c, dem_index k, contact_instant *now)
 static void settle_velocities(contact_set *c, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
-    for (dem_index g = 0; g < r->n_groups; g++) {
-        if (!c->list[r->members[r->row[g]]].involved) continue;
-        c->ledger.impact += contact_set_stop(c, g, now->x, now->v);
-        for (dem_index p = r->row[g]; p < r->row[g + 1]; p++) {
-            contact_candidate *candidate = &c->list[r->members[p]];
+    for (dem_index p = 0; p < c->n_involved; p++) {
+        const dem_index k = c->involved[p], group = r->group[k];
+        if (group < 0 || contact_forces_first(r, group) != k) continue;
+        c->ledger.impact += contact_set_stop(c, group, now->x, now->v);
+        for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+            contact_candidate *candidate = &c->list[m];
             for (int q = 0; q < candidate->n_closed; q++)
                 candidate->closed[q].impulse = vec2_add(candidate->closed[q].impulse, candidate->closed[q].stop);
         }
@@ -220,7 +223,6 @@ static void tell_party(contact_set *c, dem_index k, contact_instant *now)
         ledger_enter(&c->ledger, &event, now);
     }
     for (int q = 0; q < candidate->n_closed; q++) candidate->closed[q].fresh = false;
-    candidate->involved = false;
     candidate->n_involved = 0;
 }
 
@@ -234,7 +236,13 @@ static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
         const bool known = candidate->n_closed == 1 && candidate->closed[0].feature == hit.feature[h];
         if (!known) TRY(contact_set_close(c, k, (contact_point){.feature = hit.feature[h], .slide = 1, .fresh = true}));
     }
-    return contact_set_regroup(c);
+    return DEM_OK;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const dem_index x = *(const dem_index *)a, y = *(const dem_index *)b;
+    return (x > y) - (x < y);
 }
 
 dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now)
@@ -251,11 +259,10 @@ dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, co
         judge(c, group, tolerance, now);
     }
     if (!done) keep_struck(c, group);
-    for (dem_index m = 0; m < c->n; m++)
-        if (c->list[m].involved) part(&c->list[m]);
-    TRY(contact_set_regroup(c));
+    for (dem_index p = 0; p < c->n_involved; p++) part(&c->list[c->involved[p]]);
+    TRY(contact_set_regroup_some(c, c->involved, c->n_involved));
     settle_velocities(c, now);
-    for (dem_index m = 0; m < c->n; m++)
-        if (c->list[m].involved) tell_party(c, m, now);
+    qsort(c->involved, (size_t)c->n_involved, sizeof *c->involved, by_number);
+    for (dem_index p = 0; p < c->n_involved; p++) tell_party(c, c->involved[p], now);
     return DEM_OK;
 }

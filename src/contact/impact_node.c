@@ -75,7 +75,7 @@ static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const
         candidate->closed[candidate->n_closed++] =
             (contact_point){.feature = held.feature[q], .slide = impact_rest_slide(c, k, held.feature[q], speed)};
     }
-    return contact_set_regroup(c);
+    return contact_set_regroup_some(c, &k, 1);
 }
 
 /* Tells that contacts began or ceased to last where no impact tells it. */

@@ -21,7 +21,8 @@ static dem_status allocate(event_queue *q, const dem_model *model)
     q->waits = calloc(n, sizeof *q->waits);
     q->kept = calloc(n, sizeof *q->kept);
     q->saved = malloc(n * sizeof *q->saved);
-    CHECK(q->due && q->waiting && q->waits && q->kept && q->saved, DEM_ERROR_MEMORY,
+    q->before = malloc(n * sizeof *q->before);
+    CHECK(q->due && q->waiting && q->waits && q->kept && q->saved && q->before, DEM_ERROR_MEMORY,
           "out of memory for %lld contact sites", (long long)q->automaton->set.n);
     TRY(changed_motion_create(&q->changed, model->lattice.n_nodes + q->automaton->set.scene.rule.n_quadratures));
     return ledger_create(&q->ledger, model->obstacles.n);
@@ -49,6 +50,7 @@ void event_queue_destroy(event_queue *q)
     free(q->waits);
     free(q->kept);
     free(q->saved);
+    free(q->before);
     free(q->events);
     *q = (event_queue){0};
 }
@@ -120,7 +122,7 @@ static void look_ahead(event_queue *q)
 
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
-    for (dem_index s = 0; s < q->n_saved; s++) q->kept[q->saved[s].k] = false;
+    for (dem_index s = 0; s < q->n_saved; s++) q->kept[q->saved[s]] = false;
     q->n_saved = q->n_events = q->n_stops = 0;
     changed_motion_start(&q->changed, step->t1, y1, f1);
     step->changed = &q->changed;
@@ -146,7 +148,8 @@ static void keep_site(event_queue *q, dem_index k)
 {
     if (q->kept[k]) return;
     q->kept[k] = true;
-    q->saved[q->n_saved++] = (saved_candidate){k, q->automaton->set.list[k]};
+    q->saved[q->n_saved] = k;
+    q->before[q->n_saved++] = q->automaton->set.list[k];
 }
 
 static dem_index n_moving(const event_queue *q)
@@ -179,11 +182,11 @@ void event_queue_undo(event_queue *q)
     automaton *c = q->automaton;
     if (q->n_stops == 0) return;
     for (dem_index s = 0; s < q->n_saved; s++) {
-        c->set.list[q->saved[s].k] = q->saved[s].before;
-        q->kept[q->saved[s].k] = false;
+        c->set.list[q->saved[s]] = q->before[s];
+        q->kept[q->saved[s]] = false;
     }
     copy_books(&q->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
-    (void)contact_set_regroup(&c->set); /* groups that there were have room */
+    (void)contact_set_regroup_some(&c->set, q->saved, q->n_saved); /* groups that there were have room */
     changed_motion_undo(&q->changed);
     c->idle = q->idle;
     c->solved = NAN;
@@ -267,8 +270,8 @@ static dem_status take(event_queue *q, dem_index k)
 static bool has_moved(const event_queue *q, dem_index group)
 {
     const contact_forces *r = &q->automaton->set.forces;
-    for (dem_index m = r->row[group]; m < r->row[group + 1]; m++)
-        if (changed_motion_has(&q->changed, r->candidates[r->members[m]].node)) return true;
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+        if (changed_motion_has(&q->changed, r->candidates[m].node)) return true;
     return false;
 }
 
@@ -317,7 +320,7 @@ static dem_status renew_end(event_queue *q)
     const triangles *t = &c->scene.model->triangles;
     const double *y1 = q->changed.y1;
     for (dem_index g = 0; g < c->forces.n_groups; g++)
-        contact_forces_solve(&c->forces, g, y1, y1 + scene_velocities(&c->scene));
+        contact_forces_solve(&c->forces, c->forces.groups[g], y1, y1 + scene_velocities(&c->scene));
     for (dem_index e = 0, n = q->changed.n; e < n; e++) {
         const dem_index i = q->changed.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
@@ -338,9 +341,10 @@ static dem_status settle_end(event_queue *q)
     double *y1 = q->changed.y1;
     contact_instant now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
     for (dem_index g = 0; g < c->forces.n_groups; g++) {
-        if (!has_moved(q, g)) continue;
-        (void)impact_group_project(c, g, &now);
-        impact_group_stop(c, g, &now);
+        const dem_index group = c->forces.groups[g];
+        if (!has_moved(q, group)) continue;
+        (void)impact_group_project(c, group, &now);
+        impact_group_stop(c, group, &now);
     }
     q->settled = true;
     return renew_end(q);

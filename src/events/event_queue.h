@@ -8,12 +8,6 @@
 #include "contact/automaton.h"
 #include "events/local_correction.h"
 
-/** A site as it was before the step. */
-typedef struct saved_candidate {
-    dem_index k;
-    contact_candidate before;
-} saved_candidate;
-
 typedef struct event_queue {
     automaton *automaton;
     local_correction correction;
@@ -31,8 +25,9 @@ typedef struct event_queue {
     dem_index n_waiting;
     bool *waits, *kept; /* [n sites] whether a site is one of them; whether it is among `sites` */
     dem_index n_saved;
-    saved_candidate *saved; /* [n_saved] those that have changed */
-    contact_ledger ledger;  /* before the step */
+    dem_index *saved;          /* [n_saved] those that may have changed */
+    contact_candidate *before; /* [n_saved] as they were before the step */
+    contact_ledger ledger;     /* before the step */
     dem_index idle;
     dem_index n_events, capacity;
     dem_event *events; /* [n_events] */

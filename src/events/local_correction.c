@@ -158,9 +158,9 @@ static dem_status add_rates(local_correction *p, int stage, double sign, const d
     vec2 totals[2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (dem_index g = 0; g < p->near.n_groups; g++) {
         if (p->near.groups[g].ring > rings) continue;
-        for (dem_index m = r->row[p->near.groups[g].group]; m < r->row[p->near.groups[g].group + 1]; m++)
-            for (int q = 0; q < c->list[r->members[m]].n_closed; q++) {
-                const contact_contribution of = contact_set_contribution(c, r->members[m], q, y, v);
+        for (dem_index m = contact_forces_first(r, p->near.groups[g].group); m >= 0; m = r->next[m])
+            for (int q = 0; q < c->list[m].n_closed; q++) {
+                const contact_contribution of = contact_set_contribution(c, m, q, y, v);
                 TRY(add_rate(p, first + of.obstacle, stage, sign, of.force));
                 TRY(add_rate(p, first + n_obstacles + of.obstacle, stage, sign, of.friction));
                 totals[0].x += of.power;

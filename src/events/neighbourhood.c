@@ -76,8 +76,8 @@ static dem_status add_group(neighbourhood *b, dem_index j, int ring)
     b->nodes[j].grouped = group >= 0;
     if (group < 0) return DEM_OK;
     TRY(note_group(b, group, ring, &is_new));
-    for (dem_index m = r->row[group]; m < r->row[group + 1] && is_new; m++) {
-        const contact_candidate *candidate = &b->set->list[r->members[m]];
+    for (dem_index m = contact_forces_first(r, group); m >= 0 && is_new; m = r->next[m]) {
+        const contact_candidate *candidate = &b->set->list[m];
         TRY(add_node(b, candidate->node));
         if (candidate_is_edge(candidate)) TRY(add_node(b, candidate->other));
     }

@@ -7,7 +7,8 @@
 
 #include "contact/impact_solve.h"
 
-static const double penetration_tolerance = scene_penetration_tolerance, g = scene_gravity, masses[4] = {1.0, 3.0, 2.0, 2.0};
+static const double penetration_tolerance = scene_penetration_tolerance, g = scene_gravity,
+                    masses[4] = {1.0, 3.0, 2.0, 2.0};
 
 static const double floor_points[4] = {-8.0, 0.0, 8.0, 0.0}, wall_points[4] = {2.0, -1.0, 2.0, 3.0};
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}; /* its ridge is vertex 0, in the origin */

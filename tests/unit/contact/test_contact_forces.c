@@ -36,11 +36,19 @@ static void open_row(bench *b, dem_index n)
 static void check_group(const contact_forces *r, dem_index group, dem_index n, const dem_index *members)
 {
     assert_true(group < r->n_groups);
-    assert_int_equal(r->row[group + 1] - r->row[group], n);
-    for (dem_index p = 0; p < n; p++) {
-        assert_int_equal(r->members[r->row[group] + p], members[p]);
-        assert_int_equal(r->group[members[p]], group);
+    dem_index k = contact_forces_first(r, r->groups[group]);
+    for (dem_index p = 0; p < n; p++, k = r->next[k]) {
+        assert_int_equal(k, members[p]);
+        assert_int_equal(r->group[k], r->groups[group]);
     }
+    assert_int_equal(k, -1);
+}
+
+static dem_index n_sites(const contact_forces *r, dem_index group)
+{
+    dem_index n = 0;
+    for (dem_index k = contact_forces_first(r, r->groups[group]); k >= 0; k = r->next[k]) n++;
+    return n;
 }
 
 static void without_closed_contacts_there_are_no_groups(void **state)
@@ -51,7 +59,6 @@ static void without_closed_contacts_there_are_no_groups(void **state)
     open_row(&b, 4);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 0);
-    assert_int_equal(r.row[0], 0);
     contact_forces_destroy(&r);
     assert_null(r.band);
 }
@@ -128,6 +135,50 @@ static void a_closed_ring_is_one_group(void **state)
     assert_int_equal(r.n_groups, 1);
     check_group(&r, 0, 3, members);
     contact_forces_destroy(&r);
+}
+
+static void check_same_groups(const contact_forces *r, const contact_forces *expected)
+{
+    assert_int_equal(r->n_groups, expected->n_groups);
+    assert_memory_equal(r->groups, expected->groups, (size_t)r->n_groups * sizeof *r->groups);
+    assert_memory_equal(r->group, expected->group, (size_t)r->n_candidates * sizeof *r->group);
+    for (dem_index k = 0; k < r->n_candidates; k++)
+        if (r->group[k] >= 0) assert_int_equal(r->next[k], expected->next[k]);
+    for (dem_index i = 0; i < r->scene->model->lattice.n_nodes; i++)
+        assert_int_equal(r->at_node[i], expected->at_node[i]);
+    assert_true(r->capacity >= expected->capacity / 2); /* of which half is spare */
+}
+
+/* Two rings of nodes and edges, of which up to four sites at a time open or close: the second ring's numbers lie
+ * between those of the first, so that groups interleave. */
+static void groups_found_again_near_a_change_are_those_found_from_nothing(void **state)
+{
+    enum { n = 12 };
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    bench b;
+    contact_forces r;
+    dem_index most = 0;
+    (void)state;
+    bench_open(&b, n);
+    for (dem_index i = 0; i < n; i++) bench_edge(&b, i, (i + 2) % n);
+    regroup(&b, &r);
+    for (int turn = 0; turn < 20000; turn++) {
+        dem_index changed[4];
+        const dem_index n_changed = 1 + (dem_index)gsl_rng_uniform_int(rng, 4);
+        for (dem_index c = 0; c < n_changed; c++) {
+            changed[c] = (dem_index)gsl_rng_uniform_int(rng, (unsigned long)b.n_candidates);
+            b.candidates[changed[c]].n_closed = gsl_rng_uniform(rng) < 0.5 ? 0 : 1 + (int)gsl_rng_uniform_int(rng, 2);
+        }
+        contact_forces from_nothing;
+        assert_ok(contact_forces_regroup_some(&r, changed, n_changed));
+        regroup(&b, &from_nothing);
+        if (r.n_groups > 0) check_same_groups(&r, &from_nothing);
+        most = r.n_groups > most ? r.n_groups : most;
+        contact_forces_destroy(&from_nothing);
+    }
+    assert_true(most >= 6); /* of 12 nodes at most 12 */
+    contact_forces_destroy(&r);
+    gsl_rng_free(rng);
 }
 
 /* ---- by hand ---- */
@@ -473,7 +524,7 @@ static void forces_and_accelerations_agree_with_a_dense_solution(void **state)
         check_forces(&w, &r, solution + n_a);
         tally(&w, kinds);
         n_solved++;
-        for (dem_index g = 0; g < r.n_groups; g++) n_coupled += r.row[g + 1] - r.row[g] > 2;
+        for (dem_index g = 0; g < r.n_groups; g++) n_coupled += n_sites(&r, g) > 2;
         contact_forces_destroy(&r);
     }
     assert_true(n_solved > 1000 && n_coupled > 500);
@@ -499,7 +550,7 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
         }
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);
-        for (dem_index g = 0; g < r.n_groups; g++) contact_forces_solve(&r, g, w.b.x, w.b.v);
+        for (dem_index g = 0; g < r.n_groups; g++) contact_forces_solve(&r, r.groups[g], w.b.x, w.b.v);
         check_forces(&w, &r, solution + 2 * w.b.model.lattice.n_nodes);
         n_solved++;
         contact_forces_destroy(&r);
@@ -589,7 +640,7 @@ static const double stop_tolerance = 1e-9;
 static void stop_all(mix *w, contact_forces *r, double *v)
 {
     memcpy(v, w->b.v, sizeof w->b.v);
-    for (dem_index g = 0; g < r->n_groups; g++) contact_forces_stop(r, g, w->b.x, v);
+    for (dem_index g = 0; g < r->n_groups; g++) contact_forces_stop(r, r->groups[g], w->b.x, v);
 }
 
 /* Also where contacts are redundant: rest is always allowed. */
@@ -695,11 +746,11 @@ static void stopping_one_group_leaves_the_others_alone(void **state)
     bench_touch(&b, 3, 0, 0.5 * M_PI, 1);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 2);
-    contact_forces_stop(&r, 0, b.x, v);
+    contact_forces_stop(&r, r.groups[0], b.x, v);
     /* an edge that turns about its middle has nothing left */
     for (int i = 0; i < 4; i++) assert_close(v[i], 0.0, 1e-15); /* rounding of velocities of order 1 */
     assert_memory_equal(v + 4, b.v + 4, 4 * sizeof *v);
-    contact_forces_stop(&r, 1, b.x, v);
+    contact_forces_stop(&r, r.groups[1], b.x, v);
     check_vector(vec2_at(v, 2), 0.3, -1.0, 0.0);
     check_vector(vec2_at(v, 3), 0.3, 0.0, 1e-16); /* the cosine of pi/2 */
     contact_forces_destroy(&r);
@@ -719,12 +770,12 @@ static void a_shift_closes_the_gap_with_the_light_node_moving_more(void **state)
     contact_point *point = bench_touch(&b, 2, 1, 0.5, 1);
     b.vertices[point->feature].at.y = -0.1;
     regroup(&b, &r);
-    const double *shift = contact_forces_shift(&r, 0, b.x, b.v);
+    const double *shift = contact_forces_shift(&r, r.groups[0], b.x, b.v);
     /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 0), 0.0, -0.15, 1e-16);
     check_vector(vec2_at(shift, 1), 0.0, -0.05, 1e-16);
     b.inverse_mass[0] = 0.0;
-    shift = contact_forces_shift(&r, 0, b.x, b.v);
+    shift = contact_forces_shift(&r, r.groups[0], b.x, b.v);
     check_vector(vec2_at(shift, 0), 0.0, 0.0, 0.0);
     check_vector(vec2_at(shift, 1), 0.0, -0.2, 1e-16);
     contact_forces_destroy(&r);
@@ -743,7 +794,7 @@ static void a_shift_lets_what_sticks_slide(void **state)
     contact_point *point = bench_touch(&b, 2, 1, 0.5, 0);
     b.vertices[point->feature].at.x = 0.2;
     regroup(&b, &r);
-    const double *shift = contact_forces_shift(&r, 0, b.x, b.v);
+    const double *shift = contact_forces_shift(&r, r.groups[0], b.x, b.v);
     check_vector(vec2_at(shift, 0), 0.2, 0.0, 1e-16); /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 1), 0.2, 0.0, 1e-16);
     contact_forces_destroy(&r);
@@ -767,9 +818,9 @@ static double left_after_shift(const mix *w, double size)
     regroup(&b, &r);
     memcpy(x, b.x, sizeof x);
     for (dem_index g = 0; g < r.n_groups; g++) {
-        const double *shift = contact_forces_shift(&r, g, b.x, b.v);
-        for (dem_index p = r.row[g]; p < r.row[g + 1]; p++) {
-            const contact_candidate *s = &b.candidates[r.members[p]];
+        const double *shift = contact_forces_shift(&r, r.groups[g], b.x, b.v);
+        for (dem_index k = contact_forces_first(&r, r.groups[g]); k >= 0; k = r.next[k]) {
+            const contact_candidate *s = &b.candidates[k];
             vec2_put(x, s->node, vec2_add(vec2_at(b.x, s->node), vec2_at(shift, s->node)));
             if (candidate_is_edge(s)) vec2_put(x, s->other, vec2_add(vec2_at(b.x, s->other), vec2_at(shift, s->other)));
         }
@@ -811,6 +862,7 @@ int main(void)
         cmocka_unit_test(edges_that_share_nodes_and_nodes_at_their_ends_are_one_group),
         cmocka_unit_test(opening_a_contact_splits_its_group),
         cmocka_unit_test(a_closed_ring_is_one_group),
+        cmocka_unit_test(groups_found_again_near_a_change_are_those_found_from_nothing),
         cmocka_unit_test(a_node_on_an_incline_slides_or_sticks),
         cmocka_unit_test(a_corner_holds_its_node_with_two_normal_forces),
         cmocka_unit_test(an_edge_balances_on_a_vertex),

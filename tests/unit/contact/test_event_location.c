@@ -335,7 +335,7 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
     assert_ok(contact_set_regroup(&s.c.set));
     dense_output_state(&f.path, 0.3, y);
     for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
-    event_location_state(&s.c.set.forces, 0, &f.path, 0.3, f.scratch);
+    event_location_state(&s.c.set.forces, contact_set_group_at(&s.c.set, 0), &f.path, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);
     scene_close(&s);
 }
