@@ -85,7 +85,7 @@ static dem_status settle_until_done(automaton *c, dem_index around, contact_inst
 
 dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener)
 {
-    contact_instant now = {t, y, y + scene_velocities(&c->set.scene), listener, DEM_OK};
+    contact_instant now = {t, y, y + state_velocities(scene_layout(&c->set.scene)), listener, DEM_OK};
     TRY(settle_until_done(c, k, &now));
     return now.told;
 }
@@ -106,7 +106,7 @@ static void straighten_nodes(contact_set *c, double *x)
 dem_status automaton_resolve(automaton *c, double t, double *y, const event_listener *listener)
 {
     contact_set *s = &c->set;
-    contact_instant now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
+    contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     const dem_index impacts = s->ledger.counts.impacts;
     TRY(settle_until_done(c, -1, &now));
     if (s->scene.rule.window > 0.0 && s->ledger.counts.impacts > impacts) early_reflection(s, &now);
@@ -149,7 +149,7 @@ static double extent(const contact_set *c, dem_index k, dem_index feature, vec2 
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener)
 {
     contact_set *s = &c->set;
-    contact_instant now = {t, y, y + scene_velocities(&s->scene), listener, DEM_OK};
+    contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     for (dem_index k = 0; k < s->n; k++)
         for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
             const candidate_positions spot = candidate_place(&s->list[k], now.x);
@@ -187,24 +187,29 @@ dem_status automaton_restore(automaton *c, const double *y)
     return DEM_OK;
 }
 
-/* What the closed contacts of one candidate add. */
-static void add_rates_of(const contact_set *s, dem_index k, const double *y, double *rate)
+static void add_to_row(double *array, dem_index row, vec2 change)
 {
-    double *friction = rate + 2 * s->scene.model->obstacles.n, *power = rate + 4 * s->scene.model->obstacles.n;
+    vec2_put(array, row, vec2_add(vec2_at(array, row), change));
+}
+
+/* What the closed contacts of one candidate add. */
+static void add_rates_of(const contact_set *s, dem_index k, const double *y, double *a)
+{
+    const state_layout *l = scene_layout(&s->scene);
     for (int q = 0; q < s->list[k].n_closed; q++) {
-        const contact_contribution of = contact_set_contribution(s, k, q, y, y + scene_velocities(&s->scene));
-        vec2_put(rate, of.obstacle, vec2_add(vec2_at(rate, of.obstacle), of.force));
-        vec2_put(friction, of.obstacle, vec2_add(vec2_at(friction, of.obstacle), of.friction));
-        *power += of.power;
+        const contact_contribution of = contact_set_contribution(s, k, q, y, y + state_velocities(l));
+        add_to_row(a, state_impulse(l, of.obstacle), of.force);
+        add_to_row(a, state_friction_impulse(l, of.obstacle), of.friction);
+        a[state_total_index(l, STATE_FRICTION)] += of.power;
     }
 }
 
-void automaton_add_rates(const automaton *c, const double *y, double *rate)
+void automaton_add_rates(const automaton *c, const double *y, double *a)
 {
     const contact_forces *r = &c->set.forces;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            add_rates_of(&c->set, k, y, rate);
+            add_rates_of(&c->set, k, y, a);
 }
 
 dem_index automaton_list(const automaton *c, const double *x, dem_contact *list)

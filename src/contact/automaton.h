@@ -21,7 +21,7 @@ typedef struct automaton {
 /** The velocities in a state y = (x, v). */
 static inline const double *automaton_velocities(const automaton *c, const double *y)
 {
-    return y + scene_velocities(&c->set.scene);
+    return y + state_velocities(scene_layout(&c->set.scene));
 }
 
 /** `out` must stay where it is. */
@@ -50,10 +50,10 @@ void automaton_root_functions(automaton *c, double t, const double *y, double *g
 /** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
 void automaton_constrain(automaton *c, const double *y, double *a);
 
-/** Adds to the rates [2 n_obstacles + 1][2], after automaton_constrain() in the same state: the force of each
- *  obstacle's closed contacts, N; the part of it that is friction; and in the last place the power that friction
+/** Adds to the rates of the quadratures among the accelerations a [n_rows][2], after automaton_constrain() in the same
+ *  state: the force of each obstacle's closed contacts, N; the part of it that is friction; and the power that friction
  *  takes, W. */
-void automaton_add_rates(const automaton *c, const double *y, double *rate);
+void automaton_add_rates(const automaton *c, const double *y, double *a);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.

@@ -117,7 +117,7 @@ static bool has_opened(const contact_set *c, dem_index group, const contact_inst
 bool automaton_project(automaton *c, double t, double *y)
 {
     contact_set *s = &c->set;
-    contact_instant now = {t, y, y + scene_velocities(&s->scene), NULL, DEM_OK};
+    contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), NULL, DEM_OK};
     bool any = false;
     for (dem_index g = 0; g < s->forces.n_groups; g++) {
         const dem_index group = s->forces.groups[g];

@@ -4,6 +4,7 @@
 #ifndef DEM_CONTACT_CONTACT_POINT_H
 #define DEM_CONTACT_CONTACT_POINT_H
 
+#include "base/state.h"
 #include "forces/forces.h"
 
 /** A closed contact of a site. */
@@ -50,7 +51,7 @@ typedef struct contact_rule {
     double storm_time;            /* s */
     dem_index max_impacts;        /* within storm_time at one site */
     bool vertices;                /* whether edges touch vertices */
-    dem_index n_quadratures;      /* places behind the nodes in a state, for what is integrated along */
+    state_layout layout;          /* of the states */
     int n_threads;                /* that look at free sites at once; 0 counts as 1 */
     forces load;
 } contact_rule;
@@ -92,17 +93,10 @@ static inline bool candidate_is_edge(const contact_candidate *candidate)
     return candidate->other >= 0;
 }
 
-/** Where the velocities begin in a state y = (x, v). */
-static inline dem_index scene_velocities(const contact_scene *scene)
+/** Where things stand in the states. */
+static inline const state_layout *scene_layout(const contact_scene *scene)
 {
-    return 2 * (scene->model->lattice.n_nodes + scene->rule.n_quadratures);
-}
-
-/** Where the books begin among the nodes of a state: pairs for the impulses of the obstacles, for those of their
- *  friction, then (energy that friction takes, that damping takes), (work from outside, time). */
-static inline dem_index scene_books(const contact_scene *scene)
-{
-    return scene->model->lattice.n_nodes + scene->rule.n_quadratures - 2 * scene->model->obstacles.n - 2;
+    return &scene->rule.layout;
 }
 
 /** The segment that a contact is on, or that ends in the vertex it is on. */

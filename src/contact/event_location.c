@@ -227,8 +227,8 @@ void event_location_state(const contact_forces *r, dem_index group, const dense_
 static double lowest_guard(contact_forces *r, dem_index k, const double *state, const double *scale)
 {
     double guard[CANDIDATE_ROOTS], low = INFINITY;
-    candidate_root_functions(r->scene, &r->candidates[k], r->force[k], state, state + scene_velocities(r->scene),
-                             guard);
+    candidate_root_functions(r->scene, &r->candidates[k], r->force[k], state,
+                             state + state_velocities(scene_layout(r->scene)), guard);
     for (int q = 0; q < CANDIDATE_ROOTS; q++)
         if (scale[q] > 0.0) low = fmin(low, guard[q] / scale[q]);
     return low;
@@ -238,7 +238,7 @@ double event_location_change(contact_forces *r, const contact_candidate *candida
                              double *state)
 {
     const dem_index k = candidate - r->candidates, group = r->group[k];
-    const double *v = state + scene_velocities(r->scene);
+    const double *v = state + state_velocities(scene_layout(r->scene));
     const double width = event_location_resolution(p);
     double scale[CANDIDATE_ROOTS];
     event_location_state(r, group, p, from, state);

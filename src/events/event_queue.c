@@ -24,7 +24,7 @@ static dem_status allocate(event_queue *q, const dem_model *model)
     q->before = malloc(n * sizeof *q->before);
     CHECK(q->due && q->waiting && q->waits && q->kept && q->saved && q->before, DEM_ERROR_MEMORY,
           "out of memory for %lld contact sites", (long long)q->automaton->set.n);
-    TRY(changed_motion_create(&q->changed, model->lattice.n_nodes + q->automaton->set.scene.rule.n_quadratures));
+    TRY(changed_motion_create(&q->changed, scene_layout(&q->automaton->set.scene)->n_rows));
     return ledger_create(&q->ledger, model->obstacles.n);
 }
 
@@ -236,7 +236,7 @@ static double growth(double ratio)
 static void calm(event_queue *q)
 {
     contact_set *c = &q->automaton->set;
-    contact_instant now = {q->now, q->state, q->state + scene_velocities(&c->scene), NULL, DEM_OK};
+    contact_instant now = {q->now, q->state, q->state + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
     for (dem_index g = 0; g < q->correction.near.n_groups; g++)
         impact_group_stop(c, q->correction.near.groups[g].group, &now);
 }
@@ -280,8 +280,8 @@ static void renew(const event_queue *q, dem_index i, const double *y)
 {
     const contact_set *c = &q->automaton->set;
     const unsigned held = q->correction.rule.held != NULL ? q->correction.rule.held[i] : 0;
-    const double *v = y + scene_velocities(&c->scene);
-    double *a = q->changed.f1 + scene_velocities(&c->scene);
+    const double *v = y + state_velocities(scene_layout(&c->scene));
+    double *a = q->changed.f1 + state_velocities(scene_layout(&c->scene));
     const bool grouped = contact_set_group_at(c, i) >= 0;
     const vec2 now =
         grouped ? vec2_at(c->forces.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
@@ -293,12 +293,12 @@ static void renew(const event_queue *q, dem_index i, const double *y)
 /* The rates of the books that contacts fill, from all of them. */
 static dem_status renew_books(event_queue *q)
 {
-    const contact_scene *scene = &q->automaton->set.scene;
-    const dem_index first = scene_books(scene), n_impulses = 2 * scene->model->obstacles.n;
-    double *rate = q->changed.f1 + scene_velocities(scene) + 2 * first;
-    for (dem_index b = 0; b <= n_impulses; b++) TRY(changed_motion_keep(&q->changed, first + b));
-    for (dem_index k = 0; k <= 2 * n_impulses; k++) rate[k] = 0.0; /* the last is the power of friction */
-    automaton_add_rates(q->automaton, q->changed.y1, rate);
+    const state_layout *l = scene_layout(&q->automaton->set.scene);
+    const dem_index first = state_impulse(l, 0), last = state_total_rows(l);
+    double *a = q->changed.f1 + state_velocities(l);
+    for (dem_index row = first; row <= last; row++) TRY(changed_motion_keep(&q->changed, row));
+    for (dem_index k = state_row(l, first); k <= state_total_index(l, STATE_FRICTION); k++) a[k] = 0.0;
+    automaton_add_rates(q->automaton, q->changed.y1, a);
     return DEM_OK;
 }
 
@@ -320,7 +320,7 @@ static dem_status renew_end(event_queue *q)
     const triangles *t = &c->scene.model->triangles;
     const double *y1 = q->changed.y1;
     for (dem_index g = 0; g < c->forces.n_groups; g++)
-        contact_forces_solve(&c->forces, c->forces.groups[g], y1, y1 + scene_velocities(&c->scene));
+        contact_forces_solve(&c->forces, c->forces.groups[g], y1, y1 + state_velocities(scene_layout(&c->scene)));
     for (dem_index e = 0, n = q->changed.n; e < n; e++) {
         const dem_index i = q->changed.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
@@ -339,7 +339,7 @@ static dem_status settle_end(event_queue *q)
 {
     contact_set *c = &q->automaton->set;
     double *y1 = q->changed.y1;
-    contact_instant now = {q->step->t1, y1, y1 + scene_velocities(&c->scene), NULL, DEM_OK};
+    contact_instant now = {q->step->t1, y1, y1 + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
     for (dem_index g = 0; g < c->forces.n_groups; g++) {
         const dem_index group = c->forces.groups[g];
         if (!has_moved(q, group)) continue;

@@ -152,8 +152,8 @@ static dem_status add_rates(local_correction *p, int stage, double sign, const d
 {
     const contact_set *c = p->near.set;
     const contact_forces *r = &c->forces;
-    const double *v = y + scene_velocities(&c->scene);
-    const dem_index first = scene_books(&c->scene), n_obstacles = c->scene.model->obstacles.n;
+    const double *v = y + state_velocities(scene_layout(&c->scene));
+    const state_layout *l = scene_layout(&c->scene);
     const int rings = reach(p, stage);
     vec2 totals[2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (dem_index g = 0; g < p->near.n_groups; g++) {
@@ -161,8 +161,8 @@ static dem_status add_rates(local_correction *p, int stage, double sign, const d
         for (dem_index m = contact_forces_first(r, p->near.groups[g].group); m >= 0; m = r->next[m])
             for (int q = 0; q < c->list[m].n_closed; q++) {
                 const contact_contribution of = contact_set_contribution(c, m, q, y, v);
-                TRY(add_rate(p, first + of.obstacle, stage, sign, of.force));
-                TRY(add_rate(p, first + n_obstacles + of.obstacle, stage, sign, of.friction));
+                TRY(add_rate(p, state_impulse(l, of.obstacle), stage, sign, of.force));
+                TRY(add_rate(p, state_friction_impulse(l, of.obstacle), stage, sign, of.friction));
                 totals[0].x += of.power;
             }
     }
@@ -172,7 +172,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, const d
             totals[0].y += powers.x;
             totals[1].x += powers.y;
         }
-    for (int k = 0; k < 2; k++) TRY(add_rate(p, first + 2 * n_obstacles + k, stage, sign, totals[k]));
+    for (int k = 0; k < 2; k++) TRY(add_rate(p, state_total_rows(l) + k, stage, sign, totals[k]));
     return DEM_OK;
 }
 

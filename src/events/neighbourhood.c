@@ -187,7 +187,7 @@ dem_status neighbourhood_regroup(neighbourhood *b)
 
 void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem_index n)
 {
-    double *v = s->y + scene_velocities(&b->set->scene);
+    double *v = s->y + state_velocities(scene_layout(&b->set->scene));
     for (dem_index j = 0; j < n; j++) {
         vec2_put(s->y, b->nodes[j].i, vec2_at(s->x, j));
         vec2_put(v, b->nodes[j].i, vec2_at(s->v, j));
@@ -241,7 +241,7 @@ void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_s
 {
     const contact_scene *scene = &b->set->scene;
     const forces *load = &scene->rule.load;
-    const double *v = s->y + scene_velocities(scene);
+    const double *v = s->y + state_velocities(scene_layout(scene));
     if (b->plain) accelerate_plain(b, rings, s, a);
     for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
         vec2_put(a, j, forces_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));

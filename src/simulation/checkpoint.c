@@ -39,7 +39,7 @@ static sizes sizes_of(const dem_simulation *s)
 {
     const dem_model *m = s->model;
     return (sizes){m->lattice.n_nodes,      m->lattice.n_springs, m->lattice.n_triangles, m->obstacles.n_segments,
-                   m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     run_unknowns(m)};
+                   m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     state_velocities(&s->layout)};
 }
 
 /* ---- contacts ---- */
@@ -170,13 +170,13 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
     TRY(record_pass(&way, "sizes", &size, sizeof size));
     TRY(pass(s, &way, &n, &counts));
     TRY(put_contacts(&s->automaton.set, record));
-    return record_pass(&way, "state", s->y, 2 * (size_t)run_unknowns(s->model) * sizeof *s->y);
+    return record_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
 }
 
 /* The state, if it is one. */
 static dem_status find_state(const dem_simulation *s, const dem_record *record, const double **out)
 {
-    const size_t n = 2 * (size_t)run_unknowns(s->model);
+    const size_t n = (size_t)state_size(&s->layout);
     size_t size;
     const double *y = dem_record_find(record, "state", &size);
     CHECK(y != NULL && size == n * sizeof *y, DEM_ERROR_IO, "the record has %zu bytes of state, %zu are expected", size,

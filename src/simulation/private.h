@@ -4,6 +4,7 @@
 #ifndef DEM_SIMULATION_PRIVATE_H
 #define DEM_SIMULATION_PRIVATE_H
 
+#include "base/state.h"
 #include "events/event_queue.h"
 #include "forces/kernel.h"
 #include "model/overlap.h"
@@ -21,6 +22,7 @@ typedef struct run_measures {
 struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
+    state_layout layout; /* of y */
     boundary_conditions boundaries;
     external_force *external; /* NULL: no force from outside */
     kernel kernel;
@@ -55,39 +57,6 @@ struct dem_simulation {
     observers observers;
 };
 
-/* What is integrated along stands in a state behind the nodes, as if it were nodes: its accelerations are rates, its
- * velocities their integrals. For each obstacle the impulse of its lasting contacts, for each its frictional part; then
- * the energies that friction and damping take; then the work from outside, and last the time. Before them there is
- * room, so that the velocities begin at a cache line as the positions do. */
-static inline dem_index run_room(const dem_model *model)
-{
-    const dem_index pairs_of_line = 4, used = model->lattice.n_nodes + 2 * model->obstacles.n + 2;
-    return (pairs_of_line - used % pairs_of_line) % pairs_of_line;
-}
-
-static inline dem_index run_books(const dem_model *model)
-{
-    return run_room(model) + 2 * model->obstacles.n + 2;
-}
-
-enum { RUN_FRICTION, RUN_DAMPING, RUN_WORK, RUN_TIME }; /* places behind the impulses */
-
-static inline dem_index run_unknowns(const dem_model *model)
-{
-    return 2 * (model->lattice.n_nodes + run_books(model)); /* of positions, and as many of velocities */
-}
-
-/* The books in a state, and those of them behind the impulses. */
-static inline const double *run_books_of(const dem_simulation *s, const double *y)
-{
-    return y + run_unknowns(s->model) + 2 * (s->model->lattice.n_nodes + run_room(s->model));
-}
-
-static inline const double *run_totals_of(const dem_simulation *s, const double *y)
-{
-    return run_books_of(s, y) + 4 * s->model->obstacles.n;
-}
-
 /* What acts on nodes besides springs and triangles. */
 static inline forces run_load(const dem_simulation *s)
 {
@@ -96,7 +65,7 @@ static inline forces run_load(const dem_simulation *s)
                     o->mass_damping,
                     s->boundaries.first != NULL ? &s->boundaries : NULL,
                     s->external,
-                    2 * (s->model->lattice.n_nodes + run_books(s->model)) - 1};
+                    state_total_index(&s->layout, STATE_TIME)};
 }
 
 static inline bool run_is_local(const dem_simulation *s)

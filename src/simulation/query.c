@@ -51,7 +51,7 @@ void dem_simulation_state(const dem_simulation *s, dem_state *state)
                          .t = s->seen_t,
                          .step = s->step,
                          .x = seen_of(s),
-                         .v = s->seen + run_unknowns(s->model),
+                         .v = s->seen + state_velocities(&s->layout),
                          .n_contacts = contacts_of(s),
                          .contacts = s->contacts,
                          .energy = dem_simulation_energy(s)};
@@ -61,12 +61,13 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
 {
     run_measures *m = s->measures;
     if (!m->has_energy)
-        m->energy = diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + run_unknowns(s->model));
+        m->energy =
+            diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + state_velocities(&s->layout));
     m->has_energy = true;
     m->energy.impact = contact_of(s)->set.ledger.impact;
-    m->energy.friction = run_totals_of(s, seen_of(s))[RUN_FRICTION];
-    m->energy.damping = run_totals_of(s, seen_of(s))[RUN_DAMPING];
-    m->energy.boundary = run_totals_of(s, seen_of(s))[RUN_WORK];
+    m->energy.friction = state_total_of(&s->layout, seen_of(s), STATE_FRICTION);
+    m->energy.damping = state_total_of(&s->layout, seen_of(s), STATE_DAMPING);
+    m->energy.boundary = state_total_of(&s->layout, seen_of(s), STATE_WORK);
     m->energy.projection = contact_of(s)->set.ledger.projection;
     return m->energy;
 }
@@ -119,17 +120,19 @@ dem_counts dem_simulation_counts(const dem_simulation *s)
 
 dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 {
-    return diagnostics_body(s->model, body, seen_of(s), s->seen + run_unknowns(s->model));
+    return diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
 }
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
     const contact_ledger *books = &contact_of(s)->set.ledger;
-    const double *lasting = run_books_of(s, seen_of(s)), *rubbing = lasting + 2 * s->model->obstacles.n;
+    const state_layout *l = &s->layout;
+    const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
+    const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[2 * obstacle + k];
-        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[2 * obstacle + k];
+        load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[k];
+        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[k];
     }
     return load;
 }
@@ -137,13 +140,14 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
 {
     const forces load = run_load(s);
-    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s), s->seen + run_unknowns(s->model));
+    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s),
+                                s->seen + state_velocities(&s->layout));
 }
 
 double dem_simulation_residual(const dem_simulation *s)
 {
     const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
-    const dem_index v = run_unknowns(s->model);
+    const dem_index v = state_velocities(&s->layout);
     return known ? diagnostics_residual(s->model, s->options.mass_damping, s->path.y1, s->path.y1 + v, s->path.f1 + v)
                  : (double)INFINITY;
 }

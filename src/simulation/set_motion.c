@@ -16,7 +16,7 @@ static int held(const dem_simulation *s, dem_index i)
 /* Whether one of both arrays may be put in the place of `now`. */
 static dem_status check(const dem_simulation *s, const char *what, const double *wanted, const double *now)
 {
-    for (dem_index k = 0; wanted != NULL && k < 2 * s->model->lattice.n_nodes; k++) {
+    for (dem_index k = 0; wanted != NULL && k < state_row(&s->layout, s->layout.n_nodes); k++) {
         const dem_index i = k / 2;
         CHECK(isfinite(wanted[k]), DEM_ERROR_ARGUMENT, "the %s (%g, %g) of node %lld is not finite", what,
               wanted[2 * i], wanted[2 * i + 1], (long long)i);
@@ -29,18 +29,19 @@ static dem_status check(const dem_simulation *s, const char *what, const double 
 
 static double mechanical_energy(const dem_simulation *s, const double *y)
 {
-    const dem_energy e = diagnostics_energy(s->model, s->options.gravity, y, y + run_unknowns(s->model));
+    const dem_energy e = diagnostics_energy(s->model, s->options.gravity, y, y + state_velocities(&s->layout));
     return dem_energy_motion(e) + e.gravity;
 }
 
 /* Puts x and v into a state, and what that takes into its books. */
 static void put(const dem_simulation *s, const double *x, const double *v, double *y)
 {
-    const size_t size = 2 * (size_t)s->model->lattice.n_nodes * sizeof *y;
-    double *work = y + (run_totals_of(s, y) - y) + RUN_WORK;
+    const state_layout *l = &s->layout;
+    const size_t size = (size_t)state_row(l, l->n_nodes) * sizeof *y;
+    double *own_v = y + state_velocities(l), *work = own_v + state_total_index(l, STATE_WORK);
     const double before = mechanical_energy(s, y);
     if (x != NULL) memmove(y, x, size); /* what is seen may be handed back */
-    if (v != NULL) memmove(y + run_unknowns(s->model), v, size);
+    if (v != NULL) memmove(own_v, v, size);
     *work += mechanical_energy(s, y) - before;
 }
 
@@ -53,7 +54,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     TRY(check(s, "place", x, seen.x));
     TRY(check(s, "velocity", v, seen.v));
     if (x != NULL) TRY(automaton_check_start(&s->automaton, x));
-    if (s->seen != s->frame) memcpy(s->frame, s->seen, 2 * (size_t)run_unknowns(s->model) * sizeof *s->frame);
+    if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
     put(s, x, v, s->frame);
     s->events += s->in_hand ? s->queue.n_stops : 0;
     s->t = s->seen_t;

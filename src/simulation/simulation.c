@@ -26,7 +26,7 @@ static const double safety = 0.9, least_factor = 0.1; /* of the next step after 
 
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
-    const double *v = y + run_unknowns(s->model);
+    const double *v = y + state_velocities(&s->layout);
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
         if (!isfinite(v[2 * i]) || !isfinite(v[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
             return status_fail(DEM_ERROR_INTEGRATOR,
@@ -35,17 +35,18 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
-/* Rates of the books: [2 n_quadratures] behind the accelerations. */
-static void fill_rates(dem_simulation *s, const double *y, double *rate, double work)
+/* Rates of the quadratures, behind the accelerations of the nodes. */
+static void fill_rates(dem_simulation *s, const double *y, double *a, double work)
 {
-    double *impulse = rate + 2 * run_room(s->model), *total = impulse + 4 * s->model->obstacles.n;
-    for (dem_index k = 0; k < 2 * run_books(s->model); k++) rate[k] = 0.0;
-    automaton_add_rates(&s->automaton, y, impulse);
+    const state_layout *l = &s->layout;
+    const double *v = y + state_velocities(l);
+    for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
+    automaton_add_rates(&s->automaton, y, a);
     if (s->damped)
-        total[RUN_DAMPING] =
-            diagnostics_damping_power(s->model, &s->automaton.set.scene.rule.load, y, y + run_unknowns(s->model));
-    total[RUN_WORK] = work;
-    total[RUN_TIME] = 1.0;
+        a[state_total_index(l, STATE_DAMPING)] =
+            diagnostics_damping_power(s->model, &s->automaton.set.scene.rule.load, y, v);
+    a[state_total_index(l, STATE_WORK)] = work;
+    a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 
 /* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
@@ -53,14 +54,14 @@ static void fill_rates(dem_simulation *s, const double *y, double *rate, double 
 static int derivative(double t, const double *y, double *u, double *a, void *context)
 {
     dem_simulation *s = context;
-    const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const dem_index n = state_velocities(&s->layout), n_real = state_row(&s->layout, s->layout.n_nodes);
     const double *v = y + n;
     const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
     const double sum = kernel_accelerate(&s->kernel, &s->automaton.set.scene.rule.load, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, y, a);
     const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
-    fill_rates(s, y, a + n_real, s->external != NULL ? work + external_force_power(s->external, v) : work);
+    fill_rates(s, y, a, s->external != NULL ? work + external_force_power(s->external, v) : work);
     if (external_force_failed(s->external)) return 2;
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, a);
@@ -72,14 +73,14 @@ static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;
     const forces *load = &s->automaton.set.scene.rule.load;
-    const dem_index n = run_unknowns(s->model), n_real = 2 * s->model->lattice.n_nodes;
+    const dem_index n = state_velocities(&s->layout);
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
     if (!kernel_can_fuse(&s->kernel, load) || s->automaton.set.forces.n_groups > 0) return -1;
     const double sum = kernel_accelerate(&s->kernel, load, &y);
     automaton_constrain(&s->automaton, y.x, y.a);
-    fill_rates(s, y.x, y.a + n_real, 0.0);
+    fill_rates(s, y.x, y.a, 0.0);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, step->t1, y.x, y.a);
     return 1;
@@ -341,7 +342,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 
 static dem_status allocate(dem_simulation *s)
 {
-    const size_t n = 2 * (size_t)run_unknowns(s->model);
+    const size_t n = (size_t)state_size(&s->layout);
     s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
     s->contacts = calloc(2 * (size_t)(s->model->n_contact_nodes + s->model->surface.n_edges) + 1, sizeof *s->contacts);
@@ -363,7 +364,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                           .max_impacts = o->max_impacts,
                           .vertices = o->vertices != 0,
-                          .n_quadratures = run_books(model),
+                          .layout = s->layout,
                           .n_threads = o->threads,
                           .load = run_load(s)};
 }
@@ -372,7 +373,7 @@ static dem_status set_up(dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
-    const size_t block = 2 * (size_t)model->lattice.n_nodes * sizeof *s->y;
+    const size_t block = (size_t)state_row(&s->layout, model->lattice.n_nodes) * sizeof *s->y;
     TRY(boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
                                     model->obstacles.n));
     s->options.boundaries = NULL;
@@ -380,8 +381,8 @@ static dem_status set_up(dem_simulation *s)
     TRY(options_fill(&s->options, model, &s->boundaries));
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
-    memcpy(s->y + run_unknowns(model), model->lattice.velocity, block);
-    boundary_conditions_begin(&s->boundaries, s->y + run_unknowns(model));
+    memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
+    boundary_conditions_begin(&s->boundaries, s->y + state_velocities(&s->layout));
     TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
@@ -393,8 +394,8 @@ static dem_status set_up(dem_simulation *s)
     const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
     if (run_is_local(s)) TRY(event_queue_create(&s->queue, &s->automaton, &near, !(o->fixed_step > 0.0)));
     const ode_problem problem = {
-        .n_nodes = model->lattice.n_nodes + run_books(model),
-        .n_quadratures = run_books(model),
+        .n_nodes = s->layout.n_rows,
+        .n_quadratures = s->layout.n_rows - s->layout.n_nodes,
         .n_roots = model->obstacles.n > 0 && !run_is_local(s) ? CANDIDATE_ROOTS * s->automaton.set.n : 0,
         .prescribes = boundary_conditions_move(&s->boundaries),
         .derivative = derivative,
@@ -439,6 +440,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     CHECK_MEMORY(s);
     s->model = model;
     s->options = *options;
+    s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n);
     dem_status status = set_up(s);
     if (status == DEM_OK && record != NULL) status = resume(s, record);
     if (status == DEM_OK)

@@ -43,6 +43,7 @@ static inline void bench_open(bench *b, dem_index n)
     b->model.obstacles = (obstacle_set){.n = BENCH_OBSTACLES, .list = b->list, .segments = b->segments};
     b->model.obstacles.vertices = b->vertices;
     b->scene = (contact_scene){.model = &b->model, .rule = {.penetration_tolerance = 1e-6, .max_step = 1e100}};
+    b->scene.rule.layout = (state_layout){.dim = 2, .n_nodes = n, .n_rows = n};
 }
 
 static inline void bench_mass(bench *b, dem_index node, double mass)

@@ -40,6 +40,7 @@ static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_o
                                .storm_time = 0.5,
                                .max_impacts = 100,
                                .vertices = true,
+                               .layout = {.dim = 2, .n_nodes = lattice->n_nodes, .n_rows = lattice->n_nodes},
                                .load = {.gravity = {0.0, -scene_gravity}}};
     *s = (scene){0};
     assert_ok(dem_model_create(&s->model, lattice, obstacles, n));
@@ -144,6 +145,23 @@ static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_
         vec2_put(out->f1, n + i, a);
     }
     out->path = (dense_output){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
+}
+
+/** Adds the rates of the quadratures of one obstacle, [3][2], in the same state with room for them. */
+static inline void scene_add_rates(const scene *s, double rate[6])
+{
+    enum { more = 4 };
+    const dem_index n = s->model->lattice.n_nodes;
+    const size_t size = 2 * (size_t)n * sizeof(double);
+    double y[4 * (SCENE_NODES + more)] = {0.0}, a[2 * (SCENE_NODES + more)] = {0.0};
+    automaton c = s->c;
+    state_layout *l = &c.set.scene.rule.layout;
+    *l = (state_layout){.dim = 2, .n_nodes = n, .n_obstacles = 1, .n_rows = n + more};
+    memcpy(y, s->y, size);
+    memcpy(y + state_velocities(l), s->y + 2 * n, size);
+    memcpy(a + state_row(l, state_impulse(l, 0)), rate, 6 * sizeof *rate);
+    automaton_add_rates(&c, y, a);
+    memcpy(rate, a + state_row(l, state_impulse(l, 0)), 6 * sizeof *rate);
 }
 
 #endif

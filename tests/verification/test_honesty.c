@@ -204,7 +204,7 @@ static void make_parts(parts *p, const support_run *run)
                              .max_step = o->max_step,
                              .storm_time = 1.0 / p->model->omega_max,
                              .max_impacts = o->max_impacts,
-                             .n_quadratures = 4,
+                             .layout = {.dim = 2, .n_nodes = p->n, .n_obstacles = 1, .n_rows = p->n_all},
                              .load = {.gravity = {o->gravity[0], o->gravity[1]}}};
 }
 

@@ -362,7 +362,7 @@ static void forces_and_friction_power_are_told_as_rates(void **state)
         if (k == 2)
             scene_put(&s, 0, 0.5, 0.0, 1e-3, 0.0); /* what sticks takes nothing, whatever is left of its speed */
         automaton_constrain(&s.c, s.y, a);
-        automaton_add_rates(&s.c, s.y, rate);
+        scene_add_rates(&s, rate);
         const double expected[6] = {T[k], 20.0, T[k], 0.0, fabs(10.0 * u[k]), 0.0};
         for (int q = 0; q < 6; q++) assert_close(rate[q] - 100.0, expected[q], 1e-13);
         scene_close(&s);

@@ -21,7 +21,7 @@ static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
     automaton_end_step(&s.c, &f.path, s.y);
     assert_close(s.c.set.list[0].closed[0].force, 1.0, 1e-13);
     automaton_constrain(&s.c, s.y, a);
-    automaton_add_rates(&s.c, s.y, rate);
+    scene_add_rates(&s, rate);
     const double expected[6] = {0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(rate[k], expected[k], 1e-13);
     scene_close(&s);

@@ -189,7 +189,7 @@ static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
     const contact_point *point = &s.c.set.list[scene_edge(&s, 0, 1)].closed[0];
     assert_close(point->force, 40.0, 1e-13);
     assert_close(point->friction, -20.0, 1e-13);
-    automaton_add_rates(&s.c, s.y, rate);
+    scene_add_rates(&s, rate);
     const double expected[6] = {-20.0, 40.0, -20.0, 0.0, 10.0, 0.0};
     for (int q = 0; q < 6; q++) assert_close(rate[q], expected[q], 1e-13);
     launch(&s, -1e-6, 0.0);

@@ -33,7 +33,7 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
                                .max_step = 0.1,
                                .storm_time = 1.0,
                                .max_impacts = 40,
-                               .n_quadratures = 4,
+                               .layout = {2, lattice->n_nodes, 0, 1, lattice->n_nodes + 4},
                                .load = {.gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}}};
     *r = (rig){.n = lattice->n_nodes, .n_all = lattice->n_nodes + 4};
     assert_true(r->n <= most_nodes);

@@ -41,18 +41,19 @@ typedef struct step {
 static void derive(const step *s, automaton *c, double t, const double *y, double *f)
 {
     const forces *load = &c->set.scene.rule.load;
-    const dem_index n = 2 * s->n_all, n_obstacles = s->model->obstacles.n;
+    const state_layout *l = scene_layout(&c->set.scene);
+    const dem_index n = 2 * s->n_all;
     const double *v = y + n;
-    double *a = f + n, *rate = a + 2 * s->n;
+    double *a = f + n;
     memcpy(f, v, (size_t)n * sizeof *f);
     for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
     automaton_constrain(c, y, a);
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
-    for (dem_index k = 0; k < 4 * n_obstacles + 4; k++) rate[k] = 0.0;
-    automaton_add_rates(c, y, rate);
-    rate[4 * n_obstacles + 1] = diagnostics_damping_power(s->model, load, y, v);
-    rate[4 * n_obstacles + 2] = work;
-    rate[4 * n_obstacles + 3] = 1.0;
+    for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
+    automaton_add_rates(c, y, a);
+    a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(s->model, load, y, v);
+    a[state_total_index(l, STATE_WORK)] = work;
+    a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 
 static int of_the_body(double t, const double y[], double f[], void *context)
@@ -164,7 +165,7 @@ static void make_contacts(step *s)
                                .storm_time = 1.0,
                                .max_impacts = 100,
                                .vertices = true,
-                               .n_quadratures = s->n_all - s->n,
+                               .layout = {2, s->n, 0, s->model->obstacles.n, s->n_all},
                                .load = {.gravity = {0.0, -9.81},
                                         .mass_damping = s->kind.mass_damping,
                                         .boundaries = s->kind.drives ? &s->b : NULL,
@@ -576,7 +577,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
     const contact_rule rule = {
-        .penetration_tolerance = 1e-8, .max_step = h, .n_quadratures = 4, .load = {.gravity = {0.0, -g}}};
+        .penetration_tolerance = 1e-8, .max_step = h, .layout = {2, 1, 0, 1, 5}, .load = {.gravity = {0.0, -g}}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, error;
     dem_lattice lattice;
     dem_model *model;
@@ -630,7 +631,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     const double points[4] = {-1.0, -0.5, 1.0, -0.5};
     const dem_obstacle ground = {.n_points = 2, .points = points};
-    const contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h, .n_quadratures = 0};
+    contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h};
     dem_lattice l;
     step s = {.h = h};
     double error;
@@ -638,6 +639,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     assert_ok(dem_lattice_assemble(&l, &rubber));
     assert_ok(dem_model_create(&s.model, &l, &ground, 1));
     s.n = s.n_all = l.n_nodes;
+    rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
     assert_ok(automaton_create(&s.c, s.model, &rule));
     assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
     assert_ok(changed_motion_create(&s.changed, s.n));

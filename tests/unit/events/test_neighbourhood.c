@@ -28,8 +28,10 @@ static void open_rig(rig *r, double poissons_ratio, int n_rings)
     assert_ok(dem_lattice_assemble(&block, &rubber));
     *r = (rig){.n = block.n_nodes};
     assert_ok(dem_model_create(&r->model, &block, &floor, 1));
-    const contact_rule rule = {
-        .penetration_tolerance = 1e-9, .max_step = 1e-6, .load = {.gravity = {0.0, -9.81}, .mass_damping = 3.0}};
+    const contact_rule rule = {.penetration_tolerance = 1e-9,
+                               .max_step = 1e-6,
+                               .layout = {.dim = 2, .n_nodes = r->n, .n_rows = r->n},
+                               .load = {.gravity = {0.0, -9.81}, .mass_damping = 3.0}};
     assert_ok(automaton_create(&r->c, r->model, &rule));
     assert_ok(neighbourhood_create(&r->b, &r->c.set, n_rings));
     r->y = calloc(4 * (size_t)r->n, sizeof(double));

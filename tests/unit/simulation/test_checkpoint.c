@@ -73,7 +73,7 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
     assert_memory_equal(&n, &m, sizeof n);
     assert_memory_equal(c->ledger.impulse, d->ledger.impulse, 4 * sizeof(double));
     assert_memory_equal(&a->overlap.found, &b->overlap.found, sizeof a->overlap.found);
-    assert_memory_equal(a->y, b->y, 2 * (size_t)run_unknowns(a->model) * sizeof *a->y);
+    assert_memory_equal(a->y, b->y, (size_t)state_size(&a->layout) * sizeof *a->y);
 }
 
 static void everything_comes_back(void **state)
@@ -142,7 +142,7 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     (void)snprintf(text, sizeof text, "the record's time -1 s, step 0 s or next step %g s is impossible",
                    integrator_next_step(&p.from->integrator));
     refuse(&p, "numbers", numbers, sizeof numbers, text);
-    double *y = malloc(2 * (size_t)run_unknowns(p.model) * sizeof *y);
+    double *y = malloc((size_t)state_size(&p.from->layout) * sizeof *y);
     const void *stored = dem_record_find(p.record, "state", &n);
     assert_non_null(y);
     memcpy(y, stored, n);

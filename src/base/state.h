@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where things stand in a state y = (x, v) and in its derivative f = (u, a). Each of x, v, u and a is an array of rows
+ * of `dim` components. The first rows are those of the nodes. The last are those of the quadratures, which are
+ * integrated along as if they were nodes: their accelerations are rates, their velocities the integrals. There is a
+ * row for the impulse of each obstacle's lasting contacts, then one for the frictional part of each; behind them stand
+ * the totals, one in each component. The rows between nodes and quadratures are padding, so that v begins at a cache
+ * line where y does. Nobody else multiplies by the number of components, or adds one part's length to find the next. */
+#ifndef DEM_BASE_STATE_H
+#define DEM_BASE_STATE_H
+
+#include <dem/dem.h>
+
+#include "base/aligned.h"
+
+enum { STATE_DIM_MOST = 3 };
+
+/** Quadratures of the whole: energies that friction and damping take, J, the work from outside, J, and the time, s. */
+typedef enum state_total { STATE_FRICTION, STATE_DAMPING, STATE_WORK, STATE_TIME, STATE_TOTALS } state_total;
+
+typedef struct state_layout {
+    int dim;               /* components of a row, at most STATE_DIM_MOST */
+    dem_index n_nodes;     /* of the lattice */
+    dem_index n_ghosts;    /* copies of nodes that are integrated elsewhere, behind the nodes: none as yet */
+    dem_index n_obstacles; /* whose impulses are integrated along */
+    dem_index n_rows;      /* all: of nodes, ghosts, padding and quadratures */
+} state_layout;
+
+/** Rows that the totals take. */
+static inline dem_index state_n_total_rows(const state_layout *l)
+{
+    return (STATE_TOTALS + l->dim - 1) / l->dim;
+}
+
+static inline dem_index state_n_quadratures(const state_layout *l)
+{
+    return 2 * l->n_obstacles + state_n_total_rows(l);
+}
+
+/** The layout of a simulation. */
+static inline state_layout state_layout_of(int dim, dem_index n_nodes, dem_index n_obstacles)
+{
+    const dem_index line = ALIGNED_TO / sizeof(double);
+    state_layout l = {.dim = dim, .n_nodes = n_nodes, .n_obstacles = n_obstacles};
+    l.n_rows = l.n_nodes + l.n_ghosts + state_n_quadratures(&l);
+    while (l.dim * l.n_rows % line != 0) l.n_rows++;
+    return l;
+}
+
+/* ---- indices, the same to read and to write, in states and in derivatives ---- */
+
+/** Of the first component of a row, in each of x, v, u and a. */
+static inline dem_index state_row(const state_layout *l, dem_index row)
+{
+    return l->dim * row;
+}
+
+/** Of the first velocity in y, and of the first acceleration in f. */
+static inline dem_index state_velocities(const state_layout *l)
+{
+    return l->dim * l->n_rows;
+}
+
+/** How many numbers y has, and f. */
+static inline dem_index state_size(const state_layout *l)
+{
+    return 2 * state_velocities(l);
+}
+
+/** Rows of the impulse of an obstacle, of its frictional part, and the first one of the totals. */
+static inline dem_index state_impulse(const state_layout *l, dem_index obstacle)
+{
+    return l->n_rows - state_n_quadratures(l) + obstacle;
+}
+
+static inline dem_index state_friction_impulse(const state_layout *l, dem_index obstacle)
+{
+    return state_impulse(l, l->n_obstacles + obstacle);
+}
+
+static inline dem_index state_total_rows(const state_layout *l)
+{
+    return state_impulse(l, 2 * l->n_obstacles);
+}
+
+/** Of a total in v, and of its rate in a. */
+static inline dem_index state_total_index(const state_layout *l, state_total which)
+{
+    return state_row(l, state_total_rows(l)) + (dem_index)which;
+}
+
+/* ---- values ---- */
+
+/** Position, velocity [dim] of a row of y. */
+static inline const double *state_x(const state_layout *l, const double *y, dem_index row)
+{
+    return y + state_row(l, row);
+}
+
+static inline const double *state_v(const state_layout *l, const double *y, dem_index row)
+{
+    return y + state_velocities(l) + state_row(l, row);
+}
+
+static inline double state_total_of(const state_layout *l, const double *y, state_total which)
+{
+    return y[state_velocities(l) + state_total_index(l, which)];
+}
+
+/** The time of y as integrated along, s. */
+static inline double state_time(const state_layout *l, const double *y)
+{
+    return state_total_of(l, y, STATE_TIME);
+}
+
+#endif
