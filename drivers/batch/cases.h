@@ -11,8 +11,8 @@ typedef struct cases {
 } cases;
 
 /** A list has a deck a line, relative to the list's folder; blanks round it do not count, and a line that begins with
- *  '#' is a comment. False, with the fault told, if a list cannot be read or there is no case of the index. To be freed
- *  in any case. */
+ *  '#' is a comment. False, with the fault reported, if a list cannot be read or there is no case of the index. To be
+ *  freed in any case. */
 bool cases_find(cases *out, const command *c, outcome *o);
 void cases_free(cases *all);
 

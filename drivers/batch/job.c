@@ -41,11 +41,11 @@ typedef struct job {
     time_t start;
     double wall_start; /* s */
     bool claimed;      /* the output is ours */
-    bool told;         /* the result */
+    bool reported;     /* the result */
     outcome outcome;
 } job;
 
-/* Whether all is well; tells what is not. */
+/* Whether all is well; reports what is not. */
 static bool passes(job *j, dem_status status, const char *where)
 {
     if (status != DEM_OK) outcome_fail_status(&j->outcome, status, where);
@@ -64,19 +64,19 @@ static dem_status write_provenance(const job *j)
     output_print_hash(hash, d->run_hash);
     decimal_print(t_end, d->t_end);
     (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&j->start, &utc));
-    const char *const notes[][2] = {{"versions", j->source.lineage != NULL ? j->source.lineage : versions},
-                                    {"kernel", dem_kernel_name(dem_simulation_options(j->simulation).kernel)},
-                                    {"problem", problem},
-                                    {"run", hash},
-                                    {"t_end", t_end},
-                                    {"start", start},
-                                    {"deck", d->source},
-                                    {"resolved", d->echo},
-                                    {"title", d->title},
-                                    {"physics", d->physics}};
+    const char *const provenance[][2] = {{"versions", j->source.lineage != NULL ? j->source.lineage : versions},
+                                         {"kernel", dem_kernel_name(dem_simulation_options(j->simulation).kernel)},
+                                         {"problem", problem},
+                                         {"run", hash},
+                                         {"t_end", t_end},
+                                         {"start", start},
+                                         {"deck", d->source},
+                                         {"resolved", d->echo},
+                                         {"title", d->title},
+                                         {"physics", d->physics}};
     dem_status status = DEM_OK;
-    for (size_t k = 0; k < sizeof notes / sizeof notes[0] && status == DEM_OK; k++)
-        status = dem_trajectory_note(j->trajectory, notes[k][0], notes[k][1]);
+    for (size_t k = 0; k < sizeof provenance / sizeof provenance[0] && status == DEM_OK; k++)
+        status = dem_trajectory_note(j->trajectory, provenance[k][0], provenance[k][1]);
     return status;
 }
 
@@ -229,7 +229,7 @@ static result describe(const job *j)
                     .seconds = wall_clock() - j->wall_start};
 }
 
-/* Tells what came out, in NAME.json too if the output is ours. */
+/* Reports what came out, in NAME.json too if the output is ours. */
 static void conclude(job *j)
 {
     char path[OUTPUT_PATH];
@@ -251,7 +251,7 @@ static void conclude(job *j)
     free(line);
 }
 
-/* Whether the same run's result is there; it is then told again. */
+/* Whether the same run's result is there; it is then reported again. */
 static bool is_done(job *j, const char *reason)
 {
     char path[OUTPUT_PATH], hash[OUTPUT_HASH];
@@ -261,14 +261,14 @@ static bool is_done(job *j, const char *reason)
     output_beside(path, j->path, ".lock");
     if (line != NULL && j->lock.file < 0) lock_clear(path);
     if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, line);
-    j->told = line != NULL;
+    j->reported = line != NULL;
     free(line);
-    return j->told;
+    return j->reported;
 }
 
 /* ---- before the run ---- */
 
-static void tell_error(job *j, exit_code code, const namelist_error *e)
+static void report_error(job *j, exit_code code, const namelist_error *e)
 {
     char where[OUTPUT_PATH + 32];
     const int line = e->place.line;
@@ -281,22 +281,22 @@ static void tell_error(job *j, exit_code code, const namelist_error *e)
     outcome_fail(&j->outcome, code, where, "%s", e->text);
 }
 
-static void tell_errors(job *j, exit_code code, namelist_errors *errors)
+static void report_errors(job *j, exit_code code, namelist_errors *errors)
 {
-    for (size_t k = 0; k < errors->n; k++) tell_error(j, code, &errors->list[k]);
+    for (size_t k = 0; k < errors->n; k++) report_error(j, code, &errors->list[k]);
     namelist_errors_free(errors);
 }
 
-/* Whether a run keeps its limits; tells which it does not. */
+/* Whether a run keeps its limits; reports which it does not. */
 static bool keeps(job *j, const estimate *needed)
 {
     namelist_errors errors = {0};
     const estimate_breach breach = estimate_check(needed, &j->most, &j->deck, &errors);
-    tell_errors(j, breach == ESTIMATE_DISK ? EXIT_IO : EXIT_MEMORY, &errors);
+    report_errors(j, breach == ESTIMATE_DISK ? EXIT_IO : EXIT_MEMORY, &errors);
     return breach == ESTIMATE_KEPT;
 }
 
-/* The same, as far as the deck alone tells. */
+/* The same, as far as the deck alone shows. */
 static bool fits(job *j)
 {
     const command *c = j->command;
@@ -309,7 +309,7 @@ static bool fits(job *j)
     if (c->action == COMMAND_ECHO)
         j->most.disk = j->most.steps = (double)INFINITY;
     else if (!isfinite(j->most.disk) && !limit_see_disk(&j->most, c->outdir, j->deck.name))
-        (void)fprintf(stderr, "%s: warning: the file system does not tell what is free\n", c->outdir);
+        (void)fprintf(stderr, "%s: warning: the file system does not say what is free\n", c->outdir);
     return keeps(j, &needed);
 }
 
@@ -428,7 +428,7 @@ static bool begin_or_resume(job *j)
     return make_way(j, EXIT_IO, j->path, reason) && begin_anew(j);
 }
 
-/* Nothing has been written so far. What can be told before anything is built is. */
+/* Nothing has been written so far. What can be reported before anything is built is. */
 static void claim_and_run(job *j)
 {
     char reason[OUTPUT_REASON];
@@ -451,7 +451,7 @@ static void check(job *j)
 static bool succeeded(job *j, deck_status status, namelist_errors *errors)
 {
     if (status == DECK_MEMORY) outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
-    tell_errors(j, EXIT_INVALID, errors);
+    report_errors(j, EXIT_INVALID, errors);
     return status == DECK_OK;
 }
 
@@ -489,7 +489,7 @@ exit_code job_do(const command *c, const char *path)
     if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, stdout);
     if (good && c->action == COMMAND_CHECK) check(&j);
     if (good && c->action == COMMAND_RUN && find_path(&j)) claim_and_run(&j);
-    if (c->action == COMMAND_RUN && !j.told) conclude(&j);
+    if (c->action == COMMAND_RUN && !j.reported) conclude(&j);
     dismiss(&j);
     return j.outcome.code;
 }

@@ -77,7 +77,7 @@ static bool same_problem(const char *path, const deck *d)
     return same_hash(path, "problem", d->hash);
 }
 
-/* A part that does not tell its problem, or cannot be read, was cut off: what is in it is computed again. */
+/* A part that does not name its problem, or cannot be read, was cut off: what is in it is computed again. */
 static bool is_part_of_another(const char *part, const deck *d)
 {
     char stored[OUTPUT_HASH], ours[OUTPUT_HASH];

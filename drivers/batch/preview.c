@@ -59,7 +59,7 @@ static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
     print_damping(out, o->mass_damping, damping_time(dem_model_lattice(model)));
 }
 
-/* In a body accelerations are larger than g, and the rule with them: this tells of the least that it asks for. */
+/* In a body accelerations are larger than g, and the rule with them: this reports the least that it asks for. */
 static void warn_rest_speed(FILE *out, const dem_options *o)
 {
     const double kept_up = sqrt(2.0 * hypot(o->gravity[0], o->gravity[1]) * o->penetration_tolerance);
@@ -106,7 +106,7 @@ static bool is_slice(const deck *d, dem_index n_bodies, dem_index b)
     return (dem_index)d->n_bodies == n_bodies && d->bodies[b].plane == DEM_PLANE_STRAIN;
 }
 
-/* The library tells those of the plate in plane stress that moves alike: E/(1 - nu^2) and nu/(1 - nu) of a slice. */
+/* The library has those of the plate in plane stress that moves alike: E/(1 - nu^2) and nu/(1 - nu) of a slice. */
 static void print_modulus(FILE *out, const dem_constants *c, bool slice)
 {
     const double plate = c->poissons_ratio, nu = slice ? plate / (1.0 + plate) : plate;

@@ -68,7 +68,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return r->done ? DEM_STOPPED : DEM_OK;
 }
 
-static dem_status remember(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status save(void *context, const dem_simulation *simulation, dem_record *record)
 {
     const relaxation *r = context;
     const double memory[] = {(double)r->steps, r->reached, r->t};
@@ -89,5 +89,5 @@ dem_status relaxation_resume(relaxation *r, const dem_record *record)
 
 dem_observer relaxation_observer(relaxation *r)
 {
-    return (dem_observer){.step = look, .record = remember, .context = r};
+    return (dem_observer){.step = look, .record = save, .context = r};
 }

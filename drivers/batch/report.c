@@ -181,7 +181,7 @@ dem_status report_resume(report *r, const dem_record *record, const dem_simulati
     return dem_record_get(record, entry, &r->so_far, sizeof r->so_far);
 }
 
-static dem_status remember(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status save(void *context, const dem_simulation *simulation, dem_record *record)
 {
     const report *r = context;
     (void)simulation;
@@ -190,7 +190,7 @@ static dem_status remember(void *context, const dem_simulation *simulation, dem_
 
 dem_observer report_observer(report *r)
 {
-    return (dem_observer){.step = follow, .event = note_event, .record = remember, .context = r};
+    return (dem_observer){.step = follow, .event = note_event, .record = save, .context = r};
 }
 
 static void print_contact(const report *r, const dem_simulation *simulation)

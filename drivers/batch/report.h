@@ -9,7 +9,7 @@
 #include "deck.h"
 #include "pace.h"
 
-/** What a run is remembered by: in its records too. */
+/** What the report of a run needs, and its records keep. */
 typedef struct report_memory {
     double energy_start; /* J, total at t = 0 */
     double energy_max;   /* J, largest kinetic + elastic + area + guard so far: what is compared */

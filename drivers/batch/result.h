@@ -27,7 +27,7 @@ typedef struct result {
 /** The line with its end, malloc'ed; NULL when memory runs out. */
 char *result_line(const result *r);
 
-/** Puts the line into a file of this name, all of it or nothing, and tells if that fails. */
+/** Puts the line into a file of this name, all of it or nothing, and reports if that fails. */
 void result_write(const char *path, const char *line, outcome *o);
 
 /** The line of a run of this hash that is done, malloc'ed; NULL if the file has none. */

@@ -34,7 +34,7 @@ typedef struct body_start {
     double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
 } body_start;
 
-/* What is to be told of a body. */
+/* What the log says of a body. */
 typedef struct body_facts {
     double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
     dem_plane plane;        /* of its material; stress where it has none */

@@ -56,10 +56,10 @@ bool mask_measure(double size[2], const char *path, double scale)
     char bytes[4096];
     image sides = {0};
     const size_t n = file_begin(bytes, sizeof bytes, path);
-    const bool told = png_begins(bytes, n) ? png_measure(&sides, bytes, n) : pgm_measure(&sides, bytes, n);
+    const bool known = png_begins(bytes, n) ? png_measure(&sides, bytes, n) : pgm_measure(&sides, bytes, n);
     size[0] = (double)sides.width * scale;
     size[1] = (double)sides.height * scale;
-    return told;
+    return known;
 }
 
 void mask_free(mask *m)

@@ -16,7 +16,7 @@ typedef struct mask {
  * \param[out] fault  [IMAGE_FAULT] what is wrong behind "PATH:", with a line where there is one, if IMAGE_REFUSED */
 image_status mask_read(mask *out, char *fault, const char *path, double scale, double threshold);
 
-/* Width and height of an image, m, from its first bytes alone; false where they do not tell. */
+/* Width and height of an image, m, from its first bytes alone; false where they do not have them. */
 bool mask_measure(double size[2], const char *path, double scale);
 
 void mask_free(mask *m);

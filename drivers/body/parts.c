@@ -48,7 +48,7 @@ static void fill(part *list, dem_index n, const members *m)
     qsort(list, (size_t)n, sizeof *list, by_body_and_size);
 }
 
-static void tell(parts_loose *loose, const part *p, const double *x)
+static void append(parts_loose *loose, const part *p, const double *x)
 {
     const dem_index k = loose->n++;
     if (k >= PARTS_LISTED) return;
@@ -65,7 +65,7 @@ static dem_status sort_out(parts_loose *loose, unsigned char *kept, const member
     for (dem_index p = 0; status == DEM_OK && p < n; p++) {
         const bool first = p == 0 || list[p].body != list[p - 1].body;
         is_main[list[p].number] = first;
-        if (!first) tell(loose, &list[p], m->lattice->x);
+        if (!first) append(loose, &list[p], m->lattice->x);
     }
     for (dem_index i = 0; status == DEM_OK && i < m->n; i++) kept[i] = is_main[m->part[i]];
     free(list);

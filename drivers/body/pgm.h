@@ -8,7 +8,7 @@
 /* Whether bytes begin like one. */
 bool pgm_begins(const char *bytes, size_t size);
 
-/* Width, height and white from its first bytes; false where they do not tell. */
+/* Width, height and white from its first bytes; false where they do not have them. */
 bool pgm_measure(image *out, const char *bytes, size_t size);
 
 /* Reads one image. Anything may come in: sizes are held against the number of bytes before memory is asked for.

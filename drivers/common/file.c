@@ -22,7 +22,7 @@ static file_status refuse_large(char *why, size_t most)
     return FILE_REFUSED;
 }
 
-/* One byte more than the file had at first tells that it has grown. */
+/* One byte more than the file had at first shows that it has grown. */
 static file_status read_bytes(char *bytes, size_t *size, size_t expected, int file, char *why)
 {
     for (*size = 0; *size <= expected;) {

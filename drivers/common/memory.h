@@ -9,7 +9,7 @@
 #include <malloc.h>
 #endif
 
-/** Bytes that the C library has given out; 0 where it does not tell. */
+/** Bytes that the C library has given out; 0 where it does not say. */
 static inline double memory_in_use(void)
 {
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)

@@ -43,7 +43,7 @@ static double area_of(const schema_instance *group)
     return size != NULL ? size[0] * size[1] : pi * (radius * radius - inner * inner);
 }
 
-/* What its lattice covers before it is cut, m. False where nothing tells. */
+/* What its lattice covers before it is cut, m. False where it is unknown. */
 static bool find_extent(double size[2], const schema_instance *body, const char *path)
 {
     const double *given = schema_reals(body, "size"), diameter = 2.0 * schema_real(body, "radius");
@@ -91,7 +91,7 @@ static double area_taken(const schema_deck *groups, size_t k, double area)
     return taken;
 }
 
-/* omega_max^2 of a body of one material is at least this, 1/s^2, 0 where nothing tells:
+/* omega_max^2 of a body of one material is at least this, 1/s^2, 0 where it is unknown:
  *   omega^2 >= |B_i|/m_i >= tr B_i/(2 m_i) = sum over springs of k_ij/m_i
  * at every node, and each of its triangles or cells gives to both sums. With (8/3) G = (4/3) E/(1 + nu) a triangle has
  * two springs of (8/3) G h sqrt(3)/4 on a third of its mass, a cell two of G h and one of 2 G h diagonal on a

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run takes: told from the deck alone, before anything is built, and from what has been built. */
+/* What a run takes: estimated from the deck alone, before anything is built, and from what has been built. */
 #ifndef DEM_ESTIMATE_H
 #define DEM_ESTIMATE_H
 
@@ -7,11 +7,11 @@
 #include "limit.h"
 
 typedef struct estimate {
-    double nodes, springs; /* about; 0 of bodies of which nothing tells before they are read */
+    double nodes, springs; /* about; 0 of bodies of which nothing is known before they are read */
     double cover;          /* nodes of the largest lattice before it is cut to its shape */
     size_t largest;        /* which body's, from 0 */
     double memory;         /* bytes, at least */
-    double step, steps;    /* s, at most, infinite where nothing tells; their number, at least */
+    double step, steps;    /* s, at most, infinite where unknown; their number, at least */
     double frames;
     double output; /* bytes of frames and tables before they are deflated */
 } estimate;

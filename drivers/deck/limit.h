@@ -18,7 +18,7 @@ limits limit_default(void);
 bool limit_set(double *limit, const char *text, double unit);
 
 /** Sets the limit of the disk to what is free in a folder, or where it would be made, unless a run of this name has
- *  left files there, which then goes on. False where the file system does not tell. */
+ *  left files there, which then goes on. False where the file system does not say. */
 bool limit_see_disk(limits *most, const char *folder, const char *name);
 
 /** The least limit of a hierarchy of control groups, version 2, bytes; infinite without one.

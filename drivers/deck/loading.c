@@ -95,7 +95,7 @@ static void own_place(const target *t, dem_index i, double own[2])
     placement_own(t->body, t->lattice->x + 2 * i, own);
 }
 
-/* Which coordinate tells a side, and in which sense it grows outwards. */
+/* Which coordinate defines a side, and in which sense it grows outwards. */
 static void side_axis(const schema_instance *group, int *axis, double *sense)
 {
     *axis = is(group, "side", "top") || is(group, "side", "bottom");

@@ -8,7 +8,7 @@
 #include "placement.h"
 #include "schema.h"
 
-/* Faults that can be told without geometry. */
+/* Faults that can be found without geometry. */
 void loading_check_all(const schema_deck *groups, namelist_errors *errors);
 
 /* Takes the defaults of keys away that a group does not use. */

@@ -152,7 +152,7 @@ static void find_omissions(molecule *m)
     omit(m, m->loads.mass_damping > 0.0, "the damping of masses, %.17g 1/s", m->loads.mass_damping);
     omit(m, obstacles > 0, "%lld obstacle%s", (long long)obstacles, plural(obstacles));
     omit(m, held > 0, "%lld boundary condition%s", (long long)held, plural(held));
-    omit(m, !m->loads.known, "gravity, which a run without a deck does not tell");
+    omit(m, !m->loads.known, "gravity, which a run without a deck does not state");
 }
 
 bool molecule_make(molecule *out, const task *t)

@@ -54,16 +54,16 @@ static piece_array *put_lines(piece_array *at, const lines *l)
 /* ---- frames ---- */
 
 /* What the files of all frames are made of. */
-typedef struct reel {
+typedef struct frame_writer {
     const task *task;
     lines springs;
     double *x, *points;         /* [n_nodes][2], [n_nodes][3] m */
     double *scratch, *energies; /* as of a piece; [columns] */
     piece_array *arrays;
     dem_index n_arrays;
-} reel;
+} frame_writer;
 
-static void free_reel(reel *r)
+static void free_frame_writer(frame_writer *r)
 {
     free_lines(&r->springs);
     free(r->x);
@@ -74,7 +74,7 @@ static void free_reel(reel *r)
 }
 
 /* Time, and what the table of the frames has. */
-static piece_array *put_fields(piece_array *at, const reel *r)
+static piece_array *put_fields(piece_array *at, const frame_writer *r)
 {
     dem_index n = 0, k = 0;
     const dem_film_column *columns = dem_film_columns(r->task->film, &n);
@@ -85,7 +85,7 @@ static piece_array *put_fields(piece_array *at, const reel *r)
     return at;
 }
 
-static bool read_fields(const reel *r, dem_index frame)
+static bool read_fields(const frame_writer *r, dem_index frame)
 {
     dem_index n_frames = 0, n = 0, k = 0;
     const dem_film_column *columns = dem_film_columns(r->task->film, &n);
@@ -97,7 +97,7 @@ static bool read_fields(const reel *r, dem_index frame)
     return true;
 }
 
-static bool allocate(reel *r)
+static bool allocate(frame_writer *r)
 {
     const dem_lattice *l = dem_film_lattice(r->task->film);
     dem_index n_arrays = 0, n_columns = 0, largest = 0;
@@ -115,12 +115,12 @@ static bool allocate(reel *r)
     return r->x != NULL && r->points != NULL && r->scratch != NULL && r->energies != NULL && r->arrays != NULL;
 }
 
-static bool make_reel(reel *r, const task *t)
+static bool make_frame_writer(frame_writer *r, const task *t)
 {
     const dem_lattice *l = dem_film_lattice(t->film);
     dem_index n = 0;
     const dem_film_array *arrays = dem_film_arrays(t->film, &n);
-    *r = (reel){.task = t};
+    *r = (frame_writer){.task = t};
     if (!make_lines(&r->springs, t, l->n_springs) || !allocate(r)) return false;
     for (dem_index k = 0; k < 2 * l->n_springs; k++) r->springs.ends[k] = (double)l->ends[k];
     piece_array *at = put_lines(put_fields(r->arrays, r), &r->springs);
@@ -137,7 +137,7 @@ static bool make_reel(reel *r, const task *t)
     return true;
 }
 
-static bool write_frame(const reel *r, dem_index frame)
+static bool write_frame(const frame_writer *r, dem_index frame)
 {
     char ending[ENDING];
     const dem_lattice *l = dem_film_lattice(r->task->film);
@@ -150,10 +150,10 @@ static bool write_frame(const reel *r, dem_index frame)
 
 static bool write_frames(const task *t)
 {
-    reel r;
-    bool good = make_reel(&r, t);
+    frame_writer r;
+    bool good = make_frame_writer(&r, t);
     for (size_t k = 0; good && k < t->frames.n; k++) good = write_frame(&r, t->frames.frame[k]);
-    free_reel(&r);
+    free_frame_writer(&r);
     return good;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What pictures are drawn on: lengths in pixels, y down. Failures are kept and told when the canvas is closed. */
+/* What pictures are drawn on: lengths in pixels, y down. Failures are kept and reported when the canvas is closed. */
 #ifndef DEM_CANVAS_H
 #define DEM_CANVAS_H
 

@@ -24,7 +24,7 @@ typedef struct chart {
     chart_line line[CHART_LINES];
 } chart;
 
-/** Colours that can be told apart, also by the colour-blind; the 0th is black. */
+/** Colours that can be distinguished, also by the colour-blind; the 0th is black. */
 colour chart_ink(int k);
 
 /** In `place`, with everything but the labels of the time axis, which only the lowest of several has.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Colours of numbers. Both scales run straight lines in CIELAB from lightness to lightness, so that they can be told
- * apart without seeing hues: docs/pictures.md. */
+/* Colours of numbers. Both scales run straight lines in CIELAB from lightness to lightness, so that they can be
+ * distinguished without seeing hues: docs/pictures.md. */
 #ifndef DEM_PALETTE_H
 #define DEM_PALETTE_H
 

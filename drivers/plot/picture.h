@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A picture's file: its name tells the format, and it takes its place when it is whole. */
+/* A picture's file: its name gives the format, and it takes its place when it is whole. */
 #ifndef DEM_PICTURE_H
 #define DEM_PICTURE_H
 
@@ -18,11 +18,11 @@ typedef struct picture {
     void *file;
 } picture;
 
-/** Width and height in pixels. False after a fault, which is told; then nothing is to be closed. */
+/** Width and height in pixels. False after a fault, which is reported; then nothing is to be closed. */
 bool picture_open(picture *p, const char *path, double width, double height, outcome *o);
 
 /** Ends the drawing and lets the file take its place, over an older picture of that name. False after a fault, which is
- *  told; nothing is left then. `note` is kept in SVG and PDF. */
+ *  reported; nothing is left then. `note` is kept in SVG and PDF. */
 bool picture_close(picture *p, const char *note, outcome *o);
 
 /** Nothing is left of it. */

@@ -19,7 +19,7 @@ typedef struct quantity {
 } quantity;
 
 /** By its name; NULL: the first of strain, force, von_mises and speed that the film has, or none. False after a fault,
- *  which is told. */
+ *  which is reported. */
 bool quantity_find(quantity *q, const dem_film *film, const char *name, outcome *o);
 
 /** Whether there is such a name. */

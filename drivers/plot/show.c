@@ -204,7 +204,7 @@ static bool draw_file(show *s, const strip *planned, size_t first, const char *p
     return picture_close(&file, note, o);
 }
 
-static void tell(const show *s, const char *path, const strip *planned, FILE *log)
+static void report(const show *s, const char *path, const strip *planned, FILE *log)
 {
     if (s->asked->prints_hash) {
         (void)fprintf(log, "%016" PRIx64 "\n", s->hash);
@@ -223,7 +223,7 @@ bool show_strip(const dem_film *film, const request *asked, FILE *log, outcome *
     if (done) {
         const strip planned = plan(&s, s.chosen.n);
         done = draw_file(&s, &planned, 0, asked->output, o);
-        if (done) tell(&s, asked->output, &planned, log);
+        if (done) report(&s, asked->output, &planned, log);
     }
     close_show(&s);
     return done;
@@ -258,7 +258,7 @@ bool show_animation(const dem_film *film, const request *asked, FILE *log, outco
     if (done) {
         const strip planned = plan(&s, 1);
         done = draw_all(&s, &planned, o);
-        if (done) tell(&s, asked->folder, &planned, log);
+        if (done) report(&s, asked->folder, &planned, log);
         if (done && !asked->prints_hash)
             (void)fprintf(log, "ffmpeg -framerate 25 -i %s/frame_%%05d.png -c:v libx264 -pix_fmt yuv420p %s.mp4\n",
                           asked->folder, asked->folder);

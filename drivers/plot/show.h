@@ -8,7 +8,7 @@
 #include "outcome.h"
 #include "request.h"
 
-/** As asked for; what was drawn is told in `log`. False after a fault, which is told. */
+/** As asked for; what was drawn is written to `log`. False after a fault, which is reported. */
 bool show_strip(const dem_film *film, const request *asked, FILE *log, outcome *o);
 bool show_animation(const dem_film *film, const request *asked, FILE *log, outcome *o);
 

@@ -29,11 +29,11 @@ typedef struct snapshot {
     span_reach reach; /* of the values */
 } snapshot;
 
-/** Without a frame yet; borrows film and quantity. False after a fault, which is told. To be freed in any case. */
+/** Without a frame yet; borrows film and quantity. False after a fault, which is reported. To be freed in any case. */
 bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o);
 void snapshot_free(snapshot *s);
 
-/** False after a fault, which is told. */
+/** False after a fault, which is reported. */
 bool snapshot_load(snapshot *s, dem_index frame, outcome *o);
 
 /** The mean length of a spring of the lattice at rest, m; 0 without springs. */

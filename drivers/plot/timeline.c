@@ -179,7 +179,7 @@ static bool collect(timeline *of, const request *asked)
 
 /* ---- the picture ---- */
 
-static void tell(const timeline *of, const request *asked, double width, double height, FILE *log)
+static void report(const timeline *of, const request *asked, double width, double height, FILE *log)
 {
     if (asked->prints_hash)
         (void)fprintf(log, "%016" PRIx64 "\n", of->hash);
@@ -209,7 +209,7 @@ static bool draw(timeline *of, const request *asked, FILE *log)
         y = below + gap;
     }
     if (!picture_close(&file, note, of->o)) return false;
-    tell(of, asked, width, height, log);
+    report(of, asked, width, height, log);
     return true;
 }
 

@@ -9,7 +9,7 @@
 #include "request.h"
 
 /** Energies, reactions of obstacles, forces of boundaries, contacts and steps, of those that the film has; what
- *  was drawn is told in `log`. False after a fault, which is told. */
+ *  was drawn is written to `log`. False after a fault, which is reported. */
 bool timeline_draw(const dem_film *film, const request *asked, FILE *log, outcome *o);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arrays of which nobody knows how long they become. */
+/* Arrays that grow as items are appended. */
 #ifndef DEM_BASE_GROW_H
 #define DEM_BASE_GROW_H
 

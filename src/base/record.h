@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Both ways with the same lines: what an object remembers goes into a record, or comes from it. */
+/* Writing to a record and reading from one in the same lines of code, so that both agree on the entries. */
 #ifndef DEM_BASE_RECORD_H
 #define DEM_BASE_RECORD_H
 

@@ -163,7 +163,7 @@ static inline lanes lanes_sqrt(lanes a)
     return (lanes){_mm256_sqrt_pd(a.low), _mm256_sqrt_pd(a.high)};
 }
 
-/** Bit layout_lane(q) tells of node q. */
+/** Bit layout_lane(q) is that of node q. */
 static inline unsigned lanes_below(lanes a, lanes b)
 {
     const int low = _mm256_movemask_pd(_mm256_cmp_pd(a.low, b.low, _CMP_LT_OQ));

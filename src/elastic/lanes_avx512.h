@@ -145,7 +145,7 @@ static inline lanes lanes_sqrt(lanes a)
     return _mm512_sqrt_pd(a);
 }
 
-/** Bit layout_lane(q) tells of node q. */
+/** Bit layout_lane(q) is that of node q. */
 static inline unsigned lanes_below(lanes a, lanes b)
 {
     return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);

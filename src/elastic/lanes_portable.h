@@ -180,7 +180,7 @@ static inline lanes lanes_sqrt(lanes a)
     return a;
 }
 
-/** Bit layout_lane(q) tells of node q. */
+/** Bit layout_lane(q) is that of node q. */
 static inline unsigned lanes_below(lanes a, lanes b)
 {
     unsigned below = 0;

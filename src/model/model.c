@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Validates a lattice and obstacles, copies them and compiles CSR, triangle rows, segments and contact sites. */
+/* Validates a lattice and obstacles, copies them and compiles CSR, triangle rows, segments and contact candidates. */
 #include "model/model.h"
 
 #include <stdlib.h>

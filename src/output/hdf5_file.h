@@ -95,7 +95,7 @@ dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_
 dem_status hdf5_expect_attribute(const hdf5_file *file, const char *object, const char *name, int64_t value);
 
 /** Syncs the closed file `part`, reads all of it back, renames it to `path` and syncs the folder: HDF5 1.10 may report
- *  success on a full disk, so nothing else tells whether the file is whole. */
+ *  success on a full disk, so nothing else shows whether the file is whole. */
 dem_status hdf5_publish(const char *part, const char *path);
 
 #endif

@@ -135,7 +135,7 @@ static dem_status check_filters(const hdf5_file *file, const char *name, hid_t l
         if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32)
             return hdf5_untrusted_refuse(file, name, "uses a filter other than deflate, shuffle and fletcher32");
     }
-    return n < 0 || deflates > 1 ? hdf5_untrusted_refuse(file, name, "has filters that cannot be told") : DEM_OK;
+    return n < 0 || deflates > 1 ? hdf5_untrusted_refuse(file, name, "has filters that cannot be read") : DEM_OK;
 }
 
 /* The numbers of a chunk, which is read as a whole; 0 where there are no chunks. */

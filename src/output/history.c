@@ -4,7 +4,7 @@
 
 #include "base/status.h"
 
-enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column tells of */
+enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column is about */
 
 /* In the order in which history_record() fills a row. */
 static const table_column columns[] = {

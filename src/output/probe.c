@@ -177,22 +177,22 @@ void probe_record(probe *p, const dem_simulation *simulation)
         record_gauge(p, &state);
 }
 
-probe_memory probe_remember(const probe *p)
+probe_progress probe_progress_of(const probe *p)
 {
-    probe_memory m = {.kind = (int64_t)p->what.kind,
-                      .every = p->what.every,
-                      .rows = (int64_t)table_total(&p->table),
-                      .left = p->left,
-                      .seen = p->seen,
-                      .last = p->last};
+    probe_progress m = {.kind = (int64_t)p->what.kind,
+                        .every = p->what.every,
+                        .rows = (int64_t)table_total(&p->table),
+                        .left = p->left,
+                        .seen = p->seen,
+                        .last = p->last};
     (void)snprintf(m.name, sizeof m.name, "%s", p->what.name);
     for (int k = 0; k < count_numbers(&p->what); k++) m.number[k] = p->what.number[k];
     return m;
 }
 
-dem_status probe_recall(probe *p, const probe_memory *memory)
+dem_status probe_restore(probe *p, const probe_progress *memory)
 {
-    const probe_memory own = probe_remember(p);
+    const probe_progress own = probe_progress_of(p);
     CHECK(strncmp(own.name, memory->name, sizeof own.name) == 0 && own.kind == memory->kind &&
               own.number[0] == memory->number[0] && own.number[1] == memory->number[1] && own.every == memory->every,
           DEM_ERROR_ARGUMENT, "probe %s is none of those of the run that is to go on", own.name);

@@ -23,12 +23,12 @@ typedef struct probe {
 } probe;
 
 /** What a record keeps of a probe, in whole words. */
-typedef struct probe_memory {
+typedef struct probe_progress {
     char name[64];
     int64_t kind, number[2], every;
     int64_t rows, left, seen;
     double last;
-} probe_memory;
+} probe_progress;
 
 /** Checks and copies; `out` is left empty on failure. Free with probe_free(). */
 dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice);
@@ -40,9 +40,9 @@ dem_status probe_create(const probe *p, const hdf5_file *file);
 /** Appends the state as a row if one is due. The table's buffer must have room. */
 void probe_record(probe *p, const dem_simulation *simulation);
 
-probe_memory probe_remember(const probe *p);
+probe_progress probe_progress_of(const probe *p);
 
 /** Goes on from there, the rows left to the caller; DEM_ERROR_ARGUMENT if that was another probe. */
-dem_status probe_recall(probe *p, const probe_memory *memory);
+dem_status probe_restore(probe *p, const probe_progress *memory);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A list; a run has a dozen of them. */
+/* An array that is searched from its start: a run has a dozen entries. */
 #include "output/provenance.h"
 
 #include "base/grow.h"

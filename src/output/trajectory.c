@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as VTKHDF files: when what is written, and what a record has to remember of it. docs/output.md lists all
+/* A run as VTKHDF files: what is written when, and what a record has to hold of it. docs/output.md lists all
  * datasets. */
 #include <dem/trajectory.h>
 
@@ -86,27 +86,27 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
 
 /* Without gaps: its bytes are those of its numbers. */
-typedef struct memory {
+typedef struct progress {
     int64_t rows[ROWS_PROBES];                          /* so far, over all segments */
     int64_t n_probes, fields, double_precision, events; /* of the options, which have to be these again */
     double frame_interval;
     double last_frame, last_row; /* s */
     double start, largest;       /* J, of the history */
-} memory;
+} progress;
 
-static memory remember(const dem_trajectory *t)
+static progress read_progress(const dem_trajectory *t)
 {
     const trajectory_rows *r = &t->rows;
     const dem_trajectory_options *o = &r->options;
-    memory m = {.n_probes = o->n_probes,
-                .fields = o->fields,
-                .double_precision = o->double_precision != 0,
-                .events = o->events != 0,
-                .frame_interval = o->frame_interval,
-                .last_frame = r->frames.last,
-                .last_row = r->history.last,
-                .start = r->history.start,
-                .largest = r->history.largest};
+    progress m = {.n_probes = o->n_probes,
+                  .fields = o->fields,
+                  .double_precision = o->double_precision != 0,
+                  .events = o->events != 0,
+                  .frame_interval = o->frame_interval,
+                  .last_frame = r->frames.last,
+                  .last_row = r->history.last,
+                  .start = r->history.start,
+                  .largest = r->history.largest};
     for (int k = 0; k < ROWS_PROBES; k++) m.rows[k] = (int64_t)trajectory_rows_total(r, k);
     return m;
 }
@@ -114,14 +114,14 @@ static memory remember(const dem_trajectory *t)
 static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
 {
     const dem_trajectory *t = context;
-    const memory m = remember(t);
+    const progress m = read_progress(t);
     const size_t n = (size_t)m.n_probes;
     (void)simulation;
     TRY(dem_record_put(record, entry, &m, sizeof m));
     if (n == 0) return DEM_OK;
-    probe_memory *probes = malloc(n * sizeof *probes);
+    probe_progress *probes = malloc(n * sizeof *probes);
     CHECK_MEMORY(probes);
-    for (size_t k = 0; k < n; k++) probes[k] = probe_remember(&t->rows.probes[k]);
+    for (size_t k = 0; k < n; k++) probes[k] = probe_progress_of(&t->rows.probes[k]);
     const dem_status status = dem_record_put(record, probes_entry, probes, n * sizeof *probes);
     free(probes);
     return status;
@@ -133,7 +133,7 @@ static dem_status check_same(const char *what, double now, double then)
     return DEM_OK;
 }
 
-static dem_status check_options_then(const memory *now, const memory *then)
+static dem_status check_options_then(const progress *now, const progress *then)
 {
     TRY(check_same("n_probes", (double)now->n_probes, (double)then->n_probes));
     TRY(check_same("fields", (double)now->fields, (double)then->fields));
@@ -143,26 +143,26 @@ static dem_status check_options_then(const memory *now, const memory *then)
 }
 
 /* What a record says of this trajectory. */
-typedef struct remembered {
-    memory memory;
-    const probe_memory *probes; /* [n_probes] */
-    hsize_t *rows;              /* [kinds] */
-} remembered;
+typedef struct recorded {
+    progress progress;
+    const probe_progress *probes; /* [n_probes] */
+    hsize_t *rows;                /* [kinds] */
+} recorded;
 
 /* Free rows, after a failure too. */
-static dem_status recall(remembered *out, const dem_trajectory *t, const dem_record *record)
+static dem_status read_record(recorded *out, const dem_trajectory *t, const dem_record *record)
 {
-    const memory now = remember(t);
+    const progress now = read_progress(t);
     const size_t n = (size_t)now.n_probes;
     size_t size = 0;
-    *out = (remembered){.rows = calloc((size_t)t->rows.n_kinds, sizeof *out->rows)};
+    *out = (recorded){.rows = calloc((size_t)t->rows.n_kinds, sizeof *out->rows)};
     CHECK_MEMORY(out->rows);
-    TRY(dem_record_get(record, entry, &out->memory, sizeof out->memory));
-    TRY(check_options_then(&now, &out->memory));
+    TRY(dem_record_get(record, entry, &out->progress, sizeof out->progress));
+    TRY(check_options_then(&now, &out->progress));
     out->probes = dem_record_find(record, probes_entry, &size);
     CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
           "the record has no entry %s of %zu probes", probes_entry, n);
-    for (int k = 0; k < ROWS_PROBES; k++) out->rows[k] = (hsize_t)out->memory.rows[k];
+    for (int k = 0; k < ROWS_PROBES; k++) out->rows[k] = (hsize_t)out->progress.rows[k];
     for (size_t k = 0; k < n; k++) out->rows[ROWS_PROBES + k] = (hsize_t)out->probes[k].rows;
     return DEM_OK;
 }
@@ -235,16 +235,16 @@ static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status s
 /* The history's last instant is known before the segments are looked for: they end with it. */
 static dem_status go_on(dem_trajectory *t, const dem_record *record)
 {
-    remembered then;
+    recorded then;
     trajectory_rows *r = &t->rows;
-    dem_status status = recall(&then, t, record);
+    dem_status status = read_record(&then, t, record);
     for (dem_index k = 0; k < r->options.n_probes && status == DEM_OK; k++)
-        status = probe_recall(&r->probes[k], &then.probes[k]);
+        status = probe_restore(&r->probes[k], &then.probes[k]);
     if (status == DEM_OK) {
-        r->frames.last = then.memory.last_frame;
-        r->history.last = then.memory.last_row;
-        r->history.start = then.memory.start;
-        r->history.largest = then.memory.largest;
+        r->frames.last = then.progress.last_frame;
+        r->history.last = then.progress.last_row;
+        r->history.start = then.progress.start;
+        r->history.largest = then.progress.largest;
         status = trajectory_parts_find(&t->segments, r, then.rows);
     }
     free(then.rows);
@@ -295,11 +295,11 @@ dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, con
 
 dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record)
 {
-    remembered then;
+    recorded then;
     CHECK(trajectory != NULL && record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
     TRY(flush(trajectory));
-    dem_status status = recall(&then, trajectory, record);
+    dem_status status = read_record(&then, trajectory, record);
     if (status == DEM_OK) status = trajectory_parts_cut(&trajectory->segments, &trajectory->rows, then.rows);
     free(then.rows);
     return status;

@@ -144,7 +144,7 @@ static dem_status check_positions(const dem_film *film, const hdf5_file *file)
     return DEM_OK;
 }
 
-/* Of a single frame only the name tells. */
+/* A single frame is recognised by its name alone. */
 static bool is_constant(const dem_film *film, const char *name, hsize_t rows, dem_index in_frame)
 {
     static const char peak[] = "peak_";

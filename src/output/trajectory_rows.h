@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a file of a trajectory holds, be it the whole run or a part of it: lattice, obstacles, notes, and rows of some
- * kinds: frames, and those of the tables. */
+/* What a file of a trajectory holds, be it the whole run or a part of it: lattice, obstacles, provenance, and rows of
+ * some kinds: frames, and those of the tables. */
 #ifndef DEM_OUTPUT_TRAJECTORY_ROWS_H
 #define DEM_OUTPUT_TRAJECTORY_ROWS_H
 

@@ -28,7 +28,7 @@ struct arkode_integrator {
     arkode_errors errors;
     nvector_space *space;
     N_Vector y;              /* what ARKODE returns */
-    N_Vector y0, y1, f0, f1; /* the accepted step for the path; y0 is the last accepted state */
+    N_Vector y0, y1, f0, f1; /* the accepted step for the dense output; y0 is the last accepted state */
     N_Vector weights;        /* of the error, the same at all times */
     double *inside;          /* [4 n] state at a root function's time */
     double *root_functions;  /* [n_roots] values of the root functions at root_functions_t */
@@ -36,8 +36,8 @@ struct arkode_integrator {
     double t;                /* last accepted time, of y0 */
     double t1;               /* end of the step that y1, f0, f1 hold */
     bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
-    bool at_end;             /* the path was handed out: y1 is the start of the next step */
-    double asked;            /* s, what ARKODE is told to begin with after a restart; 0: nothing */
+    bool at_end;             /* the dense output was handed out: y1 is the start of the next step */
+    double asked;            /* s, first step given to ARKODE after a restart; 0: its own */
     bool knows_f0;           /* f0 is that of y0, */
     bool gives_f0;           /* and what ARKODE is given when it asks for it */
     bool refused;            /* the last derivative cannot be had, whatever the step */
@@ -89,8 +89,8 @@ static dense_output held_path(const arkode_integrator *I)
                           .f1 = nvector_values(I->f1)};
 }
 
-/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the path's quintic stands in
- * for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
+/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the quintic of the dense output
+ * stands in for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
 static int call_root_functions(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
     arkode_integrator *I = user;
@@ -149,7 +149,7 @@ static dem_status allocate(arkode_integrator *I)
     return DEM_OK;
 }
 
-/* The norm is a mean over all, books too, which have no part in the error. */
+/* The norm is a mean over all entries, the quadratures too, which have no part in the error. */
 static void fill_weights(arkode_integrator *I)
 {
     const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_quadratures;
@@ -169,7 +169,7 @@ static void start_from(arkode_integrator *I, double t, const double *y)
     I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;
 }
 
-/* The order that ARKODE is told limits the degree of its interpolant, and nothing else: below 4 it would not hold the
+/* The order given to ARKODE limits the degree of its interpolant, and nothing else: below 4 it would not hold the
  * derivatives at both ends of a step. */
 static int set_table(arkode_integrator *I)
 {
@@ -313,7 +313,7 @@ static dem_status fail_step(arkode_integrator *I, int flag)
     return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
 }
 
-/* From the end of the path handed out. */
+/* From the end of the dense output handed out. */
 static void go_on(arkode_integrator *I)
 {
     if (!I->at_end) return;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One of two. */
+/* Passes each call on to ARKODE or to velocity Verlet, by the method of the problem. */
 #include "time/integrator.h"
 
 #include "time/arkode_integrator.h"

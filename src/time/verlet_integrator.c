@@ -19,7 +19,7 @@ struct verlet_integrator {
     double *low, *high, *trial;        /* root functions at both ends of a bracket and inside */
     double t, t1;                      /* s, of y0, y1 */
     bool has_f0, has_low;              /* f0 is that of y0, low the root functions there */
-    bool at_end;                       /* the path was handed out: y1 is the start of the next step */
+    bool at_end;                       /* the dense output was handed out: y1 is the start of the next step */
     dem_counts counts;
 };
 
@@ -159,18 +159,18 @@ static void kick_free(verlet_integrator *V, double h)
         v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
 }
 
-/* All nodes at once where that can be, and the books: 0, 1 on failure, or -1. */
+/* All nodes at once where that can be, and the quadratures: 0, 1 on failure, or -1. */
 static int take_fused_step(verlet_integrator *V, double h)
 {
     const ode_problem *p = &V->problem;
     const ode_fused_step step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
-    const stretch books = {2 * (p->n_nodes - p->n_quadratures), 2 * p->n_quadratures};
+    const stretch quadratures = {2 * (p->n_nodes - p->n_quadratures), 2 * p->n_quadratures};
     if (p->fused_step == NULL) return -1;
-    drift_stretch(V, h, books);
+    drift_stretch(V, h, quadratures);
     const int flag = p->fused_step(&step, p->context);
     if (flag < 0) return flag;
     V->counts.evaluations++;
-    kick_stretch(V, h, books);
+    kick_stretch(V, h, quadratures);
     return flag;
 }
 

@@ -90,7 +90,7 @@ static void what_is_left_out_is_told(void **state)
     exported_how how = exported_usual();
     make(&m, how, 0);
     assert_string_equal(m.omissions, "left out: the folding guard of 1 triangle, 1 obstacle, gravity, which a run "
-                                     "without a deck does not tell");
+                                     "without a deck does not state");
     end(&m);
     how.n_obstacles = 0, how.resolved = "&solver mass_damping = 2 /";
     make(&m, how, 0);
