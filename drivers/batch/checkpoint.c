@@ -9,7 +9,7 @@
 #include "difference.h"
 #include "preview.h"
 #include "signals.h"
-#include "wall.h"
+#include "wall_clock.h"
 
 enum { VERSIONS = 256 };
 

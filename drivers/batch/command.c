@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "wall.h"
+#include "wall_clock.h"
 
 static const char usage[] =
     "usage: dem_batch [OPTION]... DECK...          run the decks; NAME.vtkhdf and NAME.json are written for each\n"

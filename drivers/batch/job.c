@@ -20,7 +20,7 @@
 #include "report.h"
 #include "result.h"
 #include "signals.h"
-#include "wall.h"
+#include "wall_clock.h"
 
 typedef struct job {
     const command *command;

@@ -8,7 +8,7 @@
 #include "estimate.h"
 #include "memory.h"
 #include "pace.h"
-#include "wall.h"
+#include "wall_clock.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
 enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */

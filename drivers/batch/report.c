@@ -11,7 +11,7 @@
 #include <dem/trajectory.h>
 
 #include "relaxation.h"
-#include "wall.h"
+#include "wall_clock.h"
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
 

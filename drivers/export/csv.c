@@ -67,7 +67,7 @@ static void write_still_row(sheet *s, const still *frame, int of_springs, dem_in
 
 static bool write_stills(sheet *s, still *frame, int of_springs)
 {
-    const moments *frames = &frame->task->frames;
+    const frame_list *frames = &frame->task->frames;
     dem_index n = 0;
     const double *times = dem_film_times(frame->task->film, &n);
     const dem_index rows = of_springs ? frame->n_springs : frame->n_nodes;

@@ -59,11 +59,11 @@ static bool choose_frames(task *t, const export *e)
     dem_index n = 0;
     (void)dem_film_times(t->film, &n);
     if (e->frames == NULL) {
-        if (moments_all(&t->frames, n)) return true;
+        if (frame_list_all(&t->frames, n)) return true;
         outcome_fail(t->outcome, EXIT_MEMORY, "dem_export", "out of memory");
     } else if (n == 0) {
         outcome_fail(t->outcome, EXIT_INVALID, "dem_export", "%s: has no frames", e->input);
-    } else if (moments_parse(&t->frames, e->frames, n, &fault)) {
+    } else if (frame_list_parse(&t->frames, e->frames, n, &fault)) {
         return true;
     } else {
         outcome_fail(t->outcome, EXIT_INVALID, "dem_export", "%s: '--frames %s' %s: there are %lld", e->input,
@@ -85,7 +85,7 @@ static void write_files(const export *e, outcome *o)
               .overwrite = e->overwrite,
               .outcome = o};
     if (task_holds(&t, status) && choose_frames(&t, e)) (void)e->write(&t);
-    moments_free(&t.frames);
+    frame_list_free(&t.frames);
     dem_film_close(film);
 }
 

@@ -83,7 +83,7 @@ static void write_bonds(sheet *s, const molecule *m, const still *frame, dem_ind
 static bool write_all(const molecule *m, const char *ending, int of_springs)
 {
     const still_choice choice = {.of_springs = of_springs};
-    const moments *frames = &m->task->frames;
+    const frame_list *frames = &m->task->frames;
     still frame;
     sheet s;
     bool good = still_open(&frame, m->task, &choice);

@@ -7,13 +7,13 @@
 
 #include <dem/film.h>
 
-#include "moments.h"
+#include "frame_list.h"
 #include "outcome.h"
 
 typedef struct task {
     const char *input; /* path of the run */
     const dem_film *film;
-    moments frames;     /* in the order asked for */
+    frame_list frames;  /* in the order asked for */
     const char *folder; /* "", or ends in / */
     const char *name;   /* what the names of files are made of */
     bool overwrite;

@@ -9,7 +9,7 @@
 
 #include "digest.h"
 #include "legend.h"
-#include "moments.h"
+#include "frame_list.h"
 #include "picture.h"
 #include "stamp.h"
 #include "strip.h"
@@ -19,7 +19,7 @@ typedef struct show {
     const dem_film *film;
     const request *asked;
     quantity shown;
-    moments chosen;
+    frame_list chosen;
     snapshot now;
     palette colours;
     panel_look look;
@@ -55,7 +55,7 @@ static dem_index most_compressed(const dem_film *film, dem_index n_frames, const
         read_column(film, "elastic", n, energy)) {
         for (dem_index k = 1; k < n; k++)
             if (energy[k] > energy[most]) most = k;
-        if (energy[most] > 0.0) found = moments_nearest(n_frames, times, t[most]);
+        if (energy[most] > 0.0) found = frame_list_nearest(n_frames, times, t[most]);
     }
     free(t);
     free(energy);
@@ -69,15 +69,15 @@ static bool choose(show *s, outcome *o)
     const request *asked = s->asked;
     const double *t = dem_film_times(s->film, &n);
     if (n == 0) return outcome_fail(o, EXIT_INVALID, "dem_plot", "%s: has no frames", asked->input), false;
-    if (asked->frames != NULL && !moments_parse(&s->chosen, asked->frames, n, &fault))
+    if (asked->frames != NULL && !frame_list_parse(&s->chosen, asked->frames, n, &fault))
         return outcome_fail(o, EXIT_INVALID, "dem_plot", "%s: '--frames %s' %s: there are 0 to %lld", asked->input,
                             asked->frames, fault, (long long)n - 1),
                false;
-    if (asked->times != NULL && !moments_parse_times(&s->chosen, asked->times, n, t, &fault))
+    if (asked->times != NULL && !frame_list_parse_times(&s->chosen, asked->times, n, t, &fault))
         return outcome_fail(o, EXIT_INVALID, "dem_plot", "'--times %s' %s", asked->times, fault), false;
     if (s->chosen.n > 0) return true;
     const bool all = asked->action == REQUEST_ANIMATION;
-    return (all ? moments_all(&s->chosen, n) : moments_usual(&s->chosen, n, most_compressed(s->film, n, t))) ||
+    return (all ? frame_list_all(&s->chosen, n) : frame_list_usual(&s->chosen, n, most_compressed(s->film, n, t))) ||
            fail_memory(o);
 }
 
@@ -131,7 +131,7 @@ static bool open_show(show *s, const dem_film *film, const request *asked, outco
 
 static void close_show(show *s)
 {
-    moments_free(&s->chosen);
+    frame_list_free(&s->chosen);
     snapshot_free(&s->now);
 }
 

@@ -92,7 +92,7 @@ static inline void exported_open(exported *e, exported_how how)
     assert_ok(dem_film_open(&e->film, e->path));
     (void)dem_film_times(e->film, &n);
     e->task = (task){.input = e->path, .film = e->film, .folder = folder, .name = "run", .outcome = &e->outcome};
-    assert_true(moments_all(&e->task.frames, n));
+    assert_true(frame_list_all(&e->task.frames, n));
 }
 
 static inline int exported_has(const exported *e, const char *name)
@@ -134,7 +134,7 @@ static inline void exported_close(exported *e)
 {
     DIR *list = opendir(e->folder);
     assert_non_null(list);
-    moments_free(&e->task.frames);
+    frame_list_free(&e->task.frames);
     dem_film_close(e->film);
     for (struct dirent *entry; (entry = readdir(list)) != NULL;) {
         if (strstr(entry->d_name, ".new") != NULL) fail_msg("%s was left", entry->d_name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "words.h"
+#include "text_reader.h"
 
 #include <errno.h>
 #include <math.h>
@@ -13,7 +13,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
 }
 
-static void skip_blanks(words *w)
+static void skip_blanks(text_reader *w)
 {
     bool comment = false;
     for (; w->at < w->end; w->at++) {
@@ -34,12 +34,12 @@ static void make_plain(char *word)
         if (*word < ' ' || *word > '~') *word = '?';
 }
 
-words words_begin(const char *text, size_t size, char comment)
+text_reader text_reader_begin(const char *text, size_t size, char comment)
 {
-    return (words){.at = text, .end = text + size, .line = 1, .last = 1, .comment = comment};
+    return (text_reader){.at = text, .end = text + size, .line = 1, .last = 1, .comment = comment};
 }
 
-bool words_fail(words *w, const char *format, ...)
+bool text_reader_fail(text_reader *w, const char *format, ...)
 {
     va_list arguments;
     if (w->fault[0] != '\0') return false;
@@ -49,13 +49,13 @@ bool words_fail(words *w, const char *format, ...)
     return false;
 }
 
-bool words_next(words *w, char *word)
+bool text_reader_next(text_reader *w, char *word)
 {
     size_t n = 0;
     skip_blanks(w);
     w->last = w->line;
     for (; w->at < w->end && !is_blank(*w->at) && (w->comment == '\0' || *w->at != w->comment); w->at++) {
-        if (n == WORDS_LONGEST) return words_fail(w, "a word of more than %d bytes", WORDS_LONGEST);
+        if (n == TEXT_READER_LONGEST) return text_reader_fail(w, "a word of more than %d bytes", TEXT_READER_LONGEST);
         word[n++] = *w->at;
     }
     word[n] = '\0';
@@ -63,50 +63,50 @@ bool words_next(words *w, char *word)
 }
 
 /* The next word, for a value that must be there. */
-static bool take(words *w, const char *what, char *word)
+static bool take(text_reader *w, const char *what, char *word)
 {
-    if (words_next(w, word)) return true;
-    return words_fail(w, "the text ends where %s is expected", what);
+    if (text_reader_next(w, word)) return true;
+    return text_reader_fail(w, "the text ends where %s is expected", what);
 }
 
-bool words_integer(words *w, const char *what, int64_t least, int64_t most, int64_t *value)
+bool text_reader_integer(text_reader *w, const char *what, int64_t least, int64_t most, int64_t *value)
 {
-    char word[WORDS_LONGEST + 1], *end;
+    char word[TEXT_READER_LONGEST + 1], *end;
     if (!take(w, what, word)) return false;
     errno = 0;
     const long long n = strtoll(word, &end, 10);
     const bool good = *end == '\0' && errno == 0;
     make_plain(word);
-    if (!good) return words_fail(w, "%s must be an integer, got '%.40s'", what, word);
+    if (!good) return text_reader_fail(w, "%s must be an integer, got '%.40s'", what, word);
     if (n < least || n > most)
-        return words_fail(w, "%s must be in [%lld, %lld], got %lld", what, (long long)least, (long long)most, n);
+        return text_reader_fail(w, "%s must be in [%lld, %lld], got %lld", what, (long long)least, (long long)most, n);
     *value = n;
     return true;
 }
 
-bool words_real(words *w, const char *what, double *value)
+bool text_reader_real(text_reader *w, const char *what, double *value)
 {
-    char word[WORDS_LONGEST + 1], *end;
+    char word[TEXT_READER_LONGEST + 1], *end;
     if (!take(w, what, word)) return false;
     const double x = strtod(word, &end);
     const bool plain = word[strspn(word, "+-.0123456789eE")] == '\0'; /* neither hexadecimal nor a name */
     const bool good = plain && *end == '\0' && isfinite(x);
     make_plain(word);
-    if (!good) return words_fail(w, "%s must be a finite number, got '%.40s'", what, word);
+    if (!good) return text_reader_fail(w, "%s must be a finite number, got '%.40s'", what, word);
     *value = x;
     return true;
 }
 
-bool words_expect(words *w, const char *word)
+bool text_reader_expect(text_reader *w, const char *word)
 {
-    char found[WORDS_LONGEST + 1];
+    char found[TEXT_READER_LONGEST + 1];
     if (!take(w, word, found)) return false;
     if (strcmp(found, word) == 0) return true;
     make_plain(found);
-    return words_fail(w, "'%s' is expected, got '%.40s'", word, found);
+    return text_reader_fail(w, "'%s' is expected, got '%.40s'", word, found);
 }
 
-bool words_seek(words *w, const char *text)
+bool text_reader_seek(text_reader *w, const char *text)
 {
     const size_t length = strlen(text);
     while (w->at < w->end) {
@@ -118,10 +118,10 @@ bool words_seek(words *w, const char *text)
         w->at += length;
         return true;
     }
-    return words_fail(w, "the text ends where a line '%s' is expected", text);
+    return text_reader_fail(w, "the text ends where a line '%s' is expected", text);
 }
 
-size_t words_left(const words *w)
+size_t text_reader_left(const text_reader *w)
 {
     return (size_t)(w->end - w->at);
 }

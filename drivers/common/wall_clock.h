@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Time on the wall, for progress and for what took long; nothing that is computed depends on it. */
-#ifndef DEM_WALL_H
-#define DEM_WALL_H
+#ifndef DEM_WALL_CLOCK_H
+#define DEM_WALL_CLOCK_H
 
 #include <time.h>
 

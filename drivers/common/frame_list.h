@@ -1,39 +1,39 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Which frames are shown. */
-#ifndef DEM_MOMENTS_H
-#define DEM_MOMENTS_H
+#ifndef DEM_FRAME_LIST_H
+#define DEM_FRAME_LIST_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include <dem/dem.h>
 
-enum { MOMENTS_USUAL = 6 };
+enum { FRAME_LIST_USUAL = 6 };
 
-typedef struct moments {
+typedef struct frame_list {
     size_t n;
     dem_index *frame; /* [n] in the order asked for */
-} moments;
+} frame_list;
 
-void moments_free(moments *m);
+void frame_list_free(frame_list *m);
 
 /** "0,5,10" and ranges "FIRST:LAST" or "FIRST:LAST:STEP"; -1 is the last frame, -2 the one before. False if it is none
  *  of this, or without memory; *fault then says what is wrong.
  *  \param n_frames  > 0 */
-bool moments_parse(moments *m, const char *text, dem_index n_frames, const char **fault);
+bool frame_list_parse(frame_list *m, const char *text, dem_index n_frames, const char **fault);
 
-/** "0,2.5e-3": for each instant, s, the frame nearest to it. As moments_parse().
+/** "0,2.5e-3": for each instant, s, the frame nearest to it. As frame_list_parse().
  *  \param t  [n_frames], ascending */
-bool moments_parse_times(moments *m, const char *text, dem_index n_frames, const double *t, const char **fault);
+bool frame_list_parse_times(frame_list *m, const char *text, dem_index n_frames, const double *t, const char **fault);
 
 /** All of them. False without memory. */
-bool moments_all(moments *m, dem_index n_frames);
+bool frame_list_all(frame_list *m, dem_index n_frames);
 
 /** Six, or all if there are not so many: the first, `middle` and the last; between them one half-way to `middle` and,
  *  where there is room, two that mirror it on the way back. `middle` < 0: evenly. False without memory. */
-bool moments_usual(moments *m, dem_index n_frames, dem_index middle);
+bool frame_list_usual(frame_list *m, dem_index n_frames, dem_index middle);
 
 /** The frame nearest to an instant. */
-dem_index moments_nearest(dem_index n_frames, const double *t, double instant);
+dem_index frame_list_nearest(dem_index n_frames, const double *t, double instant);
 
 #endif

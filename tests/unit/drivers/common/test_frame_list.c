@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* moments.c: which frames are shown. */
+/* frame_list.c: which frames are shown. */
 #include "unit/close.h"
 
 #include <string.h>
 
-#include "moments.h"
+#include "frame_list.h"
 
 enum { FRAMES = 21 };
 
-static void expect(moments *m, size_t n, const dem_index *frames)
+static void expect(frame_list *m, size_t n, const dem_index *frames)
 {
     assert_int_equal(m->n, n);
     for (size_t k = 0; k < n; k++) assert_int_equal(m->frame[k], frames[k]);
-    moments_free(m);
+    frame_list_free(m);
 }
 
 static void expect_parsed(const char *text, size_t n, const dem_index *frames)
 {
-    moments m;
+    frame_list m;
     const char *fault = NULL;
-    assert_true(moments_parse(&m, text, FRAMES, &fault));
+    assert_true(frame_list_parse(&m, text, FRAMES, &fault));
     expect(&m, n, frames);
 }
 
@@ -40,9 +40,9 @@ static void what_is_no_list_is_refused(void **state)
                                         "1;2", "0:",  "0:5:0", "0:5:-1", "5:0",
                                         "21",  "-22", "1.5",   "0:21",   "99999999999999999999"};
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        moments m;
+        frame_list m;
         const char *fault = NULL;
-        if (moments_parse(&m, texts[k], FRAMES, &fault)) fail_msg("'%s' is taken", texts[k]);
+        if (frame_list_parse(&m, texts[k], FRAMES, &fault)) fail_msg("'%s' is taken", texts[k]);
         assert_non_null(fault);
     }
 }
@@ -51,19 +51,19 @@ static void times_are_those_of_the_nearest_frames(void **state)
 {
     (void)state;
     const double t[] = {0.0, 1e-3, 2e-3, 4e-3};
-    moments m;
+    frame_list m;
     const char *fault = NULL;
-    assert_true(moments_parse_times(&m, "0,1.4e-3,9,3.1e-3,-5", 4, t, &fault));
+    assert_true(frame_list_parse_times(&m, "0,1.4e-3,9,3.1e-3,-5", 4, t, &fault));
     expect(&m, 5, (const dem_index[]){0, 1, 3, 3, 0});
-    assert_false(moments_parse_times(&m, "0,x", 4, t, &fault));
-    assert_false(moments_parse_times(&m, "nan", 4, t, &fault));
-    assert_false(moments_parse_times(&m, "1ms", 4, t, &fault));
+    assert_false(frame_list_parse_times(&m, "0,x", 4, t, &fault));
+    assert_false(frame_list_parse_times(&m, "nan", 4, t, &fault));
+    assert_false(frame_list_parse_times(&m, "1ms", 4, t, &fault));
 }
 
 static void expect_usual(dem_index n_frames, dem_index middle, size_t n, const dem_index *frames)
 {
-    moments m;
-    assert_true(moments_usual(&m, n_frames, middle));
+    frame_list m;
+    assert_true(frame_list_usual(&m, n_frames, middle));
     expect(&m, n, frames);
 }
 
@@ -87,10 +87,10 @@ static void usual_ones_have_first_middle_and_last(void **state)
     (void)state;
     for (dem_index n = 7; n < 60; n++)
         for (dem_index middle = 1; middle < n - 1; middle++) {
-            moments m;
+            frame_list m;
             bool has_middle = false;
-            assert_true(moments_usual(&m, n, middle));
-            assert_true(m.n <= MOMENTS_USUAL);
+            assert_true(frame_list_usual(&m, n, middle));
+            assert_true(m.n <= FRAME_LIST_USUAL);
             assert_int_equal(m.frame[0], 0);
             assert_int_equal(m.frame[m.n - 1], n - 1);
             for (size_t k = 0; k < m.n; k++) {
@@ -98,15 +98,15 @@ static void usual_ones_have_first_middle_and_last(void **state)
                 if (k > 0) assert_true(m.frame[k] > m.frame[k - 1]);
             }
             assert_true(has_middle);
-            moments_free(&m);
+            frame_list_free(&m);
         }
 }
 
 static void all_are_all(void **state)
 {
     (void)state;
-    moments m;
-    assert_true(moments_all(&m, 3));
+    frame_list m;
+    assert_true(frame_list_all(&m, 3));
     expect(&m, 3, (const dem_index[]){0, 1, 2});
 }
 

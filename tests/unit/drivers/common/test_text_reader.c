@@ -1,45 +1,45 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* words.c: words, numbers, lines and faults. */
+/* text_reader.c: words, numbers, lines and faults. */
 #include "unit/close.h"
 
 #include <string.h>
 
-#include "words.h"
+#include "text_reader.h"
 
-static words begin(const char *text, char comment)
+static text_reader begin(const char *text, char comment)
 {
-    return words_begin(text, strlen(text), comment);
+    return text_reader_begin(text, strlen(text), comment);
 }
 
-static void words_stand_between_blanks(void **state)
+static void text_reader_stand_between_blanks(void **state)
 {
     (void)state;
     static const char *const expected[] = {"a", "bc", "#d", "e"};
     static const size_t line[] = {1, 2, 2, 4};
-    char word[WORDS_LONGEST + 1];
-    words w = begin(" a\n\tbc\r\v\f#d\n\n e", '\0');
+    char word[TEXT_READER_LONGEST + 1];
+    text_reader w = begin(" a\n\tbc\r\v\f#d\n\n e", '\0');
     for (int k = 0; k < 4; k++) {
-        assert_true(words_next(&w, word));
+        assert_true(text_reader_next(&w, word));
         assert_string_equal(word, expected[k]);
         assert_int_equal(w.last, line[k]);
     }
-    assert_false(words_next(&w, word));
+    assert_false(text_reader_next(&w, word));
     assert_string_equal(w.fault, "");
-    assert_int_equal(words_left(&w), 0);
+    assert_int_equal(text_reader_left(&w), 0);
 }
 
 static void comments_last_to_the_end_of_their_line(void **state)
 {
     (void)state;
-    char word[WORDS_LONGEST + 1];
-    words w = begin("# one\na#two\n#\nb#", '#');
-    assert_true(words_next(&w, word));
+    char word[TEXT_READER_LONGEST + 1];
+    text_reader w = begin("# one\na#two\n#\nb#", '#');
+    assert_true(text_reader_next(&w, word));
     assert_string_equal(word, "a");
     assert_int_equal(w.last, 2);
-    assert_true(words_next(&w, word));
+    assert_true(text_reader_next(&w, word));
     assert_string_equal(word, "b");
     assert_int_equal(w.last, 4);
-    assert_false(words_next(&w, word));
+    assert_false(text_reader_next(&w, word));
     assert_string_equal(w.fault, "");
 }
 
@@ -48,31 +48,31 @@ static void numbers_are_read_as_such(void **state)
     (void)state;
     int64_t n;
     double x;
-    words w = begin("-7 9223372036854775807 1.5e-3 .5 4", '\0');
-    assert_true(words_integer(&w, "n", -7, 7, &n));
+    text_reader w = begin("-7 9223372036854775807 1.5e-3 .5 4", '\0');
+    assert_true(text_reader_integer(&w, "n", -7, 7, &n));
     assert_int_equal(n, -7);
-    assert_true(words_integer(&w, "n", 0, INT64_MAX, &n));
+    assert_true(text_reader_integer(&w, "n", 0, INT64_MAX, &n));
     assert_true(n == INT64_MAX);
-    assert_true(words_real(&w, "x", &x));
+    assert_true(text_reader_real(&w, "x", &x));
     assert_close(x, 1.5e-3, 0.0);
-    assert_true(words_real(&w, "x", &x));
-    assert_true(words_real(&w, "x", &x));
+    assert_true(text_reader_real(&w, "x", &x));
+    assert_true(text_reader_real(&w, "x", &x));
     assert_close(x, 4.0, 0.0);
 }
 
 static void expect_integer_fault(const char *text, const char *fault)
 {
     int64_t n;
-    words w = begin(text, '\0');
-    assert_false(words_integer(&w, "n", 1, 9, &n));
+    text_reader w = begin(text, '\0');
+    assert_false(text_reader_integer(&w, "n", 1, 9, &n));
     assert_string_equal(w.fault, fault);
 }
 
 static void expect_real_fault(const char *text, const char *fault)
 {
     double x;
-    words w = begin(text, '\0');
-    assert_false(words_real(&w, "x", &x));
+    text_reader w = begin(text, '\0');
+    assert_false(text_reader_real(&w, "x", &x));
     assert_string_equal(w.fault, fault);
 }
 
@@ -98,44 +98,47 @@ static void what_is_no_number_is_told(void **state)
 static void the_first_fault_stays(void **state)
 {
     (void)state;
-    char word[WORDS_LONGEST + 1], text[200];
-    words w = begin("a b", '\0');
-    assert_true(words_expect(&w, "a"));
-    assert_false(words_expect(&w, "c"));
-    assert_false(words_fail(&w, "later"));
+    char word[TEXT_READER_LONGEST + 1], text[200];
+    text_reader w = begin("a b", '\0');
+    assert_true(text_reader_expect(&w, "a"));
+    assert_false(text_reader_expect(&w, "c"));
+    assert_false(text_reader_fail(&w, "later"));
     assert_string_equal(w.fault, "'c' is expected, got 'b'");
     memset(text, 'x', sizeof text);
-    text[WORDS_LONGEST] = '\0';
+    text[TEXT_READER_LONGEST] = '\0';
     w = begin(text, '\0');
-    assert_true(words_next(&w, word));
-    text[WORDS_LONGEST] = 'x';
-    w = words_begin(text, sizeof text, '\0');
-    assert_false(words_next(&w, word));
+    assert_true(text_reader_next(&w, word));
+    text[TEXT_READER_LONGEST] = 'x';
+    w = text_reader_begin(text, sizeof text, '\0');
+    assert_false(text_reader_next(&w, word));
     assert_string_equal(w.fault, "a word of more than 63 bytes");
 }
 
 static void seeking_goes_behind_a_lines_beginning(void **state)
 {
     (void)state;
-    char word[WORDS_LONGEST + 1];
-    words w = begin("$A\n x $EndA\n$EndB\n$EndA\nnext", '\0');
-    assert_true(words_next(&w, word));
-    assert_true(words_seek(&w, "$EndA"));
-    assert_true(words_next(&w, word));
+    char word[TEXT_READER_LONGEST + 1];
+    text_reader w = begin("$A\n x $EndA\n$EndB\n$EndA\nnext", '\0');
+    assert_true(text_reader_next(&w, word));
+    assert_true(text_reader_seek(&w, "$EndA"));
+    assert_true(text_reader_next(&w, word));
     assert_string_equal(word, "next");
     assert_int_equal(w.last, 5);
-    assert_false(words_seek(&w, "$EndA"));
+    assert_false(text_reader_seek(&w, "$EndA"));
     assert_string_equal(w.fault, "the text ends where a line '$EndA' is expected");
     w = begin("", '\0');
-    assert_false(words_seek(&w, "$EndA"));
+    assert_false(text_reader_seek(&w, "$EndA"));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_stand_between_blanks), cmocka_unit_test(comments_last_to_the_end_of_their_line),
-        cmocka_unit_test(numbers_are_read_as_such),   cmocka_unit_test(what_is_no_number_is_told),
-        cmocka_unit_test(the_first_fault_stays),      cmocka_unit_test(seeking_goes_behind_a_lines_beginning),
+        cmocka_unit_test(text_reader_stand_between_blanks),
+        cmocka_unit_test(comments_last_to_the_end_of_their_line),
+        cmocka_unit_test(numbers_are_read_as_such),
+        cmocka_unit_test(what_is_no_number_is_told),
+        cmocka_unit_test(the_first_fault_stays),
+        cmocka_unit_test(seeking_goes_behind_a_lines_beginning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

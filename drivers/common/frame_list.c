@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "moments.h"
+#include "frame_list.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-void moments_free(moments *m)
+void frame_list_free(frame_list *m)
 {
     free(m->frame);
-    *m = (moments){0};
+    *m = (frame_list){0};
 }
 
-static bool reserve(moments *m, size_t n)
+static bool reserve(frame_list *m, size_t n)
 {
-    *m = (moments){0, malloc((n > 0 ? n : 1) * sizeof *m->frame)};
+    *m = (frame_list){0, malloc((n > 0 ? n : 1) * sizeof *m->frame)};
     return m->frame != NULL;
 }
 
-static bool refuse(moments *m, const char **fault, const char *what)
+static bool refuse(frame_list *m, const char **fault, const char *what)
 {
-    moments_free(m);
+    frame_list_free(m);
     *fault = what;
     return false;
 }
@@ -58,7 +58,7 @@ static bool take_range(const char **text, dem_index n_frames, range *out)
 }
 
 /* NULL if it is done, or what is wrong. */
-static const char *append(moments *m, const range *r, dem_index n_frames)
+static const char *append(frame_list *m, const range *r, dem_index n_frames)
 {
     if (r->first < 0 || r->last >= n_frames || r->last < r->first) return "names frames that are not there";
     const size_t more = (size_t)((r->last - r->first) / r->step) + 1;
@@ -69,9 +69,9 @@ static const char *append(moments *m, const range *r, dem_index n_frames)
     return NULL;
 }
 
-bool moments_parse(moments *m, const char *text, dem_index n_frames, const char **fault)
+bool frame_list_parse(frame_list *m, const char *text, dem_index n_frames, const char **fault)
 {
-    *m = (moments){0};
+    *m = (frame_list){0};
     for (bool more = true; more; text++) {
         range r;
         if (!take_range(&text, n_frames, &r)) return refuse(m, fault, "is no list of frames as 0,5,10 or 0:20:5");
@@ -81,7 +81,7 @@ bool moments_parse(moments *m, const char *text, dem_index n_frames, const char 
     return true;
 }
 
-dem_index moments_nearest(dem_index n_frames, const double *t, double instant)
+dem_index frame_list_nearest(dem_index n_frames, const double *t, double instant)
 {
     dem_index nearest = 0;
     for (dem_index k = 1; k < n_frames; k++)
@@ -89,7 +89,7 @@ dem_index moments_nearest(dem_index n_frames, const double *t, double instant)
     return nearest;
 }
 
-bool moments_parse_times(moments *m, const char *text, dem_index n_frames, const double *t, const char **fault)
+bool frame_list_parse_times(frame_list *m, const char *text, dem_index n_frames, const double *t, const char **fault)
 {
     const size_t n = count(text, ',') + 1;
     if (!reserve(m, n)) return refuse(m, fault, "takes too much memory");
@@ -98,13 +98,13 @@ bool moments_parse_times(moments *m, const char *text, dem_index n_frames, const
         const double instant = strtod(text, &end);
         if (end == text || (*end != ',' && *end != '\0') || !isfinite(instant))
             return refuse(m, fault, "is no list of times in s as 0,2.5e-3");
-        m->frame[m->n++] = moments_nearest(n_frames, t, instant);
+        m->frame[m->n++] = frame_list_nearest(n_frames, t, instant);
         text = end;
     }
     return true;
 }
 
-bool moments_all(moments *m, dem_index n_frames)
+bool frame_list_all(frame_list *m, dem_index n_frames)
 {
     if (!reserve(m, (size_t)n_frames)) return false;
     while (m->n < (size_t)n_frames) {
@@ -115,14 +115,14 @@ bool moments_all(moments *m, dem_index n_frames)
 }
 
 /* Evenly from the last one up to `to`, which is included. */
-static void fill(moments *m, dem_index to, size_t n)
+static void fill(frame_list *m, dem_index to, size_t n)
 {
     const dem_index from = m->n > 0 ? m->frame[m->n - 1] : 0;
     for (size_t k = 1; k <= n; k++)
         m->frame[m->n++] = from + (dem_index)llround((double)(to - from) * (double)k / (double)n);
 }
 
-static void drop_doubles(moments *m)
+static void drop_doubles(frame_list *m)
 {
     size_t kept = 1;
     for (size_t k = 1; k < m->n; k++)
@@ -130,14 +130,14 @@ static void drop_doubles(moments *m)
     m->n = kept;
 }
 
-bool moments_usual(moments *m, dem_index n_frames, dem_index middle)
+bool frame_list_usual(frame_list *m, dem_index n_frames, dem_index middle)
 {
     const dem_index last = n_frames - 1;
-    if (n_frames <= MOMENTS_USUAL) return moments_all(m, n_frames);
-    if (!reserve(m, MOMENTS_USUAL)) return false;
+    if (n_frames <= FRAME_LIST_USUAL) return frame_list_all(m, n_frames);
+    if (!reserve(m, FRAME_LIST_USUAL)) return false;
     m->frame[m->n++] = 0;
     if (middle <= 0 || middle >= last) {
-        fill(m, last, MOMENTS_USUAL - 1);
+        fill(m, last, FRAME_LIST_USUAL - 1);
         return true;
     }
     fill(m, middle, 2);
