@@ -11,7 +11,7 @@
 #include "material.h"
 #include "msh.h"
 #include "shape.h"
-#include "uses.h"
+#include "conditional_keys.h"
 
 static const double pi = 3.14159265358979323846, degree = 0.017453292519943295769; /* pi/180 */
 static const double aside = 1e-6; /* of the spacing: how far cracks run beside their points */
@@ -20,7 +20,7 @@ static const double aside = 1e-6; /* of the spacing: how far cracks run beside t
 
 #define OURS "rectangle, disc, ring, polygon, mask" /* shapes whose lattice is made here */
 
-static const uses_key body_keys[] = {
+static const conditional_key body_keys[] = {
     {"size", "rectangle", true},
     {"radius", "disc, ring", true},
     {"inner_radius", "ring", true},
@@ -35,28 +35,29 @@ static const uses_key body_keys[] = {
     {"scale", "mask, mesh", true},
     {"threshold", "mask", false},
 };
-static const uses_key void_keys[] = {
+static const conditional_key void_keys[] = {
     {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},
     {"points", "polygon", true}, {"angle", "rectangle, polygon", false},
 };
-static const uses_key lattice_keys[] = {{"diagonal", "square", false}};
-static const uses_key pores_keys[] = {{"mean", "lognormal, normal", true}, {"deviation", "lognormal, normal", true}};
+static const conditional_key lattice_keys[] = {{"diagonal", "square", false}};
+static const conditional_key pores_keys[] = {{"mean", "lognormal, normal", true},
+                                             {"deviation", "lognormal, normal", true}};
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
-static const uses body_uses = {"body", "shape", COUNT(body_keys), body_keys};
-static const uses lattice_uses = {"body", "lattice", COUNT(lattice_keys), lattice_keys};
-static const uses void_uses = {"void", "shape", COUNT(void_keys), void_keys};
-static const uses inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
-static const uses pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
+static const conditional_keys body_uses = {"body", "shape", COUNT(body_keys), body_keys};
+static const conditional_keys lattice_uses = {"body", "lattice", COUNT(lattice_keys), lattice_keys};
+static const conditional_keys void_uses = {"void", "shape", COUNT(void_keys), void_keys};
+static const conditional_keys inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
+static const conditional_keys pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
 
 void form_drop_unused(schema_deck *groups)
 {
-    uses_drop(groups, &body_uses);
-    uses_drop(groups, &lattice_uses);
-    uses_drop(groups, &void_uses);
-    uses_drop(groups, &inclusion_uses);
-    uses_drop(groups, &pores_uses);
+    conditional_keys_drop(groups, &body_uses);
+    conditional_keys_drop(groups, &lattice_uses);
+    conditional_keys_drop(groups, &void_uses);
+    conditional_keys_drop(groups, &inclusion_uses);
+    conditional_keys_drop(groups, &pores_uses);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
         if (strcmp(group->group->name, "body") == 0 && schema_real(group, "jitter") == 0.0) schema_drop(group, "seed");
@@ -223,14 +224,14 @@ static void check_pores(const schema_instance *group, namelist_errors *errors)
 static void check_lattice(const schema_instance *body, namelist_errors *errors)
 {
     if (strstr(OURS, schema_text(body, "shape")) == NULL) return;
-    uses_check(body, &lattice_uses, errors);
+    conditional_keys_check(body, &lattice_uses, errors);
     if (schema_given(body, "seed") && !schema_value_of(body, "jitter")->faulty && schema_real(body, "jitter") == 0.0)
         namelist_errors_add(errors, schema_place(body, "seed"), "'seed' in &body is not used without 'jitter'");
 }
 
 static void check_body(const schema_instance *body, namelist_errors *errors)
 {
-    uses_check(body, &body_uses, errors);
+    conditional_keys_check(body, &body_uses, errors);
     check_lattice(body, errors);
     check_ring(body, errors);
     check_spacing(body, check_polygon(body, errors), errors);
@@ -238,11 +239,11 @@ static void check_body(const schema_instance *body, namelist_errors *errors)
 }
 
 /* Voids or inclusions. */
-static void check_holes(const schema_deck *groups, const uses *table, namelist_errors *errors)
+static void check_holes(const schema_deck *groups, const conditional_keys *table, namelist_errors *errors)
 {
     for (size_t k = 0; k < schema_count(groups, table->group); k++) {
         const schema_instance *group = schema_get(groups, table->group, k);
-        uses_check(group, table, errors);
+        conditional_keys_check(group, table, errors);
         check_owner(groups, group, errors);
         check_ring(group, errors);
         (void)check_polygon(group, errors);
@@ -256,7 +257,7 @@ void form_check_all(const schema_deck *groups, namelist_errors *errors)
     check_holes(groups, &inclusion_uses, errors);
     for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
         const schema_instance *group = schema_get(groups, "pores", k);
-        uses_check(group, &pores_uses, errors);
+        conditional_keys_check(group, &pores_uses, errors);
         check_owner(groups, group, errors);
         check_pores(group, errors);
     }

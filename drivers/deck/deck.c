@@ -18,19 +18,20 @@
 #include "probes.h"
 #include "profile.h"
 #include "schema.h"
-#include "uses.h"
+#include "conditional_keys.h"
 
 static const double most_frames = 1e7;
 static const double default_segments = 200.0; /* of a profile */
 static const double lost = 1e-6;              /* of a segment: rounding must not hide more */
 
-static const uses_key profile_keys[] = {
+static const conditional_key profile_keys[] = {
     {"resolution", "smooth, rough", false},
     {"roughness", "rough", true},
     {"correlation", "rough", true},
     {"seed", "rough", false},
 };
-static const uses profile_uses = {"obstacle", "profile", sizeof profile_keys / sizeof *profile_keys, profile_keys};
+static const conditional_keys profile_uses = {"obstacle", "profile", sizeof profile_keys / sizeof *profile_keys,
+                                              profile_keys};
 
 /* ---- the file ---- */
 
@@ -185,7 +186,7 @@ static void check_obstacle(const schema_instance *obstacle, size_t number, namel
 {
     const schema_value *points = schema_value_of(obstacle, "points");
     const bool pairs = points->count % 2 == 0;
-    uses_check(obstacle, &profile_uses, errors);
+    conditional_keys_check(obstacle, &profile_uses, errors);
     check_friction(obstacle, errors);
     if (!pairs)
         namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
@@ -511,7 +512,7 @@ static bool interpret(deck *d)
     body_drop_unused(&d->groups);
     loading_drop_unused(&d->groups);
     probes_drop_unused(&d->groups);
-    uses_drop(&d->groups, &profile_uses);
+    conditional_keys_drop(&d->groups, &profile_uses);
     return set_scalars(d, &d->groups);
 }
 

@@ -6,21 +6,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "uses.h"
+#include "conditional_keys.h"
 
-static const uses_key where_keys[] = {{"side", "side", true},
-                                      {"box", "box", true},
-                                      {"centre", "disc", true},
-                                      {"radius", "disc", true},
-                                      {"nodes", "list", true}};
-static const uses_key kind_keys[] = {{"components", "fix, velocity, displacement", false},
-                                     {"velocity", "velocity", true},
-                                     {"displacement", "displacement", true},
-                                     {"force", "force", true},
-                                     {"traction", "traction", true},
-                                     {"ramp", "velocity, displacement, force, traction", false}};
-static const uses by_where = {"boundary", "where", sizeof where_keys / sizeof *where_keys, where_keys};
-static const uses by_kind = {"boundary", "kind", sizeof kind_keys / sizeof *kind_keys, kind_keys};
+static const conditional_key where_keys[] = {{"side", "side", true},
+                                             {"box", "box", true},
+                                             {"centre", "disc", true},
+                                             {"radius", "disc", true},
+                                             {"nodes", "list", true}};
+static const conditional_key kind_keys[] = {{"components", "fix, velocity, displacement", false},
+                                            {"velocity", "velocity", true},
+                                            {"displacement", "displacement", true},
+                                            {"force", "force", true},
+                                            {"traction", "traction", true},
+                                            {"ramp", "velocity, displacement, force, traction", false}};
+static const conditional_keys by_where = {"boundary", "where", sizeof where_keys / sizeof *where_keys, where_keys};
+static const conditional_keys by_kind = {"boundary", "kind", sizeof kind_keys / sizeof *kind_keys, kind_keys};
 
 /* A group with the body that it is about. */
 typedef struct target {
@@ -71,8 +71,8 @@ void loading_check_all(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "boundary"); k++) {
         const schema_instance *group = schema_get(groups, "boundary", k);
         const double body = schema_real(group, "body");
-        uses_check(group, &by_where, errors);
-        uses_check(group, &by_kind, errors);
+        conditional_keys_check(group, &by_where, errors);
+        conditional_keys_check(group, &by_kind, errors);
         check_kind(group, errors);
         check_box(group, errors);
         if (body > (double)n_bodies && n_bodies > 0)
@@ -83,8 +83,8 @@ void loading_check_all(const schema_deck *groups, namelist_errors *errors)
 
 void loading_drop_unused(schema_deck *groups)
 {
-    uses_drop(groups, &by_where);
-    uses_drop(groups, &by_kind);
+    conditional_keys_drop(groups, &by_where);
+    conditional_keys_drop(groups, &by_kind);
 }
 
 /* ---- choosing nodes ---- */

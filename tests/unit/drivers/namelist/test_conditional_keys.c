@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* uses.c: keys that a choice needs, and keys that it does not use. */
+/* conditional_keys.c: keys that a choice needs, and keys that it does not use. */
 #include "unit/reading.h"
 
-#include "uses.h"
+#include "conditional_keys.h"
 
 #define HEAD "&run t_end = 1 /\n&body shape = 'disc' /\n"
 
-static const uses_key keys[] = {{"size", "rectangle", true}, {"radius", "disc", true}, {"body", "disc", false}};
-static const uses table = {"void", "shape", sizeof keys / sizeof *keys, keys};
+static const conditional_key keys[] = {{"size", "rectangle", true}, {"radius", "disc", true}, {"body", "disc", false}};
+static const conditional_keys table = {"void", "shape", sizeof keys / sizeof *keys, keys};
 
 /* What is said of all voids, besides the faults of resolving. */
 static void expect(const char *text, const char *expected)
@@ -15,7 +15,7 @@ static void expect(const char *text, const char *expected)
     char got[1024];
     resolved r = resolve(text);
     for (size_t k = 0; k < schema_count(&r.deck, "void"); k++)
-        uses_check(schema_get(&r.deck, "void", k), &table, &r.errors);
+        conditional_keys_check(schema_get(&r.deck, "void", k), &table, &r.errors);
     namelist_errors_sort(&r.errors);
     list_faults(&r.errors, got, sizeof got);
     drop_resolved(&r);
@@ -57,7 +57,7 @@ static void defaults_that_are_not_used_are_dropped(void **state)
     (void)state;
     resolved r = resolve_clean(HEAD "&void centre = 0, 0, radius = 1 /\n"
                                     "&void shape = 'rectangle', centre = 0, 0, size = 1, 1 /\n");
-    uses_drop(&r.deck, &table);
+    conditional_keys_drop(&r.deck, &table);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "void", 0), "body")->count, 1);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "void", 0), "radius")->count, 1);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "void", 1), "body")->count, 0);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "uses.h"
+#include "conditional_keys.h"
 
 #include <string.h>
 
-void uses_check(const schema_instance *group, const uses *table, namelist_errors *errors)
+void conditional_keys_check(const schema_instance *group, const conditional_keys *table, namelist_errors *errors)
 {
     const char *wanted = schema_text(group, table->by);
     if (wanted[0] == '\0' || schema_value_of(group, table->by)->faulty) return;
     for (size_t k = 0; k < table->n; k++) {
-        const uses_key *row = &table->keys[k];
+        const conditional_key *row = &table->keys[k];
         const schema_value *value = schema_value_of(group, row->key);
         const bool used = strstr(row->choices, wanted) != NULL;
         if (used && row->needed && !value->given && !value->faulty)
@@ -20,7 +20,7 @@ void uses_check(const schema_instance *group, const uses *table, namelist_errors
     }
 }
 
-void uses_drop(schema_deck *groups, const uses *table)
+void conditional_keys_drop(schema_deck *groups, const conditional_keys *table)
 {
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
