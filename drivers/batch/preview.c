@@ -162,15 +162,15 @@ static void print_body(FILE *out, size_t number, const body_facts *b)
     if (b->true_mass > 0.0)
         (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
                       b->true_mass, b->mass / b->true_mass);
-    if (b->form.n_pores > 0)
-        (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->form.n_pores,
-                      b->form.pore_area / (b->form.area + b->form.pore_area));
-    if (b->form.n_inclusions > 0)
-        (void)fprintf(out, "inclusions body %zu: %zu, of %lld triangles\n", number, b->form.n_inclusions,
+    if (b->geometry.n_pores > 0)
+        (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->geometry.n_pores,
+                      b->geometry.pore_area / (b->geometry.area + b->geometry.pore_area));
+    if (b->geometry.n_inclusions > 0)
+        (void)fprintf(out, "inclusions body %zu: %zu, of %lld triangles\n", number, b->geometry.n_inclusions,
                       (long long)b->n_included);
-    if (b->form.n_cracked > 0)
+    if (b->geometry.n_cracked > 0)
         (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
-                      (long long)b->form.n_cracked);
+                      (long long)b->geometry.n_cracked);
     parts_print(list, &b->loose, b->true_mass > 0.0 ? "triangle" : "node");
     if (b->loose.n > 0)
         (void)fprintf(out, "parts      body %zu: %lld %s, of %s m in its own coordinates\n", number,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies: checks of their groups, then form or file, parts, place, clearance, velocity. */
+/* Bodies: checks of their groups, then geometry or file, parts, place, clearance, velocity. */
 #include "body.h"
 
 #include <float.h>
@@ -107,7 +107,7 @@ static const char *fault_of(double x)
 static dem_status check_scales(const builder *b, const dem_material *m)
 {
     const char *key = has_shape(b->body, "mesh") ? "scale" : "spacing";
-    const double spacing = b->facts.form.spacing, area = 0.43301270189221932 * spacing * spacing;
+    const double spacing = b->facts.geometry.spacing, area = 0.43301270189221932 * spacing * spacing;
     const double mass = m->density * m->thickness * area / 3.0;
     const double stiffness = m->bond_stiffness > 0.0 ? m->bond_stiffness : m->youngs_modulus * m->thickness * spacing;
     const double damping = m->damping_time * stiffness / (mass * spacing);
@@ -177,7 +177,7 @@ static dem_status settle_parts(builder *b)
 /* Of squares; 0 for triangles. Equal springs know of none. */
 static double diagonal_of(const schema_instance *body)
 {
-    if (!form_has_squares(body)) return 0.0;
+    if (!body_geometry_has_squares(body)) return 0.0;
     const double *diagonal = reals_of(body, "diagonal");
     return diagonal != NULL ? diagonal[0] : 0.5;
 }
@@ -186,19 +186,19 @@ static double diagonal_of(const schema_instance *body)
 static dem_status assemble(builder *b)
 {
     const schema_deck *groups = b->scene->groups;
-    const size_t n = b->facts.form.n_inclusions + 1;
+    const size_t n = b->facts.geometry.n_inclusions + 1;
     dem_material *materials = calloc(n, sizeof *materials);
     dem_index *of = calloc((size_t)b->lattice.n_triangles, sizeof *of);
     dem_status status = materials != NULL && of != NULL ? DEM_OK : DEM_ERROR_MEMORY;
     if (status == DEM_OK) {
-        form_materials(materials, groups, b->number - 1);
+        body_geometry_materials(materials, groups, b->number - 1);
         b->facts.plane = materials[0].plane;
-        status = form_mark(of, &b->lattice, groups, b->number - 1, b->errors);
+        status = body_geometry_mark(of, &b->lattice, groups, b->number - 1, b->errors);
     }
     for (size_t k = 0; status == DEM_OK && k < n; k++) status = check_scales(b, &materials[k]);
     if (status == DEM_OK)
         status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
-                        form_has_squares(b->body) ? "diagonal" : "material");
+                        body_geometry_has_squares(b->body) ? "diagonal" : "material");
     for (dem_index t = 0; status == DEM_OK && t < b->lattice.n_triangles; t++) b->facts.n_included += of[t] > 0;
     free(materials);
     free(of);
@@ -208,17 +208,17 @@ static dem_status assemble(builder *b)
 static dem_status make_mesh(builder *b)
 {
     const body_scene *scene = b->scene;
-    dem_status status =
-        form_triangulate(&b->lattice, &b->facts.form, scene->groups, b->number - 1, scene->folder, b->errors);
+    dem_status status = body_geometry_triangulate(&b->lattice, &b->facts.geometry, scene->groups, b->number - 1,
+                                                  scene->folder, b->errors);
     if (status == DEM_OK) status = settle_parts(b);
     if (status == DEM_OK) status = assemble(b);
-    b->facts.true_mass = b->facts.form.mass;
+    b->facts.true_mass = b->facts.geometry.mass;
     return status;
 }
 
 static dem_status read_file(builder *b)
 {
-    char *path = form_file(b->scene->folder, b->body);
+    char *path = body_geometry_file(b->scene->folder, b->body);
     if (path == NULL) return DEM_ERROR_MEMORY;
     const dem_status status = dem_lattice_read(&b->lattice, path);
     if (status == DEM_ERROR_IO && strstr(dem_status_message(), "file signature not found") != NULL)
@@ -349,7 +349,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
 
 void body_drop_unused(schema_deck *groups)
 {
-    form_drop_unused(groups);
+    body_geometry_drop_unused(groups);
     material_drop_unused(groups);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
@@ -359,7 +359,7 @@ void body_drop_unused(schema_deck *groups)
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
-    form_check_all(groups, errors);
+    body_geometry_check_all(groups, errors);
     material_check_all(groups, errors);
     check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {

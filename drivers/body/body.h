@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the keys of &material and &body mean, form apart: from the groups to a lattice in its place. */
+/* What the keys of &material and &body mean, geometry apart: from the groups to a lattice in its place. */
 #ifndef DEM_BODY_H
 #define DEM_BODY_H
 
 #include <dem/dem.h>
 
 #include "clearance.h"
-#include "form.h"
+#include "body_geometry.h"
 #include "parts.h"
 #include "schema.h"
 
@@ -38,7 +38,7 @@ typedef struct body_start {
 typedef struct body_facts {
     double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
     dem_plane plane;        /* of its material; stress where it has none */
-    form form;
+    body_geometry geometry;
     dem_index n_included; /* triangles of its inclusions */
     parts_loose loose;    /* apart from its largest part */
     bool removed;         /* they have been */

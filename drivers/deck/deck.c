@@ -385,7 +385,7 @@ static char *folder_of(const char *path)
 /* Puts a file's whole path in the place of its name. */
 static bool name_file(schema_instance *body, const char *folder, namelist_errors *errors)
 {
-    char here[4096] = "", *path = form_file(folder, body);
+    char here[4096] = "", *path = body_geometry_file(folder, body);
     if (path == NULL) return false;
     if (path[0] != '/' && getcwd(here, sizeof here) == NULL)
         namelist_errors_add(errors, schema_value_of(body, "file")->place, "%s: %s", path, strerror(errno));

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "file.h"
-#include "form.h"
+#include "body_geometry.h"
 #include "mask.h"
 #include "material.h"
 #include "outline.h"
@@ -64,7 +64,7 @@ static bool find_extent(double size[2], const schema_instance *body, const char 
 static double cell_of(const schema_instance *body)
 {
     const double spacing = schema_real(body, "spacing");
-    return (form_has_squares(body) ? 1.0 : 0.5 * sqrt3) * spacing * spacing;
+    return (body_geometry_has_squares(body) ? 1.0 : 0.5 * sqrt3) * spacing * spacing;
 }
 
 /* Of the nodes that its lattice has before it is cut. */
@@ -102,7 +102,8 @@ static double least_stiffness(const schema_instance *body, const dem_material *m
     const double shear = 0.5 * m->youngs_modulus * m->thickness / (1.0 + m->poissons_ratio);
     const double bond = m->bond_stiffness / a;
     if (!isnormal(a) || !isnormal(mass)) return 0.0; /* the body will be refused */
-    if (form_has_squares(body)) return 4.0 * (2.0 * shear * (1.0 + schema_real(body, "diagonal")) + 1.7 * bond) / mass;
+    if (body_geometry_has_squares(body))
+        return 4.0 * (2.0 * shear * (1.0 + schema_real(body, "diagonal")) + 1.7 * bond) / mass;
     return 4.0 * sqrt3 * (4.0 / sqrt3 * shear + bond) / mass;
 }
 
@@ -129,7 +130,7 @@ static void add_body(estimate *e, const deck *d, size_t k, const char *path)
     if (cover > e->cover) e->largest = k;
     e->cover = fmax(e->cover, cover);
     e->nodes += nodes;
-    e->springs += nodes * (form_has_squares(body) ? 4.0 : 3.0);
+    e->springs += nodes * (body_geometry_has_squares(body) ? 4.0 : 3.0);
 }
 
 /* Of a body and its inclusions. */
@@ -219,7 +220,7 @@ bool estimate_deck(estimate *out, const deck *d)
     estimate e = {.step = longest_step(d)};
     const size_t n = schema_count(&d->groups, "body");
     for (size_t k = 0; k < n; k++) {
-        char *path = form_file(d->folder, schema_get(&d->groups, "body", k));
+        char *path = body_geometry_file(d->folder, schema_get(&d->groups, "body", k));
         if (path == NULL) return false;
         add_body(&e, d, k, path);
         free(path);

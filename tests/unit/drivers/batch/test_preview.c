@@ -153,7 +153,7 @@ static void the_preview_tells_how_bodies_came_out(void **state)
     body_facts bodies[2] = {
         {.mass = 2.5,
          .true_mass = 4.0,
-         .form = {.area = 3.0, .pore_area = 1.0, .n_pores = 7, .n_cracked = 12},
+         .geometry = {.area = 3.0, .pore_area = 1.0, .n_pores = 7, .n_cracked = 12},
          .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
          .removed = true,
          .hinges = {.n = 1, .x = {6.0, 7.0}}},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "form.h"
+#include "body_geometry.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,7 @@ static const conditional_keys void_uses = {"void", "shape", COUNT(void_keys), vo
 static const conditional_keys inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
 static const conditional_keys pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
 
-void form_drop_unused(schema_deck *groups)
+void body_geometry_drop_unused(schema_deck *groups)
 {
     conditional_keys_drop(groups, &body_uses);
     conditional_keys_drop(groups, &lattice_uses);
@@ -250,7 +250,7 @@ static void check_holes(const schema_deck *groups, const conditional_keys *table
     }
 }
 
-void form_check_all(const schema_deck *groups, namelist_errors *errors)
+void body_geometry_check_all(const schema_deck *groups, namelist_errors *errors)
 {
     for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
     check_holes(groups, &void_uses, errors);
@@ -269,7 +269,8 @@ void form_check_all(const schema_deck *groups, namelist_errors *errors)
 
 /* ---- building ---- */
 
-/* A form on its way. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status after reporting a fault. */
+/* A geometry in the making. What works on it returns DEM_OK, DEM_ERROR_MEMORY, or another status after reporting a
+ * fault. */
 typedef struct former {
     const schema_deck *groups;
     const schema_instance *body;
@@ -277,7 +278,7 @@ typedef struct former {
     const char *folder;
     namelist_errors *errors;
     dem_lattice lattice;
-    form form;
+    body_geometry geometry;
 } former;
 
 /* The k-th group of a name if it is for this body, else NULL. */
@@ -359,7 +360,7 @@ static dem_status add_pores(former *f, shape *s, const schema_instance *group)
 {
     const double *radius = schema_reals(group, "radius"), *wall = schema_reals(group, "wall");
     pores_recipe recipe = {.number = (size_t)schema_real(group, "number"),
-                           .area = schema_real(group, "porosity") * f->form.area,
+                           .area = schema_real(group, "porosity") * f->geometry.area,
                            .radius_min = radius[0],
                            .radius_max = radius[1],
                            .distribution = schema_is(group, "distribution", "normal")      ? PORES_NORMAL
@@ -372,16 +373,16 @@ static dem_status add_pores(former *f, shape *s, const schema_instance *group)
     pores placed;
     const pores_status drawn = shape_add_pores(s, &placed, &recipe);
     const dem_status status = report_pores(f, group, &recipe, drawn, &placed);
-    f->form.n_pores += placed.n_placed;
+    f->geometry.n_pores += placed.n_placed;
     for (size_t k = 0; k < placed.n_placed; k++)
-        f->form.pore_area += pi * placed.list[k].radius * placed.list[k].radius;
+        f->geometry.pore_area += pi * placed.list[k].radius * placed.list[k].radius;
     free(placed.list);
     return status;
 }
 
 static dem_status read_mask(const former *f, shape *s)
 {
-    char *path = form_file(f->folder, f->body), fault[IMAGE_FAULT];
+    char *path = body_geometry_file(f->folder, f->body), fault[IMAGE_FAULT];
     if (path == NULL) return DEM_ERROR_MEMORY;
     const image_status status =
         mask_read(&s->mask, fault, path, schema_real(f->body, "scale"), schema_real(f->body, "threshold"));
@@ -400,18 +401,18 @@ static dem_status read_mask(const former *f, shape *s)
 static dem_status make_shape(former *f, shape *s)
 {
     dem_status status = read_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
-    s->spacing = f->form.spacing = schema_real(f->body, "spacing");
-    s->squares = form_has_squares(f->body);
+    s->spacing = f->geometry.spacing = schema_real(f->body, "spacing");
+    s->squares = body_geometry_has_squares(f->body);
     if (status == DEM_OK && has_shape(f->body, "mask")) status = read_mask(f, s);
     if (s->outline.kind == OUTLINE_RECTANGLE) s->outline.centre[1] = 0.5 * s->outline.size[1];
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "void"); k++)
         if (own(f, "void", k) != NULL) status = add_void(s, own(f, "void", k));
     if (status != DEM_OK) return status;
-    f->form.area = area_of(s);
-    if (f->form.area < 0.0) return DEM_ERROR_MEMORY;
+    f->geometry.area = area_of(s);
+    if (f->geometry.area < 0.0) return DEM_ERROR_MEMORY;
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "pores"); k++)
         if (own(f, "pores", k) != NULL) status = add_pores(f, s, own(f, "pores", k));
-    f->form.area -= f->form.pore_area;
+    f->geometry.area -= f->geometry.pore_area;
     return status;
 }
 
@@ -459,7 +460,7 @@ static double area_of_triangle(const dem_lattice *lattice, dem_index t)
 
 static dem_status read_mesh(former *f)
 {
-    char *path = form_file(f->folder, f->body), fault[MSH_FAULT];
+    char *path = body_geometry_file(f->folder, f->body), fault[MSH_FAULT];
     if (path == NULL) return DEM_ERROR_MEMORY;
     const dem_status status = msh_read(&f->lattice, fault, path);
     if (status == DEM_ERROR_MODEL)
@@ -471,20 +472,20 @@ static dem_status read_mesh(former *f)
     for (dem_index t = 0; t < f->lattice.n_triangles; t++) {
         const double area = area_of_triangle(&f->lattice, t);
         least = fmin(least, area);
-        f->form.area += area;
+        f->geometry.area += area;
     }
-    f->form.spacing = sqrt(least / 0.43301270189221932); /* sqrt(3)/4 */
+    f->geometry.spacing = sqrt(least / 0.43301270189221932); /* sqrt(3)/4 */
     return DEM_OK;
 }
 
-bool form_has_squares(const schema_instance *body)
+bool body_geometry_has_squares(const schema_instance *body)
 {
     return schema_is(body, "lattice", "square");
 }
 
 /* ---- inclusions ---- */
 
-void form_materials(dem_material *out, const schema_deck *groups, size_t k)
+void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k)
 {
     const former f = {.groups = groups, .number = k + 1};
     size_t n = 1;
@@ -509,8 +510,8 @@ static dem_index include(dem_index *of, const dem_lattice *lattice, const outlin
     return n;
 }
 
-dem_status form_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
-                     namelist_errors *errors)
+dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
+                              namelist_errors *errors)
 {
     const former f = {.groups = groups, .body = schema_get(groups, "body", k), .number = k + 1};
     dem_index material = 0;
@@ -520,7 +521,7 @@ dem_status form_mark(dem_index *of, const dem_lattice *lattice, const schema_dec
         outline o;
         if (group == NULL) continue;
         if (!read_hole(&o, group)) return DEM_ERROR_MEMORY;
-        const dem_index n = include(of, lattice, &o, ++material, form_has_squares(f.body) ? 2 : 1);
+        const dem_index n = include(of, lattice, &o, ++material, body_geometry_has_squares(f.body) ? 2 : 1);
         outline_free(&o);
         if (n > 0) continue;
         namelist_errors_add(errors, schema_place(group, "centre"),
@@ -540,14 +541,14 @@ static double weight_of(const dem_material *m)
 static dem_status weigh_shape(former *f, shape *s, const dem_material *materials)
 {
     const double body = weight_of(&materials[0]);
-    double area = f->form.n_inclusions > 0 ? area_of(s) : 0.0;
-    size_t material = f->form.n_inclusions;
-    f->form.mass = body * f->form.area;
+    double area = f->geometry.n_inclusions > 0 ? area_of(s) : 0.0;
+    size_t material = f->geometry.n_inclusions;
+    f->geometry.mass = body * f->geometry.area;
     for (size_t i = schema_count(f->groups, "inclusion"); area >= 0.0 && i-- > 0;) {
         if (own(f, "inclusion", i) == NULL) continue;
         if (add_void(s, own(f, "inclusion", i)) != DEM_OK) return DEM_ERROR_MEMORY;
         const double without = area_of(s);
-        if (without >= 0.0) f->form.mass += (weight_of(&materials[material--]) - body) * (area - without);
+        if (without >= 0.0) f->geometry.mass += (weight_of(&materials[material--]) - body) * (area - without);
         area = without;
     }
     return area < 0.0 ? DEM_ERROR_MEMORY : DEM_OK;
@@ -557,9 +558,9 @@ static dem_status weigh_mesh(former *f, const dem_material *materials)
 {
     dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
     if (of == NULL) return DEM_ERROR_MEMORY;
-    const dem_status status = form_mark(of, &f->lattice, f->groups, f->number - 1, f->errors);
+    const dem_status status = body_geometry_mark(of, &f->lattice, f->groups, f->number - 1, f->errors);
     for (dem_index t = 0; status == DEM_OK && t < f->lattice.n_triangles; t++)
-        f->form.mass += weight_of(&materials[of[t]]) * area_of_triangle(&f->lattice, t);
+        f->geometry.mass += weight_of(&materials[of[t]]) * area_of_triangle(&f->lattice, t);
     free(of);
     return status;
 }
@@ -568,10 +569,10 @@ static dem_status weigh_mesh(former *f, const dem_material *materials)
 static dem_status weigh(former *f, shape *s)
 {
     for (size_t i = 0; i < schema_count(f->groups, "inclusion"); i++)
-        f->form.n_inclusions += own(f, "inclusion", i) != NULL;
-    dem_material *materials = calloc(f->form.n_inclusions + 1, sizeof *materials);
+        f->geometry.n_inclusions += own(f, "inclusion", i) != NULL;
+    dem_material *materials = calloc(f->geometry.n_inclusions + 1, sizeof *materials);
     if (materials == NULL) return DEM_ERROR_MEMORY;
-    form_materials(materials, f->groups, f->number - 1);
+    body_geometry_materials(materials, f->groups, f->number - 1);
     const dem_status status = has_shape(f->body, "mesh") ? weigh_mesh(f, materials) : weigh_shape(f, s, materials);
     free(materials);
     return status;
@@ -600,7 +601,7 @@ static bool has_cracks(const former *f)
 
 static dem_status crack(former *f)
 {
-    const double shift = aside * f->form.spacing;
+    const double shift = aside * f->geometry.spacing;
     const dem_index n = f->lattice.n_triangles;
     unsigned char *keep = malloc((size_t)n + 1);
     dem_status status = DEM_OK;
@@ -608,14 +609,14 @@ static dem_status crack(former *f)
     memset(keep, 1, (size_t)n + 1);
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "crack"); k++)
         if (own(f, "crack", k) != NULL) status = mark_crack(f, keep, own(f, "crack", k), shift);
-    if (form_has_squares(f->body)) shape_keep_cells(keep, n);
+    if (body_geometry_has_squares(f->body)) shape_keep_cells(keep, n);
     if (status == DEM_OK) {
         status = dem_lattice_trim(&f->lattice, keep);
         if (status == DEM_ERROR_MODEL)
             namelist_errors_add(f->errors, f->body->place, "body %zu: its cracks leave none of %lld triangles",
                                 f->number, (long long)n);
     }
-    f->form.n_cracked = n - f->lattice.n_triangles;
+    f->geometry.n_cracked = n - f->lattice.n_triangles;
     free(keep);
     return status;
 }
@@ -627,14 +628,14 @@ static dem_status jitter(former *f)
     const double share = schema_real(f->body, "jitter");
     if (share == 0.0) return DEM_OK;
     const dem_status status =
-        dem_lattice_jitter(&f->lattice, share * f->form.spacing, (uint64_t)schema_real(f->body, "seed"));
+        dem_lattice_jitter(&f->lattice, share * f->geometry.spacing, (uint64_t)schema_real(f->body, "seed"));
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(f->errors, schema_place(f->body, "jitter"), "body %zu: %s", f->number,
                             dem_status_message());
     return status;
 }
 
-char *form_file(const char *folder, const schema_instance *body)
+char *body_geometry_file(const char *folder, const schema_instance *body)
 {
     const char *file = schema_text(body, "file"), *where = file[0] == '/' ? "" : folder;
     const size_t size = strlen(where) + strlen(file) + 1;
@@ -643,8 +644,8 @@ char *form_file(const char *folder, const schema_instance *body)
     return path;
 }
 
-dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *groups, size_t k, const char *folder,
-                            namelist_errors *errors)
+dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
+                                     const char *folder, namelist_errors *errors)
 {
     former f = {
         .groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .folder = folder, .errors = errors};
@@ -663,6 +664,6 @@ dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *
     if (status != DEM_OK) dem_lattice_free(&f.lattice);
     shape_free(&s);
     *lattice = f.lattice;
-    *out = f.form;
+    *out = f.geometry;
     return status;
 }

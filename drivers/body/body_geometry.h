@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the keys of &body, &void, &pores, &crack and &inclusion say of a body's form: from the groups to a
+/* What the keys of &body, &void, &pores, &crack and &inclusion say of a body's geometry: from the groups to a
  * triangulation, and to the materials of its triangles. */
-#ifndef DEM_FORM_H
-#define DEM_FORM_H
+#ifndef DEM_BODY_GEOMETRY_H
+#define DEM_BODY_GEOMETRY_H
 
 #include <dem/dem.h>
 
 #include "schema.h"
 
 /* What came out beside the triangulation. */
-typedef struct form {
+typedef struct body_geometry {
     double spacing;   /* m, of its lattice; of a mesh the side of an equilateral triangle as large as its smallest */
     double area;      /* m^2, true one of the shape, which the lattice's comes near to; cracks have none */
     double pore_area; /* m^2, of its random pores */
@@ -17,32 +17,32 @@ typedef struct form {
     size_t n_pores;   /* random ones */
     size_t n_inclusions;
     dem_index n_cracked; /* triangles that cracks took */
-} form;
+} body_geometry;
 
 /* Keys that a shape lacks or does not use, numbers that do not go together, groups for bodies that there are not. */
-void form_check_all(const schema_deck *groups, namelist_errors *errors);
+void body_geometry_check_all(const schema_deck *groups, namelist_errors *errors);
 
 /* Takes the defaults of keys away that a choice does not use: they mean nothing, and stated they are faults. */
-void form_drop_unused(schema_deck *groups);
+void body_geometry_drop_unused(schema_deck *groups);
 
 /* Triangulates body k, from 0, of any shape but 'file'. Caller owns *lattice, which is empty unless DEM_OK is returned;
- * a fault is appended to `errors` with any other status but DEM_ERROR_MEMORY. `folder`: see form_file(). */
-dem_status form_triangulate(dem_lattice *lattice, form *out, const schema_deck *groups, size_t k, const char *folder,
-                            namelist_errors *errors);
+ * a fault is appended to `errors` with any other status but DEM_ERROR_MEMORY. `folder`: see body_geometry_file(). */
+dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
+                                     const char *folder, namelist_errors *errors);
 
 /* Whether a body's lattice is of squares: its triangles 2 k and 2 k + 1 are then a cell. */
-bool form_has_squares(const schema_instance *body);
+bool body_geometry_has_squares(const schema_instance *body);
 
 /* Materials of body k and of its inclusions, [1 + n_inclusions]. */
-void form_materials(dem_material *out, const schema_deck *groups, size_t k);
+void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k);
 
 /* Which of these each triangle of its lattice has: that of the last inclusion that its centre is in; whole cells of
  * squares. An inclusion without a triangle is a fault.  \param[out] of  [n_triangles] */
-dem_status form_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
-                     namelist_errors *errors);
+dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
+                              namelist_errors *errors);
 
 /* Path of the file that a body is made from, malloc'ed; NULL when memory runs out. `folder` is that of the deck, with
  * its last '/', or "". */
-char *form_file(const char *folder, const schema_instance *body);
+char *body_geometry_file(const char *folder, const schema_instance *body);
 
 #endif

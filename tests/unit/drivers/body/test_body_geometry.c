@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* form.c: from groups to a triangulation and its true area. What is wrong is looked at for its place and the words that
- * name it; whole sentences are test_refused's. */
+/* body_geometry.c: from groups to a triangulation and its true area. What is wrong is looked at for its place and the
+ * words that name it; whole sentences are test_refused's. */
 #include "unit/reading.h"
 
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "form.h"
+#include "body_geometry.h"
 
 #define RUN    "&run t_end = 1 /\n"
 #define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
@@ -20,7 +20,7 @@ static const double pi = 3.14159265358979323846;
 
 typedef struct formed {
     dem_lattice lattice;
-    form form;
+    body_geometry geometry;
 } formed;
 
 /* Body k of a text after the groups of RUN and RUBBER. */
@@ -29,10 +29,10 @@ static dem_status build(formed *out, const char *text, size_t k, namelist_errors
     char all[4096];
     (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
     resolved r = resolve_clean(all);
-    form_check_all(&r.deck, errors);
+    body_geometry_check_all(&r.deck, errors);
     if (errors->n > 0) fail_msg("'%s' gives '%s'", text, errors->list[0].text);
-    form_drop_unused(&r.deck);
-    const dem_status status = form_triangulate(&out->lattice, &out->form, &r.deck, k, "", errors);
+    body_geometry_drop_unused(&r.deck);
+    const dem_status status = body_geometry_triangulate(&out->lattice, &out->geometry, &r.deck, k, "", errors);
     assert_int_equal(errors->n > 0, status != DEM_OK);
     drop_resolved(&r);
     return status;
@@ -83,8 +83,8 @@ static double area_of_all(const dem_lattice *lattice)
 static void expect_area(const char *text, double area, double off)
 {
     formed f = build_good(text);
-    assert_close(f.form.area / area, 1.0, 1e-5);
-    assert_close(f.form.spacing, 0.1, 0.0);
+    assert_close(f.geometry.area / area, 1.0, 1e-5);
+    assert_close(f.geometry.spacing, 0.1, 0.0);
     assert_close(area_of_all(&f.lattice) / area, 1.0, off); /* edges are jagged by up to a spacing */
     dem_lattice_free(&f.lattice);
 }
@@ -123,9 +123,9 @@ static void a_porosity_is_met_to_half_a_pore(void **state)
     formed f =
         build_good(BODY "'disc', radius = 10 /\n&void centre = 0, 0, radius = 2 /\n&pores porosity = 0.2, radius = "
                         "0.4, 0.9, wall = 0.2, distribution = 'lognormal', mean = 0.5, deviation = 0.2 /");
-    assert_close(f.form.pore_area, 0.2 * 96.0 * pi, 0.5 * pi * 0.81);
-    assert_close(f.form.area + f.form.pore_area, 96.0 * pi, 1e-4 * 96.0 * pi);
-    assert_true(f.form.n_pores > 40);
+    assert_close(f.geometry.pore_area, 0.2 * 96.0 * pi, 0.5 * pi * 0.81);
+    assert_close(f.geometry.area + f.geometry.pore_area, 96.0 * pi, 1e-4 * 96.0 * pi);
+    assert_true(f.geometry.n_pores > 40);
     dem_lattice_free(&f.lattice);
 }
 
@@ -134,9 +134,9 @@ static void groups_of_pores_add_up(void **state)
     (void)state;
     formed f = build_good(BLOCK "&pores number = 2, radius = 0.2, 0.2, wall = 0.1 /\n"
                                 "&pores number = 3, radius = 0.1, 0.1, wall = 0.1, seed = 2 /");
-    assert_int_equal(f.form.n_pores, 5);
-    assert_close(f.form.pore_area, 0.11 * pi, 1e-15);
-    assert_close(f.form.area, 8.0 - 0.11 * pi, 1e-12);
+    assert_int_equal(f.geometry.n_pores, 5);
+    assert_close(f.geometry.pore_area, 0.11 * pi, 1e-15);
+    assert_close(f.geometry.area, 8.0 - 0.11 * pi, 1e-12);
     dem_lattice_free(&f.lattice);
 }
 
@@ -167,13 +167,13 @@ static void a_mask_stands_on_its_lower_edge(void **state)
 {
     (void)state;
     formed f = build_good(with_file(MASK, "P2 4 2 1  0 0 1 1  1 1 1 1", " /"));
-    assert_close(f.form.area, 6.0 * 0.25, 0.0);
+    assert_close(f.geometry.area, 6.0 * 0.25, 0.0);
     assert_close(distance_to(&f.lattice, -1.0, 0.0), 0.0, 1e-12);
     assert_true(distance_to(&f.lattice, -0.5, 0.8) > 0.25);
     assert_true(distance_to(&f.lattice, 0.5, 0.8) < 0.09);
     dem_lattice_free(&f.lattice);
     f = build_good(with_file(MASK, "P2 4 2 9  1 2 3 4  5 6 7 8", ", threshold = 0.5\n/"));
-    assert_close(f.form.area, 4.0 * 0.25, 0.0);
+    assert_close(f.geometry.area, 4.0 * 0.25, 0.0);
     dem_lattice_free(&f.lattice);
     expect_fault(with_file(MASK, "P2 2 2 9\n1 2 3 10", "\n/"), 0, 1, ":2: a pixel must be in [0, 9], got 10");
     expect_fault(with_file(MASK, "P2 1 1 9\n1", "\n/"), 0, 1, "leave none of");
@@ -190,16 +190,16 @@ static void a_mesh_is_scaled_and_may_have_cracks(void **state)
 {
     (void)state;
     formed f = build_good(with_file(MESH, SQUARE, " /"));
-    assert_close(f.form.area, 1.0, 1e-15);
-    assert_close(f.form.spacing * f.form.spacing * 0.25 * sqrt(3.0), 0.5, 1e-15);
-    assert_int_equal(f.form.n_cracked, 0);
+    assert_close(f.geometry.area, 1.0, 1e-15);
+    assert_close(f.geometry.spacing * f.geometry.spacing * 0.25 * sqrt(3.0), 0.5, 1e-15);
+    assert_int_equal(f.geometry.n_cracked, 0);
     assert_close(distance_to(&f.lattice, 1.0, 1.0), 0.0, 0.0);
     dem_lattice_free(&f.lattice);
     f = build_good(with_file(MESH, SQUARE, " /\n&crack points = 0.8, 0.1, 0.9, 0.2 /"));
-    assert_int_equal(f.form.n_cracked, 1);
+    assert_int_equal(f.geometry.n_cracked, 1);
     assert_int_equal(f.lattice.n_triangles, 1);
     assert_int_equal(f.lattice.n_nodes, 3);
-    assert_close(f.form.area, 1.0, 1e-15); /* cracks have none */
+    assert_close(f.geometry.area, 1.0, 1e-15); /* cracks have none */
     dem_lattice_free(&f.lattice);
     expect_fault(with_file(MESH, "$MeshFormat\n4.2", "\n/"), 0, 1, ":2: MSH version 4.1");
     expect_fault(with_file(MESH, SQUARE, " /\n&crack points = 0.1, 0.8, 0.8, 0.1 /"), 0, 1, "cracks leave none of 2");
@@ -212,8 +212,8 @@ static void cracks_are_for_their_body_and_must_meet_it(void **state)
     assert_int_equal(whole.lattice.n_triangles, f.lattice.n_triangles);
     dem_lattice_free(&f.lattice);
     f = build_good(BLOCK "&crack points = -1,1, 0,1 /\n&crack points = -0.5,0.5, -0.5,1.5 /");
-    assert_int_equal(f.form.n_cracked, whole.lattice.n_triangles - f.lattice.n_triangles);
-    assert_true(f.form.n_cracked > 30);
+    assert_int_equal(f.geometry.n_cracked, whole.lattice.n_triangles - f.lattice.n_triangles);
+    assert_true(f.geometry.n_cracked > 30);
     dem_lattice_free(&f.lattice);
     dem_lattice_free(&whole.lattice);
     expect_fault(BLOCK DISC "&crack body = 2, points = 3,1, 4,1 /", 1, 3, "crosses no triangle of body 2");
@@ -236,7 +236,7 @@ static void cracks_take_whole_cells(void **state)
 {
     (void)state;
     formed f = build_good(SQUARES " /\n&crack points = -0.27,1.02, -0.23,1.04 /"); /* a corner of one triangle */
-    assert_int_equal(f.form.n_cracked, 2);
+    assert_int_equal(f.geometry.n_cracked, 2);
     dem_lattice_free(&f.lattice);
 }
 
@@ -277,9 +277,9 @@ static dem_index *mark(formed *f, const char *text, size_t n)
     *f = build_good(text);
     dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
     assert_non_null(of);
-    assert_int_equal(form_mark(of, &f->lattice, &r.deck, 0, &errors), DEM_OK);
-    assert_int_equal(f->form.n_inclusions, n);
-    form_materials(materials, &r.deck, 0);
+    assert_int_equal(body_geometry_mark(of, &f->lattice, &r.deck, 0, &errors), DEM_OK);
+    assert_int_equal(f->geometry.n_inclusions, n);
+    body_geometry_materials(materials, &r.deck, 0);
     assert_close(materials[0].density, 1000.0, 0.0);
     for (size_t k = 1; k <= n; k++) assert_true(materials[k].density == 1000.0 || materials[k].density == 3000.0);
     drop_resolved(&r);
@@ -327,18 +327,18 @@ static void the_true_mass_is_that_of_all_materials(void **state)
 {
     (void)state;
     formed f = build_good(BLOCK);
-    assert_close(f.form.mass, 8000.0, 1e-9);
+    assert_close(f.geometry.mass, 8000.0, 1e-9);
     dem_lattice_free(&f.lattice);
     f = build_good(HEAVY BLOCK "&inclusion material = 'heavy', centre = 0, 1, radius = 0.8 /\n"
                                "&inclusion material = 'rubber', centre = 0, 1, radius = 0.4 /\n"
                                "&inclusion material = 'heavy', shape = 'rectangle', centre = 2, 1, size = 1, 1 /\n"
                                "&void shape = 'rectangle', centre = -0.5, 1.5, size = 1, 1 /");
-    assert_close(f.form.mass, 7000.0 + 500.0 * (0.48 * pi * 0.75 + 0.5), 1e-2);
+    assert_close(f.geometry.mass, 7000.0 + 500.0 * (0.48 * pi * 0.75 + 0.5), 1e-2);
     dem_lattice_free(&f.lattice);
     f = build_good(
         with_file(HEAVY MESH, SQUARE,
                   " /\n&inclusion material = 'heavy', shape = 'rectangle', centre = 1, 0, size = 0.8, 0.8 /"));
-    assert_close(f.form.mass, 0.5 * 1000.0 + 0.5 * 1500.0, 1e-9);
+    assert_close(f.geometry.mass, 0.5 * 1000.0 + 0.5 * 1500.0, 1e-9);
     dem_lattice_free(&f.lattice);
 }
 
@@ -350,7 +350,7 @@ static void an_inclusion_without_a_triangle_is_told(void **state)
     resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
     dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
     assert_non_null(of);
-    assert_int_equal(form_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
+    assert_int_equal(body_geometry_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
     assert_int_equal(errors.n, 1);
     assert_non_null(strstr(errors.list[0].text, "inclusion has no triangle of body 1"));
     namelist_errors_free(&errors);
@@ -367,7 +367,7 @@ static void assert_checked(const char *text, int line, const char *word)
     namelist_errors errors = {0};
     (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
     resolved r = resolve_clean(all);
-    form_check_all(&r.deck, &errors);
+    body_geometry_check_all(&r.deck, &errors);
     if (word == NULL) {
         if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
     } else {
@@ -448,9 +448,9 @@ static void relative_files_start_at_the_decks_folder(void **state)
 {
     (void)state;
     resolved r = resolve_clean(RUN "&body shape = 'file', file = 'a/b.h5' /\n&body shape = 'file', file = '/c.h5' /");
-    char *relative = form_file("decks/", schema_get(&r.deck, "body", 0));
-    char *absolute = form_file("decks/", schema_get(&r.deck, "body", 1));
-    char *plain = form_file("", schema_get(&r.deck, "body", 0));
+    char *relative = body_geometry_file("decks/", schema_get(&r.deck, "body", 0));
+    char *absolute = body_geometry_file("decks/", schema_get(&r.deck, "body", 1));
+    char *plain = body_geometry_file("", schema_get(&r.deck, "body", 0));
     assert_string_equal(relative, "decks/a/b.h5");
     assert_string_equal(absolute, "/c.h5");
     assert_string_equal(plain, "a/b.h5");
