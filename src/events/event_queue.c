@@ -16,14 +16,13 @@
 static dem_status allocate(event_queue *q, const dem_model *model)
 {
     const size_t n = (size_t)q->automaton->set.n + 1;
-    q->due = malloc(n * sizeof *q->due);
-    q->waiting = malloc(n * sizeof *q->waiting);
-    q->waits = calloc(n, sizeof *q->waits);
+    q->crossing = malloc(n * sizeof *q->crossing);
     q->kept = calloc(n, sizeof *q->kept);
     q->saved = malloc(n * sizeof *q->saved);
     q->before = malloc(n * sizeof *q->before);
-    CHECK(q->due && q->waiting && q->waits && q->kept && q->saved && q->before, DEM_ERROR_MEMORY,
-          "out of memory for %lld contact sites", (long long)q->automaton->set.n);
+    CHECK(q->crossing && q->kept && q->saved && q->before, DEM_ERROR_MEMORY, "out of memory for %lld contact sites",
+          (long long)q->automaton->set.n);
+    TRY(event_heap_create(&q->heap, q->automaton->set.n));
     TRY(changed_motion_create(&q->changed, scene_layout(&q->automaton->set.scene)->n_rows));
     return ledger_create(&q->ledger, model->obstacles.n);
 }
@@ -45,9 +44,8 @@ void event_queue_destroy(event_queue *q)
     local_correction_destroy(&q->correction);
     changed_motion_destroy(&q->changed);
     ledger_destroy(&q->ledger);
-    free(q->due);
-    free(q->waiting);
-    free(q->waits);
+    event_heap_destroy(&q->heap);
+    free(q->crossing);
     free(q->kept);
     free(q->saved);
     free(q->before);
@@ -56,29 +54,6 @@ void event_queue_destroy(event_queue *q)
 }
 
 /* ---- who is next ---- */
-
-static void wait_until(event_queue *q, dem_index k, double due)
-{
-    q->due[k] = due;
-    if (q->waits[k] || !isfinite(due)) return;
-    q->waits[k] = true;
-    q->waiting[q->n_waiting++] = k;
-}
-
-/* The site that is due first, of those due at the same time that of the lowest number; -1: none. */
-static dem_index next_of(event_queue *q)
-{
-    dem_index next = -1, n = 0;
-    for (dem_index w = 0; w < q->n_waiting; w++) {
-        const dem_index k = q->waiting[w];
-        q->waits[k] = isfinite(q->due[k]);
-        if (!q->waits[k]) continue;
-        q->waiting[n++] = k;
-        if (next < 0 || q->due[k] < q->due[next] || (q->due[k] == q->due[next] && k < next)) next = k;
-    }
-    q->n_waiting = n;
-    return next;
-}
 
 enum { least_share = 32 }; /* free sites for which a thread is worth its while */
 
@@ -94,7 +69,7 @@ static void look_at_free(event_queue *q, int n_shares, int share)
     const dem_index n = automaton_n_active(c), end = threads_share(n, n_shares, share + 1);
     for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
         const dem_index k = automaton_active_candidate(c, a);
-        if (is_free(q, k)) q->due[k] = automaton_crossing(c, q->step, k, q->step->t0);
+        if (is_free(q, k)) q->crossing[k] = automaton_crossing(c, q->step, k, q->step->t0);
     }
 }
 
@@ -102,8 +77,7 @@ static void look_ahead(event_queue *q)
 {
     automaton *c = q->automaton;
     const dense_output *step = q->step;
-    for (dem_index w = 0; w < q->n_waiting; w++) q->waits[q->waiting[w]] = false;
-    q->n_waiting = 0;
+    event_heap_clear(&q->heap);
     q->now = step->t0;
     q->error = q->ahead = 0.0;
     q->settled = false;
@@ -115,8 +89,8 @@ static void look_ahead(event_queue *q)
     for (dem_index a = 0; a < automaton_n_active(c); a++) {
         const dem_index k = automaton_active_candidate(c, a);
         const bool known =
-            is_free(q, k) && q->due[k] > step->t0 && *behind == were_behind; /* else others may know more */
-        wait_until(q, k, known ? q->due[k] : automaton_next_change(c, step, k, step->t0, q->state));
+            is_free(q, k) && q->crossing[k] > step->t0 && *behind == were_behind; /* else others may know more */
+        event_heap_set(&q->heap, k, known ? q->crossing[k] : automaton_next_change(c, step, k, step->t0, q->state));
     }
 }
 
@@ -206,7 +180,7 @@ static dem_status hear(void *context, const dem_event *event)
 
 static void look_again(event_queue *q, dem_index k)
 {
-    wait_until(q, k, automaton_next_change(q->automaton, q->step, k, q->now, q->state));
+    event_heap_set(&q->heap, k, automaton_next_change(q->automaton, q->step, k, q->now, q->state));
 }
 
 /* How far sites may go: some are faster now. */
@@ -248,8 +222,8 @@ static dem_status take(event_queue *q, dem_index k)
     automaton *c = q->automaton;
     double error;
     if (q->n_stops == 0) copy_books(&c->set.ledger, &q->ledger, c->set.scene.model->obstacles.n);
-    q->n_stops += q->n_stops == 0 || q->due[k] > q->now;
-    q->now = q->due[k];
+    q->n_stops += q->n_stops == 0 || q->heap.due[k] > q->now;
+    q->now = q->heap.due[k];
     TRY(local_correction_open(&q->correction, q->step, k, q->now, q->state));
     each_site(q, keep_site);
     calm(q);
@@ -369,7 +343,8 @@ dem_status event_queue_show(event_queue *q, double t)
         event_queue_undo(q);
         look_ahead(q);
     }
-    for (dem_index k = next_of(q); k >= 0 && q->due[k] <= t && q->error <= q->most; k = next_of(q)) TRY(take(q, k));
+    for (dem_index k; (k = event_heap_first(&q->heap)) >= 0 && q->heap.due[k] <= t && q->error <= q->most;)
+        TRY(take(q, k));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
     q->quiet = q->n_stops == 0;

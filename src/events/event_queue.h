@@ -6,6 +6,7 @@
 #define DEM_EVENTS_EVENT_QUEUE_H
 
 #include "contact/automaton.h"
+#include "events/event_heap.h"
 #include "events/local_correction.h"
 
 typedef struct event_queue {
@@ -20,10 +21,9 @@ typedef struct event_queue {
     double error;             /* of all patches, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of it; beyond it the step is to be rejected, and nothing more is done */
-    double *due;              /* [n sites] s, when something happens at a site; infinity: nothing */
-    dem_index *waiting;       /* [n sites] sites that may be due */
-    dem_index n_waiting;
-    bool *waits, *kept; /* [n sites] whether a site is one of them; whether it is among `sites` */
+    event_heap heap;          /* sites, and when something happens at them */
+    double *crossing;         /* [n sites] s, when a free site touches, for look_ahead() */
+    bool *kept;               /* [n sites] whether a site is among `saved` */
     dem_index n_saved;
     dem_index *saved;          /* [n_saved] those that may have changed */
     contact_candidate *before; /* [n_saved] as they were before the step */

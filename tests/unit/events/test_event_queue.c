@@ -174,15 +174,14 @@ static void events_at_the_same_time_come_in_the_order_of_sites(void **state)
 {
     const double heights[6] = {0.03, 0.02, 0.03, 0.02, 0.03, 0.02};
     const dem_index order[6] = {1, 3, 5, 0, 2, 4};
+    double due[6];
     rig r;
     (void)state;
     open_masses(&r, 6, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
-    for (dem_index w = 0; w < r.q.n_waiting / 2; w++) {
-        const dem_index other = r.q.n_waiting - 1 - w, k = r.q.waiting[w];
-        r.q.waiting[w] = r.q.waiting[other];
-        r.q.waiting[other] = k;
-    }
+    for (dem_index k = 0; k < 6; k++) due[k] = r.q.heap.due[k];
+    event_heap_clear(&r.q.heap);
+    for (dem_index k = 5; k >= 0; k--) event_heap_set(&r.q.heap, k, due[k]);
     show(&r, 0.1);
     assert_int_equal(r.q.n_events, 6);
     for (int k = 0; k < 6; k++) {
@@ -419,7 +418,7 @@ static void the_neighbours_events_are_looked_for_anew(void **state)
     (void)state;
     open_pair(&r, &lattice, NULL);
     swing(&r, &lattice, h);
-    const double alone = r.q.due[1];
+    const double alone = r.q.heap.due[1];
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
     triplets_start(&lattice, y);

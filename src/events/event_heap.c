@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The binary heap with the place of each key. */
+#include "events/event_heap.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+
+dem_status event_heap_create(event_heap *out, dem_index n_keys)
+{
+    const size_t n = (size_t)n_keys + 1;
+    event_heap h = {
+        .keys = malloc(n * sizeof *h.keys), .place = malloc(n * sizeof *h.place), .due = malloc(n * sizeof *h.due)};
+    if (h.keys == NULL || h.place == NULL || h.due == NULL) {
+        event_heap_destroy(&h);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for the events of %lld keys", (long long)n_keys);
+    }
+    for (dem_index k = 0; k < n_keys; k++) h.place[k] = -1;
+    *out = h;
+    return DEM_OK;
+}
+
+void event_heap_destroy(event_heap *h)
+{
+    free(h->keys);
+    free(h->place);
+    free(h->due);
+    *h = (event_heap){0};
+}
+
+void event_heap_clear(event_heap *h)
+{
+    for (dem_index p = 0; p < h->n; p++) h->place[h->keys[p]] = -1;
+    h->n = 0;
+}
+
+static bool is_before(const event_heap *h, dem_index a, dem_index b)
+{
+    return h->due[a] < h->due[b] || (h->due[a] == h->due[b] && a < b);
+}
+
+static void put(event_heap *h, dem_index p, dem_index key)
+{
+    h->keys[p] = key;
+    h->place[key] = p;
+}
+
+/* Moves a key from place p towards the root, as far as it is due before what is there. */
+static void rise(event_heap *h, dem_index p, dem_index key)
+{
+    for (; p > 0 && is_before(h, key, h->keys[(p - 1) / 2]); p = (p - 1) / 2) put(h, p, h->keys[(p - 1) / 2]);
+    put(h, p, key);
+}
+
+/* Moves a key from place p away from the root, as far as what is there is due before it. */
+static void sink(event_heap *h, dem_index p, dem_index key)
+{
+    for (dem_index next = 2 * p + 1; next < h->n; next = 2 * p + 1) {
+        if (next + 1 < h->n && is_before(h, h->keys[next + 1], h->keys[next])) next++;
+        if (!is_before(h, h->keys[next], key)) break;
+        put(h, p, h->keys[next]);
+        p = next;
+    }
+    put(h, p, key);
+}
+
+/* The last key takes the place of one that goes. */
+static void take_out(event_heap *h, dem_index p)
+{
+    const dem_index last = h->keys[--h->n];
+    h->place[h->keys[p]] = -1;
+    if (p == h->n) return;
+    rise(h, p, last);
+    sink(h, h->place[last], last);
+}
+
+void event_heap_set(event_heap *h, dem_index key, double due)
+{
+    const dem_index p = h->place[key];
+    if (!isfinite(due)) {
+        if (p >= 0) take_out(h, p);
+        return;
+    }
+    h->due[key] = due;
+    rise(h, p >= 0 ? p : h->n++, key);
+    sink(h, h->place[key], key);
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Keys 0 .. n_keys - 1 and the times at which they are due: which is due first, of those due at the same time the
+ * lowest. A binary heap, in which a key's time can be changed. */
+#ifndef DEM_EVENTS_EVENT_HEAP_H
+#define DEM_EVENTS_EVENT_HEAP_H
+
+#include <dem/dem.h>
+
+typedef struct event_heap {
+    dem_index n;
+    dem_index *keys;  /* [n] none is due before its parent, which is at (place - 1)/2 */
+    dem_index *place; /* [n_keys] in `keys`, or -1 */
+    double *due;      /* [n_keys] s, of those in `keys` */
+} event_heap;
+
+/** Empty. Free with event_heap_destroy().  \return DEM_ERROR_MEMORY */
+dem_status event_heap_create(event_heap *out, dem_index n_keys);
+void event_heap_destroy(event_heap *h);
+
+void event_heap_clear(event_heap *h);
+
+/** From now on the key is due then; infinity: never. */
+void event_heap_set(event_heap *h, dem_index key, double due);
+
+/** The key that is due first, or -1. */
+static inline dem_index event_heap_first(const event_heap *h)
+{
+    return h->n > 0 ? h->keys[0] : -1;
+}
+
+#endif

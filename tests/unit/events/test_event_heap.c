@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* event_heap.c: which key is due first, against a search through all. */
+#include "verification/support.h"
+
+#include <gsl/gsl_rng.h>
+
+#include "events/event_heap.h"
+
+static void what_is_due_first_comes_first_and_of_equals_the_lowest(void **state)
+{
+    event_heap h;
+    (void)state;
+    assert_ok(event_heap_create(&h, 4));
+    assert_int_equal(event_heap_first(&h), -1);
+    event_heap_set(&h, 3, 1.0);
+    event_heap_set(&h, 2, 2.0);
+    assert_int_equal(event_heap_first(&h), 3);
+    event_heap_set(&h, 1, 1.0);
+    assert_int_equal(event_heap_first(&h), 1);
+    event_heap_set(&h, 1, 3.0);
+    assert_int_equal(event_heap_first(&h), 3);
+    event_heap_set(&h, 2, 0.5);
+    assert_int_equal(event_heap_first(&h), 2);
+    event_heap_destroy(&h);
+}
+
+static void what_is_never_due_is_not_there(void **state)
+{
+    event_heap h;
+    (void)state;
+    assert_ok(event_heap_create(&h, 2));
+    event_heap_set(&h, 0, (double)INFINITY);
+    assert_int_equal(event_heap_first(&h), -1);
+    event_heap_set(&h, 0, 1.0);
+    event_heap_set(&h, 1, 2.0);
+    event_heap_set(&h, 0, (double)INFINITY);
+    assert_int_equal(event_heap_first(&h), 1);
+    event_heap_set(&h, 1, (double)NAN);
+    assert_int_equal(event_heap_first(&h), -1);
+    event_heap_destroy(&h);
+}
+
+static void a_cleared_heap_is_empty_and_can_be_filled_again(void **state)
+{
+    event_heap h;
+    (void)state;
+    assert_ok(event_heap_create(&h, 3));
+    for (dem_index k = 0; k < 3; k++) event_heap_set(&h, k, 1.0);
+    event_heap_clear(&h);
+    assert_int_equal(event_heap_first(&h), -1);
+    event_heap_set(&h, 2, 5.0);
+    assert_int_equal(event_heap_first(&h), 2);
+    assert_int_equal(h.n, 1);
+    event_heap_destroy(&h);
+}
+
+enum { n_keys = 40 };
+
+static dem_index first_of(const double *due)
+{
+    dem_index first = -1;
+    for (dem_index k = 0; k < n_keys; k++)
+        if (isfinite(due[k]) && (first < 0 || due[k] < due[first])) first = k;
+    return first;
+}
+
+/* Times are whole numbers up to 20, so that many are equal. */
+static void any_changes_leave_the_first_that_a_search_finds(void **state)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    double due[n_keys];
+    event_heap h;
+    (void)state;
+    assert_ok(event_heap_create(&h, n_keys));
+    for (dem_index k = 0; k < n_keys; k++) due[k] = (double)INFINITY;
+    for (int turn = 0; turn < 100000; turn++) {
+        const dem_index k = (dem_index)gsl_rng_uniform_int(rng, n_keys);
+        due[k] = gsl_rng_uniform(rng) < 0.3 ? (double)INFINITY : (double)gsl_rng_uniform_int(rng, 20);
+        event_heap_set(&h, k, due[k]);
+        assert_int_equal(event_heap_first(&h), first_of(due));
+    }
+    event_heap_destroy(&h);
+    gsl_rng_free(rng);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_due_first_comes_first_and_of_equals_the_lowest),
+        cmocka_unit_test(what_is_never_due_is_not_there),
+        cmocka_unit_test(a_cleared_heap_is_empty_and_can_be_filled_again),
+        cmocka_unit_test(any_changes_leave_the_first_that_a_search_finds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
