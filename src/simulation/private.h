@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The moving state: what a simulation has, and where things stand in it. The loop is simulation.c's, what is seen of it
- * query.c's, what a record has of it checkpoint.c's. */
+/* The moving state: what a simulation has, and where things stand in it. The loop is simulation.c's, what is
+ * integrated right_hand_side.c's, what is seen of it query.c's, what a record has of it checkpoint.c's. */
 #ifndef DEM_SIMULATION_PRIVATE_H
 #define DEM_SIMULATION_PRIVATE_H
 

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* y = (x, v) with x' = v and m v' = F(x, v, t), less what closed contacts hold; then what is integrated along. */
+#include "simulation/right_hand_side.h"
+
+#include "base/status.h"
+#include "forces/diagnostics.h"
+
+static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
+{
+    const double *v = y + state_velocities(&s->layout);
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
+        if (!isfinite(v[2 * i]) || !isfinite(v[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
+            return status_fail(DEM_ERROR_INTEGRATOR,
+                               "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i,
+                               y[2 * i], y[2 * i + 1], t);
+    return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
+}
+
+/* Rates of the quadratures, behind the accelerations of the nodes. */
+static void fill_rates(dem_simulation *s, const double *y, double *a, double work)
+{
+    const state_layout *l = &s->layout;
+    const double *v = y + state_velocities(l);
+    for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
+    automaton_add_rates(&s->automaton, y, a);
+    if (s->damped)
+        a[state_total_index(l, STATE_DAMPING)] =
+            diagnostics_damping_power(s->model, &s->automaton.set.scene.rule.load, y, v);
+    a[state_total_index(l, STATE_WORK)] = work;
+    a[state_total_index(l, STATE_TIME)] = 1.0;
+}
+
+/* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
+ *                                                                                                        (3), (4) */
+static int derivative(double t, const double *y, double *u, double *a, void *context)
+{
+    dem_simulation *s = context;
+    const dem_index n = state_velocities(&s->layout), n_real = state_row(&s->layout, s->layout.n_nodes);
+    const double *v = y + n;
+    const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
+    const double sum = kernel_accelerate(&s->kernel, &s->automaton.set.scene.rule.load, &nodes);
+    for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
+    automaton_constrain(&s->automaton, y, a);
+    const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
+    fill_rates(s, y, a, s->external != NULL ? work + external_force_power(s->external, v) : work);
+    if (external_force_failed(s->external)) return 2;
+    if (isfinite(sum)) return 0;
+    (void)name_culprit(s, t, y, a);
+    return 1;
+}
+
+/* Where nothing but springs, triangles and weight acts. */
+static int take_fused_step(const ode_fused_step *step, void *context)
+{
+    dem_simulation *s = context;
+    const forces *load = &s->automaton.set.scene.rule.load;
+    const dem_index n = state_velocities(&s->layout);
+    const sweep_fused_step nodes = {
+        .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
+    const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
+    if (!kernel_can_fuse(&s->kernel, load) || s->automaton.set.forces.n_groups > 0) return -1;
+    const double sum = kernel_accelerate(&s->kernel, load, &y);
+    automaton_constrain(&s->automaton, y.x, y.a);
+    fill_rates(s, y.x, y.a, 0.0);
+    if (isfinite(sum)) return 0;
+    (void)name_culprit(s, step->t1, y.x, y.a);
+    return 1;
+}
+
+static void root_functions(double t, const double *y, double *g, void *context)
+{
+    dem_simulation *s = context;
+    automaton_root_functions(&s->automaton, t, y, g);
+}
+
+static double stiffening(const double *y, void *context)
+{
+    dem_simulation *s = context;
+    return kernel_stiffening(&s->kernel, y);
+}
+
+ode_problem right_hand_side_problem(dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const dem_options *o = &s->options;
+    return (ode_problem){
+        .n_nodes = s->layout.n_rows,
+        .n_quadratures = s->layout.n_rows - s->layout.n_nodes,
+        .n_roots = model->obstacles.n > 0 && !run_is_local(s) ? CANDIDATE_ROOTS * s->automaton.set.n : 0,
+        .prescribes = boundary_conditions_move(&s->boundaries),
+        .derivative = derivative,
+        .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
+        .root_functions = root_functions,
+        .stiffening = stiffening,
+        .context = s,
+        .method = o->method,
+        .position_error = o->rtol * o->spacing,
+        .velocity_error = o->rtol * o->v_scale,
+        .max_step = o->max_step,
+        .fixed_step = o->fixed_step,
+        .ops = s->kernel.ops,
+        .n_threads = s->kernel.n_threads,
+    };
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the integrator asks of a simulation: derivatives, root functions, and how stiff it has become. */
+#ifndef DEM_SIMULATION_RIGHT_HAND_SIDE_H
+#define DEM_SIMULATION_RIGHT_HAND_SIDE_H
+
+#include "simulation/private.h"
+
+/** The problem of a simulation whose kernel and contacts are set up. Borrows the simulation. */
+ode_problem right_hand_side_problem(dem_simulation *s);
+
+#endif

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How a simulation comes to be, from a model or from a record, and its end. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/record.h"
+#include "base/status.h"
+#include "simulation/checkpoint.h"
+#include "simulation/options.h"
+#include "simulation/query.h"
+#include "simulation/right_hand_side.h"
+
+static dem_status allocate(dem_simulation *s)
+{
+    const size_t n = (size_t)state_size(&s->layout);
+    s->y = s->initial = aligned_zeros(n);
+    s->frame = malloc(n * sizeof *s->frame);
+    s->contacts = calloc(2 * (size_t)(s->model->n_contact_nodes + s->model->surface.n_edges) + 1, sizeof *s->contacts);
+    s->measures = calloc(1, sizeof *s->measures);
+    CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+          (long long)s->model->lattice.n_nodes);
+    return DEM_OK;
+}
+
+static contact_rule rule_of(const dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const dem_options *o = &s->options;
+    return (contact_rule){.penetration_tolerance = o->penetration_tolerance,
+                          .position_error = o->rtol * o->spacing,
+                          .rest_speed = o->rest_speed,
+                          .window = o->window,
+                          .max_step = o->max_step,
+                          .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
+                          .max_impacts = o->max_impacts,
+                          .vertices = o->vertices != 0,
+                          .layout = s->layout,
+                          .n_threads = o->threads,
+                          .load = run_load(s)};
+}
+
+static dem_status set_up(dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const dem_options *o = &s->options;
+    const size_t block = (size_t)state_row(&s->layout, model->lattice.n_nodes) * sizeof *s->y;
+    TRY(boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
+                                    model->obstacles.n));
+    s->options.boundaries = NULL;
+    TRY(external_force_create(&s->external, o, model->lattice.n_nodes));
+    TRY(options_fill(&s->options, model, &s->boundaries));
+    TRY(allocate(s));
+    memcpy(s->y, model->lattice.position, block);
+    memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
+    boundary_conditions_begin(&s->boundaries, s->y + state_velocities(&s->layout));
+    TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
+    s->options.kernel = s->kernel.kind;
+    const contact_rule rule = rule_of(s);
+    s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
+    TRY(automaton_create(&s->automaton, model, &rule));
+    TRY(automaton_check_start(&s->automaton, s->y));
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
+    const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
+    if (run_is_local(s)) TRY(event_queue_create(&s->queue, &s->automaton, &near, !(o->fixed_step > 0.0)));
+    const ode_problem problem = right_hand_side_problem(s);
+    TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
+    s->y = integrator_state(&s->integrator);
+    free(s->initial);
+    s->initial = NULL;
+    TRY(dem_record_create(&s->record));
+    TRY(overlap_create(&s->overlap, &model->lattice));
+    overlap_look(&s->overlap, &model->lattice, s->t, s->y);
+    query_at(s, 0.0, s->y);
+    return DEM_OK;
+}
+
+static dem_status resume(dem_simulation *s, const dem_record *record)
+{
+    TRY(checkpoint_restore(s, record));
+    if (external_force_failed(s->external)) return external_force_failure(s->external);
+    s->started = s->has_record = true;
+    query_at(s, s->t, s->y);
+    return record_copy(s->record, record);
+}
+
+static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options,
+                         const dem_record *record)
+{
+    CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
+          out == NULL ? "out" : (model == NULL ? "model" : "options"));
+    TRY(options_check(options));
+    dem_simulation *s = calloc(1, sizeof *s);
+    CHECK_MEMORY(s);
+    s->model = model;
+    s->options = *options;
+    s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n);
+    dem_status status = set_up(s);
+    if (status == DEM_OK && record != NULL) status = resume(s, record);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        dem_simulation_destroy(s);
+    return status;
+}
+
+dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
+{
+    return create(out, model, options, NULL);
+}
+
+dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
+                                 const dem_record *record)
+{
+    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: record is NULL");
+    return create(out, model, options, record);
+}
+
+void dem_simulation_destroy(dem_simulation *s)
+{
+    if (s == NULL) return;
+    integrator_destroy(&s->integrator);
+    kernel_destroy(&s->kernel);
+    event_queue_destroy(&s->queue);
+    automaton_destroy(&s->automaton);
+    boundary_conditions_free(&s->boundaries);
+    external_force_destroy(s->external);
+    overlap_destroy(&s->overlap);
+    free(s->initial);
+    free(s->frame);
+    free(s->contacts);
+    free(s->measures);
+    dem_record_destroy(s->record);
+    dem_record_destroy(s->rollback);
+    free(s);
+}
+
+dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observer)
+{
+    CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
+          s == NULL ? "simulation" : "observer");
+    CHECK(!s->advanced, DEM_ERROR_ARGUMENT, "observers come before the first advance");
+    return observers_add(&s->observers, observer, integrator_counts(&s->integrator).steps > 0 ? s->t : -1.0);
+}
