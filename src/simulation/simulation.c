@@ -90,9 +90,9 @@ static dem_status roll_back(dem_simulation *s)
 
 /* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
  * too long. */
-static double shortening(const event_queue *q, dem_status status)
+static double shortening(const dem_simulation *s, dem_status status)
 {
-    const double error = event_queue_error(q);
+    const double error = run_is_local(s) ? event_queue_error(&s->queue) : 0.0;
     if (status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR) return least_factor;
     return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
 }
@@ -107,36 +107,32 @@ static dem_status give_up(dem_simulation *s, dem_status status)
     return status_first(status, integrator_restart(&s->integrator, s->t, s->y));
 }
 
-/* A step with all contact events inside it, which may reject it. */
-static dem_status take_local_step(dem_simulation *s)
+/* Finds the contact events in the step just taken. Local ones are corrected inside it; else it ends at the first. */
+static dem_status find_events(dem_simulation *s, bool rooted)
 {
-    bool rooted;
     double *y1, *f1;
+    if (!run_is_local(s)) {
+        s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
+        return DEM_OK;
+    }
+    integrator_end(&s->integrator, &y1, &f1);
+    event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
+    return event_queue_show(&s->queue, s->path.t1);
+}
+
+/* A step with its contact events, which may reject it. */
+static dem_status take_step(dem_simulation *s)
+{
     for (int attempt = 1;; attempt++) {
+        bool rooted;
         TRY(integrator_step(&s->integrator, &s->path, &rooted));
-        integrator_end(&s->integrator, &y1, &f1);
-        event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
-        const dem_status status = stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1));
-        const double factor = shortening(&s->queue, status);
-        if (status == DEM_OK && factor == 1.0) return DEM_OK;
+        const dem_status status = stop_if_force_failed(s, find_events(s, rooted));
+        const double factor = shortening(s, status);
+        if (status == DEM_OK && factor == 1.0) break;
         event_queue_undo(&s->queue);
         if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return give_up(s, status);
         TRY(integrator_redo(&s->integrator, factor));
     }
-}
-
-/* A step to the first contact event in it. */
-static dem_status take_step_to_event(dem_simulation *s)
-{
-    bool rooted;
-    TRY(integrator_step(&s->integrator, &s->path, &rooted));
-    s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
-    return stop_if_force_failed(s, DEM_OK);
-}
-
-static dem_status take_step(dem_simulation *s)
-{
-    TRY(run_is_local(s) ? take_local_step(s) : take_step_to_event(s));
     s->n_inside = s->queue.n_events;
     s->told = 0;
     s->in_hand = true;
@@ -174,34 +170,32 @@ static bool settle_step(dem_simulation *s)
     return moved;
 }
 
-static dem_status commit_step_to_event(dem_simulation *s)
+/* The end of the step is an event: the contacts change, and the velocities jump. */
+static dem_status resolve_event(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};
-    if (s->at_event) TRY(take_rollback(s));
-    const bool moved = settle_step(s);
-    if (!s->at_event && moved) TRY(integrator_restart(&s->integrator, s->t, s->y));
-    if (!s->at_event) return tell_step(s);
     s->events++;
     return go_on(s, automaton_resolve(&s->automaton, s->t, s->y, &listener)); /* (8), (9) */
 }
 
-static dem_status commit_local_step(dem_simulation *s)
+/* The integrator goes on from the end of the step as events and vertex contacts put back (`moved`) have left it. */
+static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
-    TRY(tell_events(s, s->path.t1));
-    TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
-    const bool moved = settle_step(s), corrected = s->queue.n_stops > 0;
-    s->events += s->queue.n_stops;
-    TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
-    if (moved)
-        TRY(integrator_restart(&s->integrator, s->t, s->y));
-    else if (corrected)
-        TRY(integrator_resume(&s->integrator));
-    return tell_step(s);
+    if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
+    if (moved) return integrator_restart(&s->integrator, s->t, s->y);
+    return s->queue.n_stops > 0 ? integrator_resume(&s->integrator) : DEM_OK;
 }
 
 static dem_status commit_step(dem_simulation *s)
 {
-    return run_is_local(s) ? commit_local_step(s) : commit_step_to_event(s);
+    TRY(tell_events(s, s->path.t1));
+    if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
+    if (s->at_event) TRY(take_rollback(s));
+    const bool moved = settle_step(s);
+    if (s->at_event) return resolve_event(s);
+    s->events += s->queue.n_stops;
+    TRY(go_on_changed(s, moved));
+    return tell_step(s);
 }
 
 /* Contacts of the initial state come before the first step, when the observers are there to be told. */
