@@ -19,7 +19,7 @@ enum {
 
 static const double no_weight = 1e-100;
 
-struct arkode_integrator {
+typedef struct arkode_integrator {
     ode_problem problem;
     butcher_table table;
     SUNContext sundials;
@@ -43,7 +43,7 @@ struct arkode_integrator {
     bool refused;            /* the last derivative cannot be had, whatever the step */
     dem_counts counts;
     char message[256]; /* ARKODE's last complaint */
-};
+} arkode_integrator;
 
 /* ---- callbacks ---- */
 
@@ -253,9 +253,25 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     return set_root_functions(I);
 }
 
-/* ---- public ---- */
+/* ---- the functions of the table ---- */
 
-dem_status arkode_integrator_create(arkode_integrator **out, const ode_problem *problem, double t, const double *y)
+static void arkode_integrator_destroy(void *self)
+{
+    arkode_integrator *I = self;
+    if (I == NULL) return;
+    if (I->arkode != NULL) ARKodeFree(&I->arkode);
+    arkode_free_controller(I->controller);
+    N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
+    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
+        if (vectors[k] != NULL) N_VDestroy(vectors[k]);
+    nvector_space_free(I->space);
+    if (I->sundials != NULL) SUNContext_Free(&I->sundials);
+    free(I->inside);
+    free(I->root_functions);
+    free(I);
+}
+
+static dem_status arkode_integrator_create(void **out, const ode_problem *problem, double t, const double *y)
 {
     arkode_integrator *I = calloc(1, sizeof *I);
     CHECK_MEMORY(I);
@@ -269,19 +285,23 @@ dem_status arkode_integrator_create(arkode_integrator **out, const ode_problem *
     return status;
 }
 
-void arkode_integrator_destroy(arkode_integrator *I)
+/* ARKODE begins anew from the state, of which the derivative may be known. */
+static dem_status reset(arkode_integrator *I)
 {
-    if (I == NULL) return;
-    if (I->arkode != NULL) ARKodeFree(&I->arkode);
-    arkode_free_controller(I->controller);
-    N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
-    for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
-        if (vectors[k] != NULL) N_VDestroy(vectors[k]);
-    nvector_space_free(I->space);
-    if (I->sundials != NULL) SUNContext_Free(&I->sundials);
-    free(I->inside);
-    free(I->root_functions);
-    free(I);
+    nvector_share(I->y0, I->y);
+    I->at_end = I->holds_step = false;
+    I->gives_f0 = I->knows_f0;
+    I->root_functions_t = NAN;
+    CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
+          "ARKODE does not restart at t = %.9g s: %s", I->t, I->message);
+    return DEM_OK;
+}
+
+static dem_status arkode_integrator_restart(void *self, double t, const double *y)
+{
+    arkode_integrator *I = self;
+    start_from(I, t, y);
+    return reset(I);
 }
 
 /* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. */
@@ -323,34 +343,25 @@ static void go_on(arkode_integrator *I)
     I->at_end = I->gives_f0 = false;
 }
 
-/* ARKODE begins anew from the state, of which the derivative may be known. */
-static dem_status reset(arkode_integrator *I)
+static void arkode_integrator_end(void *self, double **y1, double **f1)
 {
-    nvector_share(I->y0, I->y);
-    I->at_end = I->holds_step = false;
-    I->gives_f0 = I->knows_f0;
-    I->root_functions_t = NAN;
-    CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
-          "ARKODE does not restart at t = %.9g s: %s", I->t, I->message);
-    return DEM_OK;
-}
-
-void arkode_integrator_end(arkode_integrator *I, double **y1, double **f1)
-{
+    arkode_integrator *I = self;
     *y1 = nvector_shared(I->y1);
     *f1 = nvector_shared(I->f1);
 }
 
-dem_status arkode_integrator_redo(arkode_integrator *I, double factor)
+static dem_status arkode_integrator_redo(void *self, double factor)
 {
+    arkode_integrator *I = self;
     I->counts.steps--;
     I->counts.rejected++;
     CHECK(ask_step(I, factor * (I->t1 - I->t)) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return reset(I);
 }
 
-void arkode_integrator_settle(arkode_integrator *I, const dense_output *step)
+static void arkode_integrator_settle(void *self, const dense_output *step)
 {
+    arkode_integrator *I = self;
     if (step->end == step->t1) {
         go_on(I);
         return;
@@ -361,13 +372,15 @@ void arkode_integrator_settle(arkode_integrator *I, const dense_output *step)
     I->at_end = I->knows_f0 = false;
 }
 
-double *arkode_integrator_state(const arkode_integrator *I)
+static double *arkode_integrator_state(const void *self)
 {
+    const arkode_integrator *I = self;
     return nvector_shared(I->y0);
 }
 
-dem_status arkode_integrator_step(arkode_integrator *I, dense_output *step, bool *rooted)
+static dem_status arkode_integrator_step(void *self, dense_output *step, bool *rooted)
 {
+    arkode_integrator *I = self;
     go_on(I);
     double reached, h = 0.0;
     int flag = ARK_RHSFUNC_FAIL;
@@ -392,22 +405,18 @@ dem_status arkode_integrator_step(arkode_integrator *I, dense_output *step, bool
     return DEM_OK;
 }
 
-dem_status arkode_integrator_restart(arkode_integrator *I, double t, const double *y)
+static double arkode_integrator_next_step(const void *self)
 {
-    start_from(I, t, y);
-    return reset(I);
-}
-
-double arkode_integrator_next_step(const arkode_integrator *I)
-{
+    const arkode_integrator *I = self;
     double next = 0.0;
     if (I->problem.fixed_step > 0.0) return 0.0;
     if (I->asked > 0.0) return I->asked;
     return ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS ? next : 0.0;
 }
 
-dem_status arkode_integrator_renew(arkode_integrator *I, const integrator_start *from)
+static dem_status arkode_integrator_renew(void *self, const integrator_start *from)
 {
+    arkode_integrator *I = self;
     start_from(I, from->t, from->y);
     I->root_functions_t = NAN;
     I->counts = (dem_counts){.steps = from->counts.steps,
@@ -420,26 +429,43 @@ dem_status arkode_integrator_renew(arkode_integrator *I, const integrator_start 
     return DEM_OK;
 }
 
-dem_status arkode_integrator_bound(arkode_integrator *I, double longest)
+static dem_status arkode_integrator_bound(void *self, double longest)
 {
+    arkode_integrator *I = self;
     double next;
     if (isfinite(longest) && ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS && next > longest)
         CHECK(ask_step(I, longest) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     return DEM_OK;
 }
 
-dem_status arkode_integrator_resume(arkode_integrator *I)
+static dem_status arkode_integrator_resume(void *self)
 {
+    arkode_integrator *I = self;
     return reset(I);
 }
 
-dem_counts arkode_integrator_counts(const arkode_integrator *I)
+static dem_counts arkode_integrator_counts(const void *self)
 {
+    const arkode_integrator *I = self;
     dem_counts counts = I->counts;
     long rejected = 0;
     if (ARKodeGetNumErrTestFails(I->arkode, &rejected) == ARK_SUCCESS) counts.rejected += rejected;
     return counts;
 }
+
+const integrator_ops arkode_integrator_ops = {.create = arkode_integrator_create,
+                                              .destroy = arkode_integrator_destroy,
+                                              .step = arkode_integrator_step,
+                                              .end = arkode_integrator_end,
+                                              .redo = arkode_integrator_redo,
+                                              .settle = arkode_integrator_settle,
+                                              .state = arkode_integrator_state,
+                                              .bound = arkode_integrator_bound,
+                                              .resume = arkode_integrator_resume,
+                                              .restart = arkode_integrator_restart,
+                                              .next_step = arkode_integrator_next_step,
+                                              .renew = arkode_integrator_renew,
+                                              .counts = arkode_integrator_counts};
 
 const char *dem_version_sundials(void)
 {

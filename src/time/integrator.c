@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passes each call on to ARKODE or to velocity Verlet, by the method of the problem. */
+/* Calls through the table of the method's integrator. */
 #include "time/integrator.h"
 
 #include "time/arkode_integrator.h"
@@ -7,80 +7,67 @@
 
 dem_status integrator_create(integrator *out, const ode_problem *problem, double t, const double *y)
 {
-    *out = (integrator){0};
-    if (problem->method == DEM_METHOD_VERLET) return verlet_integrator_create(&out->verlet, problem, t, y);
-    return arkode_integrator_create(&out->integrator, problem, t, y);
+    *out = (integrator){.ops = problem->method == DEM_METHOD_VERLET ? &verlet_integrator_ops : &arkode_integrator_ops};
+    return out->ops->create(&out->self, problem, t, y);
 }
 
 void integrator_destroy(integrator *e)
 {
-    arkode_integrator_destroy(e->integrator);
-    verlet_integrator_destroy(e->verlet);
+    if (e->ops != NULL) e->ops->destroy(e->self);
     *e = (integrator){0};
 }
 
 dem_status integrator_step(integrator *e, dense_output *step, bool *rooted)
 {
-    return e->verlet != NULL ? verlet_integrator_step(e->verlet, step, rooted)
-                             : arkode_integrator_step(e->integrator, step, rooted);
+    return e->ops->step(e->self, step, rooted);
 }
 
 void integrator_end(integrator *e, double **y1, double **f1)
 {
-    if (e->verlet != NULL)
-        verlet_integrator_end(e->verlet, y1, f1);
-    else
-        arkode_integrator_end(e->integrator, y1, f1);
+    e->ops->end(e->self, y1, f1);
 }
 
 dem_status integrator_redo(integrator *e, double factor)
 {
-    return arkode_integrator_redo(e->integrator, factor); /* the other has no error control */
+    return e->ops->redo(e->self, factor);
 }
 
 void integrator_settle(integrator *e, const dense_output *step)
 {
-    if (e->verlet != NULL)
-        verlet_integrator_settle(e->verlet, step);
-    else
-        arkode_integrator_settle(e->integrator, step);
+    e->ops->settle(e->self, step);
 }
 
 double *integrator_state(const integrator *e)
 {
-    return e->verlet != NULL ? verlet_integrator_state(e->verlet) : arkode_integrator_state(e->integrator);
+    return e->ops->state(e->self);
 }
 
 dem_status integrator_bound(integrator *e, double longest)
 {
-    return e->verlet != NULL ? DEM_OK : arkode_integrator_bound(e->integrator, longest);
+    return e->ops->bound(e->self, longest);
 }
 
 dem_status integrator_resume(integrator *e)
 {
-    return e->verlet != NULL ? DEM_OK : arkode_integrator_resume(e->integrator);
+    return e->ops->resume(e->self);
 }
 
 dem_status integrator_restart(integrator *e, double t, const double *y)
 {
-    if (e->verlet == NULL) return arkode_integrator_restart(e->integrator, t, y);
-    verlet_integrator_restart(e->verlet, t, y);
-    return DEM_OK;
+    return e->ops->restart(e->self, t, y);
 }
 
 double integrator_next_step(const integrator *e)
 {
-    return e->verlet != NULL ? 0.0 : arkode_integrator_next_step(e->integrator);
+    return e->ops->next_step(e->self);
 }
 
 dem_status integrator_renew(integrator *e, const integrator_start *from)
 {
-    if (e->verlet == NULL) return arkode_integrator_renew(e->integrator, from);
-    verlet_integrator_renew(e->verlet, from);
-    return DEM_OK;
+    return e->ops->renew(e->self, from);
 }
 
 dem_counts integrator_counts(const integrator *e)
 {
-    return e->verlet != NULL ? verlet_integrator_counts(e->verlet) : arkode_integrator_counts(e->integrator);
+    return e->ops->counts(e->self);
 }

@@ -3,13 +3,11 @@
 #ifndef DEM_TIME_INTEGRATOR_H
 #define DEM_TIME_INTEGRATOR_H
 
-#include <stdbool.h>
-
-#include "time/ode_problem.h"
+#include "time/integrator_ops.h"
 
 typedef struct integrator {
-    struct arkode_integrator *integrator; /* one of both */
-    struct verlet_integrator *verlet;
+    const integrator_ops *ops; /* of the method */
+    void *self;                /* what they work on */
 } integrator;
 
 /** Starts at (t, y). Free with integrator_destroy. */
@@ -23,7 +21,7 @@ dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 /** The end of the step just taken, [4 n], and its derivative, for who changes both before settling. */
 void integrator_end(integrator *e, double **y1, double **f1);
 
-/** Takes the step just taken back: the next goes from its start, and is shorter by the factor. */
+/** Takes the step just taken back: the next goes from its start, and is shorter by the factor. Not for fixed steps. */
 dem_status integrator_redo(integrator *e, double factor);
 
 /** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's

@@ -11,7 +11,7 @@
 #include "base/status.h"
 #include "base/threads.h"
 
-struct verlet_integrator {
+typedef struct verlet_integrator {
     ode_problem problem;
     double *arrays;                    /* [5][4 n] those that follow */
     double *y0, *f0, *y1, *f1, *state; /* ends of the step with derivatives; a state inside */
@@ -21,7 +21,7 @@ struct verlet_integrator {
     bool has_f0, has_low;              /* f0 is that of y0, low the root functions there */
     bool at_end;                       /* the dense output was handed out: y1 is the start of the next step */
     dem_counts counts;
-};
+} verlet_integrator;
 
 static dem_status allocate(verlet_integrator *V)
 {
@@ -41,41 +41,44 @@ static dem_status allocate(verlet_integrator *V)
     return DEM_OK;
 }
 
-dem_status verlet_integrator_create(verlet_integrator **out, const ode_problem *problem, double t, const double *y)
+static void verlet_integrator_destroy(void *self)
 {
-    CHECK(problem->fixed_step > 0.0, DEM_ERROR_ARGUMENT, "Verlet's method needs a fixed step");
-    verlet_integrator *V = calloc(1, sizeof *V);
-    CHECK_MEMORY(V);
-    V->problem = *problem;
-    const dem_status status = allocate(V);
-    if (status != DEM_OK) {
-        verlet_integrator_destroy(V);
-        return status;
-    }
-    verlet_integrator_restart(V, t, y);
-    *out = V;
-    return DEM_OK;
-}
-
-void verlet_integrator_destroy(verlet_integrator *V)
-{
+    verlet_integrator *V = self;
     if (V == NULL) return;
     free(V->arrays);
     free(V->values);
     free(V);
 }
 
-void verlet_integrator_restart(verlet_integrator *V, double t, const double *y)
+static dem_status verlet_integrator_restart(void *self, double t, const double *y)
 {
+    verlet_integrator *V = self;
     if (y != V->y0) memcpy(V->y0, y, 4 * (size_t)V->problem.n_nodes * sizeof *y);
     V->t = t;
     V->has_f0 = V->has_low = V->at_end = false;
+    return DEM_OK;
 }
 
-void verlet_integrator_renew(verlet_integrator *V, const integrator_start *from)
+static dem_status verlet_integrator_create(void **out, const ode_problem *problem, double t, const double *y)
 {
-    verlet_integrator_restart(V, from->t, from->y);
+    CHECK(problem->fixed_step > 0.0, DEM_ERROR_ARGUMENT, "Verlet's method needs a fixed step");
+    verlet_integrator *V = calloc(1, sizeof *V);
+    CHECK_MEMORY(V);
+    V->problem = *problem;
+    dem_status status = allocate(V);
+    if (status == DEM_OK) status = verlet_integrator_restart(V, t, y);
+    if (status == DEM_OK)
+        *out = V;
+    else
+        verlet_integrator_destroy(V);
+    return status;
+}
+
+static dem_status verlet_integrator_renew(void *self, const integrator_start *from)
+{
+    verlet_integrator *V = self;
     V->counts = (dem_counts){.steps = from->counts.steps, .evaluations = from->counts.evaluations};
+    return verlet_integrator_restart(V, from->t, from->y);
 }
 
 static void swap(double **a, double **b)
@@ -96,14 +99,16 @@ static void go_on(verlet_integrator *V)
     V->at_end = false;
 }
 
-void verlet_integrator_end(verlet_integrator *V, double **y1, double **f1)
+static void verlet_integrator_end(void *self, double **y1, double **f1)
 {
+    verlet_integrator *V = self;
     *y1 = V->y1;
     *f1 = V->f1;
 }
 
-void verlet_integrator_settle(verlet_integrator *V, const dense_output *step)
+static void verlet_integrator_settle(void *self, const dense_output *step)
 {
+    verlet_integrator *V = self;
     if (step->end < step->t1) {
         dense_output_state(step, step->end, V->state);
         swap(&V->y1, &V->state);
@@ -114,8 +119,9 @@ void verlet_integrator_settle(verlet_integrator *V, const dense_output *step)
     V->has_low = V->has_low && V->has_f0;
 }
 
-double *verlet_integrator_state(const verlet_integrator *V)
+static double *verlet_integrator_state(const void *self)
 {
+    const verlet_integrator *V = self;
     return V->y0;
 }
 
@@ -247,8 +253,9 @@ static dem_status find_root(verlet_integrator *V, dense_output *step)
 
 /* ---- the step ---- */
 
-dem_status verlet_integrator_step(verlet_integrator *V, dense_output *step, bool *rooted)
+static dem_status verlet_integrator_step(void *self, dense_output *step, bool *rooted)
 {
+    verlet_integrator *V = self;
     go_on(V);
     if (!V->has_f0 && evaluate(V, V->t, V->y0, V->f0) != 0) return DEM_ERROR_INTEGRATOR; /* message: derivative's */
     V->has_f0 = true;
@@ -272,7 +279,42 @@ dem_status verlet_integrator_step(verlet_integrator *V, dense_output *step, bool
     return DEM_OK;
 }
 
-dem_counts verlet_integrator_counts(const verlet_integrator *V)
+static dem_counts verlet_integrator_counts(const void *self)
 {
+    const verlet_integrator *V = self;
     return V->counts;
 }
+
+/* Fixed steps have no bound. */
+static dem_status verlet_integrator_bound(void *self, double longest)
+{
+    (void)self;
+    (void)longest;
+    return DEM_OK;
+}
+
+/* The end of a step is gone on from as it is, its derivative with it. */
+static dem_status verlet_integrator_resume(void *self)
+{
+    (void)self;
+    return DEM_OK;
+}
+
+static double verlet_integrator_next_step(const void *self)
+{
+    (void)self;
+    return 0.0;
+}
+
+const integrator_ops verlet_integrator_ops = {.create = verlet_integrator_create,
+                                              .destroy = verlet_integrator_destroy,
+                                              .step = verlet_integrator_step,
+                                              .end = verlet_integrator_end,
+                                              .settle = verlet_integrator_settle,
+                                              .state = verlet_integrator_state,
+                                              .bound = verlet_integrator_bound,
+                                              .resume = verlet_integrator_resume,
+                                              .restart = verlet_integrator_restart,
+                                              .next_step = verlet_integrator_next_step,
+                                              .renew = verlet_integrator_renew,
+                                              .counts = verlet_integrator_counts};

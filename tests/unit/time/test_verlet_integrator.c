@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "time/verlet_integrator.h"
+#include "time/integrator.h"
 
 static const double g = 9.81;
 
@@ -53,7 +53,7 @@ static double stiffening(const double *y, void *context)
     return y[0] < w->stiff_below ? 3.0 : 1.0;
 }
 
-static verlet_integrator *make(world *w, double h, dem_index n_roots, const double *y)
+static integrator make(world *w, double h, dem_index n_roots, const double *y)
 {
     const ode_problem problem = {.n_nodes = 1,
                                  .ops = &array_ops_portable,
@@ -67,17 +67,17 @@ static verlet_integrator *make(world *w, double h, dem_index n_roots, const doub
                                  .method = DEM_METHOD_VERLET,
                                  .max_step = h,
                                  .fixed_step = h};
-    verlet_integrator *V;
-    assert_ok(verlet_integrator_create(&V, &problem, 0.0, y));
+    integrator V;
+    assert_ok(integrator_create(&V, &problem, 0.0, y));
     return V;
 }
 
-static dense_output take(verlet_integrator *V, int n)
+static dense_output take(integrator *V, int n)
 {
     dense_output p = {0};
     for (int k = 0; k < n; k++) {
         bool rooted;
-        assert_ok(verlet_integrator_step(V, &p, &rooted));
+        assert_ok(integrator_step(V, &p, &rooted));
         assert_false(rooted);
     }
     return p;
@@ -86,14 +86,14 @@ static dense_output take(verlet_integrator *V, int n)
 /* State after n steps of h. */
 static void run(world w, double h, int n, const double *y0, double *y)
 {
-    verlet_integrator *V = make(&w, h, 0, y0);
-    const dense_output p = take(V, n);
+    integrator V = make(&w, h, 0, y0);
+    const dense_output p = take(&V, n);
     memcpy(y, p.y1, 4 * sizeof *y);
     assert_int_equal(w.calls, n + 1);
     assert_int_equal(w.n_guarded, 0);
-    assert_int_equal(verlet_integrator_counts(V).evaluations, n + 1);
-    assert_int_equal(verlet_integrator_counts(V).steps, n);
-    verlet_integrator_destroy(V);
+    assert_int_equal(integrator_counts(&V).evaluations, n + 1);
+    assert_int_equal(integrator_counts(&V).steps, n);
+    integrator_destroy(&V);
 }
 
 /* ---- the step ---- */
@@ -147,10 +147,11 @@ static void a_step_in_one_pass_is_that_in_parts(void **state)
     for (int k = 0; k < 2; k++) {
         world worlds[2] = {plain, plain};
         dense_output p[2];
-        verlet_integrator *V[2];
+        integrator V[2];
         if (k == 1) worlds[0].fails_after = worlds[1].fails_after = 7.5 * h;
         for (int fused = 0; fused < 2; fused++) {
-            const ode_problem problem = {.n_nodes = 2,
+            const ode_problem problem = {.method = DEM_METHOD_VERLET,
+                                         .n_nodes = 2,
                                          .n_quadratures = 1,
                                          .ops = &array_ops_portable,
                                          .n_threads = 1,
@@ -158,19 +159,19 @@ static void a_step_in_one_pass_is_that_in_parts(void **state)
                                          .fused_step = fused ? fused_from_above : NULL,
                                          .context = &worlds[fused],
                                          .fixed_step = h};
-            assert_ok(verlet_integrator_create(&V[fused], &problem, 0.0, start));
+            assert_ok(integrator_create(&V[fused], &problem, 0.0, start));
             bool rooted;
             for (int step = 0; step < (k == 0 ? 40 : 7); step++)
-                assert_ok(verlet_integrator_step(V[fused], &p[fused], &rooted));
-            if (k == 1) assert_int_equal(verlet_integrator_step(V[fused], &p[fused], &rooted), DEM_ERROR_INTEGRATOR);
+                assert_ok(integrator_step(&V[fused], &p[fused], &rooted));
+            if (k == 1) assert_int_equal(integrator_step(&V[fused], &p[fused], &rooted), DEM_ERROR_INTEGRATOR);
         }
         if (k == 0) assert_memory_equal(p[0].y1, p[1].y1, sizeof start);
         if (k == 0) assert_true(p[0].y1[1] < 0.0); /* both ways have been gone */
         assert_int_equal(worlds[0].calls, worlds[1].calls);
-        const dem_counts a = verlet_integrator_counts(V[0]), b = verlet_integrator_counts(V[1]);
+        const dem_counts a = integrator_counts(&V[0]), b = integrator_counts(&V[1]);
         assert_memory_equal(&a, &b, sizeof a);
-        verlet_integrator_destroy(V[0]);
-        verlet_integrator_destroy(V[1]);
+        integrator_destroy(&V[0]);
+        integrator_destroy(&V[1]);
     }
 }
 
@@ -236,16 +237,16 @@ static void stiffening_halves_the_step(void **state)
     (void)state;
     w.stiff_below = 0.5;
     w.omega = 3.0;
-    verlet_integrator *V = make(&w, 0.1, 0, y0);
+    integrator V = make(&w, 0.1, 0, y0);
     int n_short = 0, n_long = 0;
     for (int k = 0; k < 100; k++) {
         bool rooted;
-        assert_ok(verlet_integrator_step(V, &p, &rooted));
+        assert_ok(integrator_step(&V, &p, &rooted));
         assert_close(p.t1 - p.t0, p.y0[0] < 0.5 ? 0.025 : 0.1, 1e-14);
         *(p.y0[0] < 0.5 ? &n_short : &n_long) += 1;
     }
     assert_true(n_short > 10 && n_long > 10);
-    verlet_integrator_destroy(V);
+    integrator_destroy(&V);
 }
 
 static double endless(const double *y, void *context)
@@ -284,15 +285,15 @@ static void the_path_of_a_step_is_that_of_shorter_steps(void **state)
     const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
     world w = plain;
     (void)state;
-    verlet_integrator *V = make(&w, h, 0, y0);
-    const dense_output p = take(V, 1);
+    integrator V = make(&w, h, 0, y0);
+    const dense_output p = take(&V, 1);
     for (int k = 0; k <= 10; k++) {
         double y[4], on_path[4];
         run(plain, fmax(h * k / 10.0, 1e-300), 1, y0, y);
         dense_output_state(&p, h * k / 10.0, on_path);
         for (int c = 0; c < 4; c++) assert_close(on_path[c], y[c], c == 2 ? 0.1 * h * h * h : 1e-15);
     }
-    verlet_integrator_destroy(V);
+    integrator_destroy(&V);
 }
 
 static void a_path_starts_where_the_last_one_ended(void **state)
@@ -302,12 +303,12 @@ static void a_path_starts_where_the_last_one_ended(void **state)
     double t = 0.0, y[4], a[2];
     (void)state;
     memcpy(y, y0, sizeof y);
-    verlet_integrator *V = make(&w, 0.1, 2, y0);
+    integrator V = make(&w, 0.1, 2, y0);
     w.floor = -1e3;
     for (int k = 0; k < 20; k++) {
         dense_output p;
         bool rooted;
-        assert_ok(verlet_integrator_step(V, &p, &rooted));
+        assert_ok(integrator_step(&V, &p, &rooted));
         assert_close(p.t0, t, 0.0);
         assert_memory_equal(p.y0, y, sizeof y);
         (void)move(p.t1, p.y1, NULL, a, &w);
@@ -315,16 +316,16 @@ static void a_path_starts_where_the_last_one_ended(void **state)
         t = p.t1;
         memcpy(y, p.y1, sizeof y);
     }
-    verlet_integrator_destroy(V);
+    integrator_destroy(&V);
 }
 
 /* ---- roots ---- */
 
-static void step_to_root(verlet_integrator *V, dense_output *p)
+static void step_to_root(integrator *V, dense_output *p)
 {
     bool rooted = false;
     for (int k = 0; k < 1000 && !rooted; k++) {
-        assert_ok(verlet_integrator_step(V, p, &rooted));
+        assert_ok(integrator_step(V, p, &rooted));
         if (!rooted) assert_true(p->end == p->t1);
     }
     assert_true(rooted);
@@ -339,13 +340,13 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
     dense_output p;
     (void)state;
     w.floor = 0.2;
-    verlet_integrator *V = make(&w, 0.1, 2, y0);
-    step_to_root(V, &p);
+    integrator V = make(&w, 0.1, 2, y0);
+    step_to_root(&V, &p);
     assert_close(p.end, t, 1e-13);
     assert_close(dense_output_position(&p, p.end, 0).y, 0.2, 1e-12);
     assert_close(dense_output_velocity(&p, p.end, 0).y, -g * t, 1e-12);
     assert_true(w.n_guarded < 30); /* 4 steps; secants do it in a few */
-    verlet_integrator_destroy(V);
+    integrator_destroy(&V);
 }
 
 /* From below through the floor is none, the ceiling above it is. */
@@ -355,10 +356,10 @@ static void a_guard_is_looked_for_only_as_it_falls(void **state)
     world w = plain;
     dense_output p;
     (void)state;
-    verlet_integrator *V = make(&w, 0.04, 2, y0);
-    step_to_root(V, &p);
+    integrator V = make(&w, 0.04, 2, y0);
+    step_to_root(&V, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-13);
-    verlet_integrator_destroy(V);
+    integrator_destroy(&V);
 }
 
 /* Reflected a penetration tolerance above the floor it comes back after the time of the throw. Without a restart it
@@ -373,23 +374,23 @@ static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
         dense_output p;
         bool rooted;
         w.floor = -penetration_tolerance;
-        verlet_integrator *V = make(&w, 0.07, 2, y0);
-        step_to_root(V, &p);
+        integrator V = make(&w, 0.07, 2, y0);
+        step_to_root(&V, &p);
         const double first = p.end, t1 = p.t1;
         dense_output_state(&p, p.end, reflected);
         reflected[1] = 0.0;
         reflected[3] = u;
         if (restarted) {
-            verlet_integrator_restart(V, first, reflected);
-            step_to_root(V, &p);
+            assert_ok(integrator_restart(&V, first, reflected));
+            step_to_root(&V, &p);
             assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * penetration_tolerance)) / g, 1e-12);
         } else {
-            assert_ok(verlet_integrator_step(V, &p, &rooted));
+            assert_ok(integrator_step(&V, &p, &rooted));
             assert_false(rooted);
             assert_close(p.t0, t1, 0.0);
             assert_close(p.y1[1], 0.5 - 0.5 * g * p.t1 * p.t1, 1e-13);
         }
-        verlet_integrator_destroy(V);
+        integrator_destroy(&V);
     }
 }
 
@@ -404,16 +405,16 @@ static void a_derivative_that_fails_leaves_the_last_state(void **state)
     double y[4];
     (void)state;
     w.fails_after = 0.55;
-    verlet_integrator *V = make(&w, 0.1, 0, y0);
-    p = take(V, 5);
+    integrator V = make(&w, 0.1, 0, y0);
+    p = take(&V, 5);
     memcpy(y, p.y1, sizeof y);
-    assert_int_equal(verlet_integrator_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_int_equal(integrator_step(&V, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the test's force fails");
     w.fails_after = 1e9;
-    assert_ok(verlet_integrator_step(V, &p, &rooted));
+    assert_ok(integrator_step(&V, &p, &rooted));
     assert_memory_equal(p.y0, y, sizeof y);
-    verlet_integrator_destroy(V);
-    verlet_integrator_destroy(NULL);
+    integrator_destroy(&V);
+    integrator_destroy(&(integrator){0});
 }
 
 static void guards_that_are_no_numbers_are_an_error(void **state)
@@ -424,21 +425,25 @@ static void guards_that_are_no_numbers_are_an_error(void **state)
     bool rooted;
     (void)state;
     w.floor = (double)NAN;
-    verlet_integrator *V = make(&w, 0.1, 2, y0);
-    assert_int_equal(verlet_integrator_step(V, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    integrator V = make(&w, 0.1, 2, y0);
+    assert_int_equal(integrator_step(&V, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "guard 0 is not finite at t = 0 s");
-    verlet_integrator_destroy(V);
+    integrator_destroy(&V);
 }
 
 static void without_a_fixed_step_it_is_refused(void **state)
 {
-    const ode_problem problem = {
-        .n_nodes = 1, .ops = &array_ops_portable, .n_threads = 1, .derivative = move, .max_step = 1.0};
+    const ode_problem problem = {.method = DEM_METHOD_VERLET,
+                                 .n_nodes = 1,
+                                 .ops = &array_ops_portable,
+                                 .n_threads = 1,
+                                 .derivative = move,
+                                 .max_step = 1.0};
     const double y0[4] = {0.0};
-    verlet_integrator *V = NULL;
+    integrator V;
     (void)state;
-    assert_int_equal(verlet_integrator_create(&V, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
-    assert_null(V);
+    assert_int_equal(integrator_create(&V, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
+    assert_null(V.self);
 }
 
 int main(void)
