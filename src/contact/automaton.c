@@ -11,22 +11,23 @@
 void automaton_root_functions(automaton *c, double t, const double *y, double *g)
 {
     contact_set *s = &c->set;
-    contact_set_solve_all(s, y, automaton_velocities(c, y));
+    const scene_state state = automaton_state(c, t, y);
+    contact_set_solve_all(s, state);
     c->solved = t;
     c->quiet = true;
     for (dem_index k = 0; k < CANDIDATE_ROOTS * s->n; k++) g[k] = 1.0;
     for (dem_index a = 0; a < c->broad_phase.n; a++) {
         const dem_index k = c->broad_phase.active[a];
         double *of_site = &g[CANDIDATE_ROOTS * k];
-        candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], y, automaton_velocities(c, y), of_site);
+        candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], state, of_site);
         for (int q = 0; q < CANDIDATE_ROOTS; q++) c->quiet = c->quiet && of_site[q] > 0.0;
     }
 }
 
-void automaton_constrain(automaton *c, const double *y, double *a)
+void automaton_constrain(automaton *c, double t, const double *y, double *a)
 {
     c->solved = NAN;
-    contact_forces_hold(&c->set.forces, y, automaton_velocities(c, y), a);
+    contact_forces_hold(&c->set.forces, automaton_state(c, t, y), a);
 }
 
 dem_status automaton_create(automaton *out, const dem_model *model, const contact_rule *rule)
@@ -111,18 +112,18 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     TRY(settle_until_done(c, -1, &now));
     if (s->scene.rule.window > 0.0 && s->ledger.counts.impacts > impacts) early_reflection(s, &now);
     straighten_nodes(s, now.x);
-    contact_set_solve_all(s, now.x, now.v);
+    contact_set_solve_all(s, instant_state(&now));
     contact_set_store_all(s);
-    broad_phase_update(&c->broad_phase, s, now.x, now.v);
+    broad_phase_update(&c->broad_phase, s, instant_state(&now));
     return now.told;
 }
 
-dem_status automaton_check_start(const automaton *c, const double *x)
+dem_status automaton_check_start(const automaton *c, double t, const double *x)
 {
     const contact_scene *scene = &c->set.scene;
     for (dem_index k = 0; k < c->set.n; k++) {
         const contact_candidate candidate = candidate_reset(&c->set.list[k]);
-        const candidate_positions spot = candidate_place(&candidate, x);
+        const candidate_positions spot = candidate_place(&candidate, t, x);
         const contact_gap gap = candidate_gap(scene, &candidate, &spot);
         if (gap.distance >= -scene->rule.penetration_tolerance) continue;
         const segment *s = scene_segment(scene, contact_point_segment(scene, &candidate, gap.feature));
@@ -152,7 +153,7 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     for (dem_index k = 0; k < s->n; k++)
         for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
-            const candidate_positions spot = candidate_place(&s->list[k], now.x);
+            const candidate_positions spot = candidate_place(&s->list[k], t, now.x);
             const contact_gap gap = candidate_gap(&s->scene, &s->list[k], &spot);
             if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) break;
             TRY(candidate_resolve_touch(s, k, &gap, &now));
@@ -170,10 +171,10 @@ dem_status automaton_open_all(automaton *c)
     return contact_set_regroup(&c->set);
 }
 
-dem_status automaton_restore(automaton *c, const double *y)
+dem_status automaton_restore(automaton *c, double t, const double *y)
 {
     contact_set *s = &c->set;
-    const double *v = automaton_velocities(c, y);
+    const scene_state state = automaton_state(c, t, y);
     TRY(contact_set_regroup(s));
     c->solved = NAN;
     c->quiet = c->all = false;
@@ -181,9 +182,9 @@ dem_status automaton_restore(automaton *c, const double *y)
     s->ledger.counts.behind = 0;
     for (dem_index k = 0; k < s->scene.model->n_contact_nodes; k++)
         s->ledger.counts.behind += s->list[k].behind[0] >= 0;
-    contact_set_solve_all(s, y, v);
+    contact_set_solve_all(s, state);
     contact_set_store_all(s);
-    broad_phase_update(&c->broad_phase, s, y, v);
+    broad_phase_update(&c->broad_phase, s, state);
     return DEM_OK;
 }
 
@@ -193,30 +194,31 @@ static void add_to_row(double *array, dem_index row, vec2 change)
 }
 
 /* What the closed contacts of one candidate add. */
-static void add_rates_of(const contact_set *s, dem_index k, const double *y, double *a)
+static void add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
 {
     const state_layout *l = scene_layout(&s->scene);
     for (int q = 0; q < s->list[k].n_closed; q++) {
-        const contact_contribution of = contact_set_contribution(s, k, q, y, y + state_velocities(l));
+        const contact_contribution of = contact_set_contribution(s, k, q, state);
         add_to_row(a, state_impulse(l, of.obstacle), of.force);
         add_to_row(a, state_friction_impulse(l, of.obstacle), of.friction);
         a[state_total_index(l, STATE_FRICTION)] += of.power;
     }
 }
 
-void automaton_add_rates(const automaton *c, const double *y, double *a)
+void automaton_add_rates(const automaton *c, double t, const double *y, double *a)
 {
+    const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            add_rates_of(&c->set, k, y, a);
+            add_rates_of(&c->set, k, state, a);
 }
 
-dem_index automaton_list(const automaton *c, const double *x, dem_contact *list)
+dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list)
 {
     dem_index n = 0;
     for (dem_index k = 0; k < c->set.n; k++)
         for (int q = 0; q < c->set.list[k].n_closed; q++)
-            list[n++] = contact_point_describe(&c->set.scene, &c->set.list[k], q, x);
+            list[n++] = contact_point_describe(&c->set.scene, &c->set.list[k], q, t, x);
     return n;
 }

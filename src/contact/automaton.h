@@ -18,10 +18,10 @@ typedef struct automaton {
     dem_index idle; /* events in a row that changed nothing */
 } automaton;
 
-/** The velocities in a state y = (x, v). */
-static inline const double *automaton_velocities(const automaton *c, const double *y)
+/** The state y = (x, v) at t. */
+static inline scene_state automaton_state(const automaton *c, double t, const double *y)
 {
-    return y + state_velocities(scene_layout(&c->set.scene));
+    return scene_state_at(&c->set.scene, t, y);
 }
 
 /** `out` must stay where it is. */
@@ -31,7 +31,7 @@ void automaton_destroy(automaton *c);
 /** Whether no site without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
  *  names the node.
  *  \param x  [n][2] */
-dem_status automaton_check_start(const automaton *c, const double *x);
+dem_status automaton_check_start(const automaton *c, double t, const double *x);
 
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener);
@@ -40,20 +40,20 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_open_all(automaton *c);
 
-/** Takes up the contacts that sites are said to have in the state y: what follows from them is worked out anew.
+/** Takes up the contacts that sites are said to have in the state y at t: what follows from them is worked out anew.
  *  \return DEM_ERROR_MEMORY */
-dem_status automaton_restore(automaton *c, const double *y);
+dem_status automaton_restore(automaton *c, double t, const double *y);
 
 /** Values of all guards at a state at t, [n_candidates][CANDIDATE_ROOTS]: see candidate_root_functions(). */
 void automaton_root_functions(automaton *c, double t, const double *y, double *g);
 
 /** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
-void automaton_constrain(automaton *c, const double *y, double *a);
+void automaton_constrain(automaton *c, double t, const double *y, double *a);
 
 /** Adds to the rates of the quadratures among the accelerations a [n_rows][2], after automaton_constrain() in the same
  *  state: the force of each obstacle's closed contacts, N; the part of it that is friction; and the power that friction
  *  takes, W. */
-void automaton_add_rates(const automaton *c, const double *y, double *a);
+void automaton_add_rates(const automaton *c, double t, const double *y, double *a);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.
@@ -65,7 +65,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
  *  only what is near them, and leaves the rest of what follows from a change to the caller. */
 dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener);
 
-/** Closed contacts at positions x, in the order of sites, into list [2 n_candidates]; returns their number. */
-dem_index automaton_list(const automaton *c, const double *x, dem_contact *list);
+/** Closed contacts at positions x at t, in the order of sites, into list [2 n_candidates]; returns their number. */
+dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list);
 
 #endif

@@ -9,21 +9,20 @@
 static double furthest(const automaton *c, const dense_output *p)
 {
     return 2.0 * (p->t1 - p->t0) *
-           fmax(c->broad_phase.speed, broad_phase_speed(&c->set, automaton_velocities(c, p->y1)));
+           fmax(c->broad_phase.speed, broad_phase_speed(&c->set, automaton_state(c, p->t1, p->y1).v));
 }
 
 /* The state at the end of a step, as far as the forces of a group depend on it. */
-static const double *end_of(automaton *c, dem_index group, const dense_output *p, double *state)
+static scene_state end_of(automaton *c, dem_index group, const dense_output *p, double *state)
 {
-    if (p->end == p->t1) return p->y1;
+    if (p->end == p->t1) return automaton_state(c, p->t1, p->y1);
     event_location_state(&c->set.forces, group, p, p->end, state);
-    return state;
+    return automaton_state(c, p->end, state);
 }
 
 void automaton_solve_group(automaton *c, const dense_output *p, dem_index group, double *state)
 {
-    const double *y = end_of(c, group, p, state);
-    contact_forces_solve(&c->set.forces, group, y, automaton_velocities(c, y));
+    contact_forces_solve(&c->set.forces, group, end_of(c, group, p, state));
 }
 
 /* First time at which closed contacts of a site have to change that have to at the end of the step. */
@@ -32,8 +31,7 @@ static double next_due(automaton *c, const dense_output *p, dem_index k, double 
     contact_forces *r = &c->set.forces;
     const contact_candidate *candidate = &c->set.list[k];
     if (c->quiet) return INFINITY;
-    const double *y = end_of(c, r->group[k], p, state);
-    if (!candidate_due(&c->set.scene, candidate, r->force[k], y, automaton_velocities(c, y))) return INFINITY;
+    if (!candidate_due(&c->set.scene, candidate, r->force[k], end_of(c, r->group[k], p, state))) return INFINITY;
     const double due = event_location_change(r, candidate, p, from, state);
     automaton_solve_group(c, p, r->group[k], state);
     return due;
@@ -107,7 +105,7 @@ static bool has_opened(const contact_set *c, dem_index group, const contact_inst
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed && candidate_is_edge(candidate); q++)
-            if (fabs(contact_frame_at(&c->scene, candidate, q, now->x, now->v).gap) >
+            if (fabs(contact_frame_at(&c->scene, candidate, q, instant_state(now)).gap) >
                 0.25 * c->scene.rule.penetration_tolerance)
                 return true;
     }
@@ -134,7 +132,8 @@ void automaton_end_step(automaton *c, const dense_output *p, const double *y)
 {
     contact_set *s = &c->set;
     c->broad_phase.travelled += c->way;
-    if (c->solved != p->t1 || p->end < p->t1) contact_set_solve_all(s, y, automaton_velocities(c, y));
+    const scene_state state = automaton_state(c, p->end, y);
+    if (c->solved != p->t1 || p->end < p->t1) contact_set_solve_all(s, state);
     contact_set_store_all(s);
-    broad_phase_update(&c->broad_phase, s, y, automaton_velocities(c, y));
+    broad_phase_update(&c->broad_phase, s, state);
 }

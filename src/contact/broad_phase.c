@@ -40,10 +40,10 @@ static void come_back(contact_set *c, dem_index k, vec2 x)
 }
 
 /* Looks how far a site is from everything else, and lets it sleep if that is further than `reach`. */
-static void look_at(broad_phase *w, contact_set *c, dem_index k, const double *x, double reach)
+static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state state, double reach)
 {
     contact_candidate *candidate = &c->list[k];
-    const candidate_positions spot = candidate_place(candidate, x);
+    const candidate_positions spot = candidate_place(candidate, state.t, state.x);
     dem_index nearest;
     double clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
     const bool untouched = candidate->inactive ? candidate->active_from > w->travelled
@@ -61,24 +61,24 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, const double *x
 }
 
 /* What sleeps until it may wake, and what is awake until it has moved half as far as it was clear. */
-static bool worth_a_look(const broad_phase *w, const contact_candidate *candidate, const double *x, double reach)
+static bool worth_a_look(const broad_phase *w, const contact_candidate *candidate, scene_state state, double reach)
 {
     if (candidate->inactive) return candidate->active_from <= w->travelled + reach;
-    const candidate_positions spot = candidate_place(candidate, x);
+    const candidate_positions spot = candidate_place(candidate, state.t, state.x);
     return candidate_moved(candidate, &spot) >= 0.5 * candidate->clear;
 }
 
-void broad_phase_update(broad_phase *w, contact_set *c, const double *x, const double *v)
+void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
 {
-    w->speed = broad_phase_speed(c, v);
+    w->speed = broad_phase_speed(c, state.v);
     const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* further is found after the step */
     w->n = 0;
     w->earliest = (double)INFINITY;
     for (dem_index k = 0; k < c->scene.model->n_contact_nodes && c->ledger.counts.behind > 0; k++)
-        if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(x, c->list[k].node));
+        if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(state.x, c->list[k].node));
     for (dem_index k = 0; k < c->n; k++) {
         const contact_candidate *candidate = &c->list[k];
-        if (worth_a_look(w, candidate, x, reach)) look_at(w, c, k, x, reach);
+        if (worth_a_look(w, candidate, state, reach)) look_at(w, c, k, state, reach);
         if (candidate->n_closed > 0 || !candidate->inactive)
             w->active[w->n++] = k;
         else

@@ -21,9 +21,9 @@ void broad_phase_destroy(broad_phase *w);
 /** Fastest of the nodes that may touch, m/s. */
 double broad_phase_speed(const contact_set *c, const double *v);
 
-/** Looks again at what has woken, before a step from (x, v). A node found inside an obstacle that it cannot have
+/** Looks again at what has woken, before a step from a state. A node found inside an obstacle that it cannot have
  *  touched has come round its free end, and is behind it; one that is behind may have come back. */
-void broad_phase_update(broad_phase *w, contact_set *c, const double *x, const double *v);
+void broad_phase_update(broad_phase *w, contact_set *c, scene_state state);
 
 /** Whether all sites have to be asked after `way` (m) more: else none wakes that was not awake at the last look. */
 static inline bool broad_phase_covers_all(const broad_phase *w, double way)

@@ -7,9 +7,9 @@
 
 /* ---- gaps ---- */
 
-candidate_positions candidate_place(const contact_candidate *candidate, const double *x)
+candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x)
 {
-    candidate_positions spot = {.a = vec2_at(x, candidate->node)};
+    candidate_positions spot = {.t = t, .a = vec2_at(x, candidate->node)};
     spot.b = candidate_is_edge(candidate) ? vec2_at(x, candidate->other) : spot.a;
     spot.previous = candidate->previous >= 0 ? vec2_at(x, candidate->previous) : spot.a;
     spot.next = candidate->next >= 0 ? vec2_at(x, candidate->next) : spot.b;
@@ -18,7 +18,7 @@ candidate_positions candidate_place(const contact_candidate *candidate, const do
 
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t)
 {
-    candidate_positions spot = {.a = dense_output_position(p, t, candidate->node)};
+    candidate_positions spot = {.t = t, .a = dense_output_position(p, t, candidate->node)};
     spot.b = candidate_is_edge(candidate) ? dense_output_position(p, t, candidate->other) : spot.a;
     spot.previous = candidate->previous >= 0 ? dense_output_position(p, t, candidate->previous) : spot.a;
     spot.next = candidate->next >= 0 ? dense_output_position(p, t, candidate->next) : spot.b;
@@ -134,17 +134,16 @@ static bool sticks(const contact_candidate *candidate, int q)
     return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
 }
 
-int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
-                         const double *v)
+int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
 {
     int end;
-    if (sticks(candidate, q) || end_guard(scene, candidate, q, x, &end) > 0.0) return 0;
-    const contact_frame f = contact_frame_at(scene, candidate, q, x, v);
+    if (sticks(candidate, q) || end_guard(scene, candidate, q, state.x, &end) > 0.0) return 0;
+    const contact_frame f = contact_frame_at(scene, candidate, q, state);
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
     for (int p = 0; p < f.n && rests; p++) /* then it heads where it is driven */
-        speed +=
-            f.weight[p] * vec2_dot(forces_acceleration(scene->model, &scene->rule.load, f.node[p], x, v), f.tangent);
+        speed += f.weight[p] *
+                 vec2_dot(forces_acceleration(scene->model, &scene->rule.load, f.node[p], state.x, state.v), f.tangent);
     const double heading =
         candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge against the body */
     return end * heading > 0.0 ? end : 0;
@@ -177,10 +176,10 @@ static double gap_guard(const contact_scene *scene, contact_gap gap)
 }
 
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
-                              const contact_force force[2], const double *x, const double *v, double *g)
+                              const contact_force force[2], scene_state state, double *g)
 {
     int end;
-    const candidate_positions spot = candidate_place(candidate, x);
+    const candidate_positions spot = candidate_place(candidate, state.t, state.x);
     g[0] = gap_guard(scene, candidate_gap(scene, candidate, &spot));
     g[1] = g[2] = g[3] = 1.0;
     if (candidate->n_closed == 0) return;
@@ -189,12 +188,12 @@ void candidate_root_functions(const contact_scene *scene, const contact_candidat
         g[1] = fmin(g[1], force[q].normal);
         if (candidate->closed[q].held) continue;
         if (!sticks(candidate, q) && contact_point_friction(scene, candidate, candidate->closed[q].feature) == 0.0) {
-            g[2] = fmin(g[2], end_guard(scene, candidate, q, x, &end));
+            g[2] = fmin(g[2], end_guard(scene, candidate, q, state.x, &end));
             continue;
         }
-        const contact_frame f = contact_frame_at(scene, candidate, q, x, v);
-        g[2] = fmin(g[2], sticks(candidate, q) ? candidate_grip(scene, candidate, q, &f, &force[q], x)
-                                               : end_guard(scene, candidate, q, x, &end));
+        const contact_frame f = contact_frame_at(scene, candidate, q, state);
+        g[2] = fmin(g[2], sticks(candidate, q) ? candidate_grip(scene, candidate, q, &f, &force[q], state.x)
+                                               : end_guard(scene, candidate, q, state.x, &end));
         if (sticks(candidate, q)) continue;
         g[3] = fmin(g[3], candidate->closed[q].slide * vec2_dot(f.velocity, f.tangent));
     }
@@ -203,17 +202,18 @@ void candidate_root_functions(const contact_scene *scene, const contact_candidat
 }
 
 bool candidate_due(const contact_scene *scene, const contact_candidate *candidate, const contact_force force[2],
-                   const double *x, const double *v)
+                   scene_state state)
 {
-    const candidate_positions spot = candidate_place(candidate, x);
+    const candidate_positions spot = candidate_place(candidate, state.t, state.x);
     if (gap_guard(scene, candidate_gap(scene, candidate, &spot)) <= 0.0) return true;
     for (int q = 0; q < candidate->n_closed; q++) {
         if (force[q].normal <= 0.0) return true;
         if (candidate->closed[q].held) continue;
-        if (candidate_end_passed(scene, candidate, q, x, v) != 0) return true;
+        if (candidate_end_passed(scene, candidate, q, state) != 0) return true;
         if (contact_point_friction(scene, candidate, candidate->closed[q].feature) == 0.0) continue;
-        const contact_frame f = contact_frame_at(scene, candidate, q, x, v);
-        if (candidate_grip(scene, candidate, q, &f, &force[q], x) < 0.0 || candidate_turns(scene, candidate, q, &f, v))
+        const contact_frame f = contact_frame_at(scene, candidate, q, state);
+        if (candidate_grip(scene, candidate, q, &f, &force[q], state.x) < 0.0 ||
+            candidate_turns(scene, candidate, q, &f, state.v))
             return true;
     }
     return false;

@@ -18,12 +18,13 @@ typedef struct contact_gap {
     vec2 normal;       /* unit, the way in which the distance grows */
 } contact_gap;
 
-/** Where the nodes of a site are: a, an edge's second b, and an edge's neighbours on the boundary. */
+/** Where the nodes of a site are at a time: a, an edge's second b, and an edge's neighbours on the boundary. */
 typedef struct candidate_positions {
+    double t; /* s */
     vec2 a, b, previous, next;
 } candidate_positions;
 
-candidate_positions candidate_place(const contact_candidate *candidate, const double *x);
+candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x);
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t);
 
 /** How far a site has moved since it was seen to be clear, m. */
@@ -46,8 +47,7 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
 
 /** Whether contact q is beyond the end of its segment or edge by the penetration tolerance and heads out: 1, or -1
  *  beyond the start. */
-int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
-                         const double *v);
+int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state);
 
 /** Whether sliding contact q has turned back: it slides against its sign. Without friction that does not matter. */
 bool candidate_turns(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
@@ -63,10 +63,10 @@ double candidate_grip(const contact_scene *scene, const contact_candidate *candi
  *  is 1.
  *  \param force  of its closed contacts in that state */
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
-                              const contact_force force[2], const double *x, const double *v, double *g);
+                              const contact_force force[2], scene_state state, double *g);
 
 /** Whether a closed site's contacts have to change in a state. */
 bool candidate_due(const contact_scene *scene, const contact_candidate *candidate, const contact_force force[2],
-                   const double *x, const double *v);
+                   scene_state state);
 
 #endif

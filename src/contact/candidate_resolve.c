@@ -60,7 +60,7 @@ dem_status candidate_resolve_touch(contact_set *c, dem_index k, const contact_ga
 
 static dem_status settle_free(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
-    const candidate_positions spot = candidate_place(&c->list[k], now->x);
+    const candidate_positions spot = candidate_place(&c->list[k], now->t, now->x);
     const contact_gap gap = candidate_gap(&c->scene, &c->list[k], &spot);
     if (gap.distance > -touch_share * c->scene.rule.penetration_tolerance) return DEM_OK;
     *changed = true;
@@ -133,11 +133,11 @@ static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, 
 static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
 {
     contact_point *point = &c->list[k].closed[q];
-    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
     point->slide = 0;
     point->place = f.place;
     impact_group_stop(c, c->forces.group[k], now);
-    contact_set_solve_forces(c, k, now->x, now->v);
+    contact_set_solve_forces(c, k, instant_state(now));
     const contact_force force = {point->force, point->friction};
     if (candidate_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0)
         point->slide = force.tangent > 0.0 ? -1 : 1;
@@ -155,14 +155,14 @@ static dem_status begin_to_slide(contact_set *c, dem_index k, int q, contact_ins
 static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];
-    const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
+    const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
     const contact_force force = {candidate->closed[q].force, candidate->closed[q].friction};
     *changed = true;
     if (force.normal <= 0.0) return release(c, k, q, now);
     const bool held = candidate->closed[q].held;
     if (!held && candidate_turns(&c->scene, candidate, q, &f, now->v)) return stop(c, k, q, now);
     if (!held && candidate_grip(&c->scene, candidate, q, &f, &force, now->x) < 0.0) return begin_to_slide(c, k, q, now);
-    const int passed = held ? 0 : candidate_end_passed(&c->scene, candidate, q, now->x, now->v);
+    const int passed = held ? 0 : candidate_end_passed(&c->scene, candidate, q, instant_state(now));
     if (passed != 0 && candidate_is_edge(candidate)) return pass_edge(c, k, q, passed < 0, now);
     if (passed != 0) return pass_node(c, k, passed < 0, now);
     *changed = false;
@@ -173,7 +173,7 @@ static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_ins
 static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];
-    const candidate_positions spot = candidate_place(candidate, now->x);
+    const candidate_positions spot = candidate_place(candidate, now->t, now->x);
     const contact_gap gap = candidate_gap(&c->scene, candidate, &spot);
     if (gap.distance > -touch_share * c->scene.rule.penetration_tolerance) return DEM_OK;
     *changed = true;
@@ -187,7 +187,7 @@ static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now
 
 static dem_status settle_closed(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
-    contact_set_solve_forces(c, k, now->x, now->v);
+    contact_set_solve_forces(c, k, instant_state(now));
     for (int q = 0; q < c->list[k].n_closed && !*changed; q++) TRY(settle_contact(c, k, q, now, changed));
     if (*changed || c->list[k].n_closed == 2) return DEM_OK;
     return settle_other(c, k, now, changed);

@@ -279,13 +279,13 @@ static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const c
 }
 
 /* The unknowns of a group and what they are asked for; u [n][2]: accelerations or velocities as they are. */
-static dem_index set_rows(contact_forces *r, dem_index group, aim to, const double *x, const double *v, const double *u)
+static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_state state, const double *u)
 {
     dem_index n = 0;
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         for (int q = 0; q < candidate->n_closed; q++) {
-            const contact_frame f = contact_frame_at(r->scene, candidate, q, x, v);
+            const contact_frame f = contact_frame_at(r->scene, candidate, q, state);
             add_row(r, &n, k, q, &f, false);
             r->rows[n - 1].wanted = to == FORCE ? f.keep[0] : (to == SHIFT ? -f.gap : 0.0);
             if (to == SHIFT) continue;
@@ -356,9 +356,9 @@ static void eliminate(contact_forces *r, dem_index n, dem_index width)
 }
 
 /* Solves for the unknowns of a group and adds what they do to u. */
-static void solve(contact_forces *r, dem_index group, aim to, const double *x, const double *v, double *u)
+static void solve(contact_forces *r, dem_index group, aim to, scene_state state, double *u)
 {
-    const dem_index n = set_rows(r, group, to, x, v, u), width = band_width(r, n);
+    const dem_index n = set_rows(r, group, to, state, u), width = band_width(r, n);
     eliminate(r, n, width);
     for (dem_index j = 0; j < n; j++) {
         const contact_equation *row = &r->rows[j];
@@ -386,11 +386,11 @@ static bool alone(const contact_forces *r, dem_index group)
     return r->next[first] < 0 && !candidate_is_edge(&r->candidates[first]);
 }
 
-static void hold(contact_forces *r, dem_index group, const double *x, const double *v, double *a)
+static void hold(contact_forces *r, dem_index group, scene_state state, double *a)
 {
     const dem_index k = contact_forces_first(r, group);
     if (!alone(r, group))
-        solve(r, group, FORCE, x, v, a);
+        solve(r, group, FORCE, state, a);
     else if (r->candidates[k].n_closed == 2)
         hold_corner(r, k, a);
     else
@@ -399,20 +399,20 @@ static void hold(contact_forces *r, dem_index group, const double *x, const doub
 
 /* ---- public ---- */
 
-void contact_forces_hold(contact_forces *r, const double *x, const double *v, double *a)
+void contact_forces_hold(contact_forces *r, scene_state state, double *a)
 {
-    for (dem_index g = 0; g < r->n_groups; g++) hold(r, r->groups[g], x, v, a);
+    for (dem_index g = 0; g < r->n_groups; g++) hold(r, r->groups[g], state, a);
 }
 
 /* The free acceleration of a node, once for all contacts that share it. */
-static void set_free(contact_forces *r, dem_index node, const double *x, const double *v)
+static void set_free(contact_forces *r, dem_index node, scene_state state)
 {
     if (r->first[node] == 0) return;
     r->first[node] = 0;
-    vec2_put(r->a, node, forces_acceleration(r->scene->model, &r->scene->rule.load, node, x, v));
+    vec2_put(r->a, node, forces_acceleration(r->scene->model, &r->scene->rule.load, node, state.x, state.v));
 }
 
-void contact_forces_solve(contact_forces *r, dem_index group, const double *x, const double *v)
+void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
 {
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
@@ -421,10 +421,10 @@ void contact_forces_solve(contact_forces *r, dem_index group, const double *x, c
     }
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
-        set_free(r, candidate->node, x, v);
-        if (candidate_is_edge(candidate)) set_free(r, candidate->other, x, v);
+        set_free(r, candidate->node, state);
+        if (candidate_is_edge(candidate)) set_free(r, candidate->other, state);
     }
-    hold(r, group, x, v, r->a);
+    hold(r, group, state, r->a);
 }
 
 /* A node by itself stops exactly. */
@@ -441,22 +441,22 @@ static void stop_node(contact_forces *r, dem_index k, double *v)
     vec2_put(v, candidate->node, after);
 }
 
-void contact_forces_stop(contact_forces *r, dem_index group, const double *x, double *v)
+void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, double *v)
 {
     if (alone(r, group))
         stop_node(r, contact_forces_first(r, group), v);
     else
-        solve(r, group, IMPULSE, x, v, v);
+        solve(r, group, IMPULSE, state, v);
 }
 
-const double *contact_forces_shift(contact_forces *r, dem_index group, const double *x, const double *v)
+const double *contact_forces_shift(contact_forces *r, dem_index group, scene_state state)
 {
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         vec2_put(r->a, candidate->node, (vec2){0.0, 0.0});
         if (candidate_is_edge(candidate)) vec2_put(r->a, candidate->other, (vec2){0.0, 0.0});
     }
-    solve(r, group, SHIFT, x, v, r->a);
+    solve(r, group, SHIFT, state, r->a);
     return r->a;
 }
 

@@ -61,16 +61,16 @@ dem_status contact_forces_regroup(contact_forces *r);
 dem_status contact_forces_regroup_some(contact_forces *r, const dem_index *changed, dem_index n);
 
 /** Takes from the free accelerations a [n][2] what all closed contacts hold; fills force. */
-void contact_forces_hold(contact_forces *r, const double *x, const double *v, double *a);
+void contact_forces_hold(contact_forces *r, scene_state state, double *a);
 
 /** Fills force for the contacts of one group in a state. */
-void contact_forces_solve(contact_forces *r, dem_index group, const double *x, const double *v);
+void contact_forces_solve(contact_forces *r, dem_index group, scene_state state);
 
-/** Takes from the velocities of a group's nodes what the closed contacts do not allow; fills force with the impulses
- *  that this takes, N s. */
-void contact_forces_stop(contact_forces *r, dem_index group, const double *x, double *v);
+/** Takes from the velocities v [n][2] of a group's nodes, which are those of the state, what the closed contacts do not
+ *  allow; fills force with the impulses that this takes, N s. */
+void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, double *v);
 
 /** How far the nodes of a group have to be moved, [n][2], so that its contacts touch, to first order. */
-const double *contact_forces_shift(contact_forces *r, dem_index group, const double *x, const double *v);
+const double *contact_forces_shift(contact_forces *r, dem_index group, scene_state state);
 
 #endif

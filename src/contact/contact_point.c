@@ -26,16 +26,16 @@ double contact_point_friction(const contact_scene *scene, const contact_candidat
 }
 
 static contact_frame node_frame(const contact_scene *scene, const contact_candidate *candidate, dem_index feature,
-                                const double *x, const double *v)
+                                scene_state state)
 {
     const segment *s = scene_segment(scene, feature);
-    const vec2 at = vec2_at(x, candidate->node);
+    const vec2 at = vec2_at(state.x, candidate->node);
     return (contact_frame){.n = 1,
                            .node = {candidate->node, -1},
                            .weight = {1.0, 0.0},
                            .normal = s->normal,
                            .tangent = s->tangent,
-                           .velocity = vec2_at(v, candidate->node),
+                           .velocity = vec2_at(state.v, candidate->node),
                            .gap = segment_height(s, at),
                            .place = segment_place(s, at),
                            .mobility = scene->model->inverse_mass[candidate->node]};
@@ -45,12 +45,12 @@ static contact_frame node_frame(const contact_scene *scene, const contact_candid
  * the edge, gap g = (P - V).N. With v_P the velocity of the point of the body at P and omega = (v_b - v_a).N/L,
  *   g' = v_P.N,  s' = -v_P.t/L,  g'' = a_P.N - 2 omega v_P.t  (at g = 0):  a_P.N = 2 omega v_P.t keeps it closed. */
 static contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
-                                const contact_point *point, const double *x, const double *v)
+                                const contact_point *point, scene_state state)
 {
     const double *inverse_mass = scene->model->inverse_mass;
     const vec2 at = scene->model->obstacles.vertices[point->feature].at;
-    const vec2 a = vec2_at(x, candidate->node), b = vec2_at(x, candidate->other), ab = vec2_sub(b, a);
-    const vec2 va = vec2_at(v, candidate->node), vb = vec2_at(v, candidate->other);
+    const vec2 a = vec2_at(state.x, candidate->node), b = vec2_at(state.x, candidate->other), ab = vec2_sub(b, a);
+    const vec2 va = vec2_at(state.v, candidate->node), vb = vec2_at(state.v, candidate->other);
     const double length = vec2_norm(ab);
     const vec2 t = vec2_scale(1.0 / length, ab), n = {-t.y, t.x};
     const double place = point->slide == 0 ? point->place : vec2_dot(vec2_sub(at, a), t) / length;
@@ -86,19 +86,18 @@ double contact_point_noise(const contact_frame *f, const double *v)
     return 64.0 * DBL_EPSILON * speed;
 }
 
-contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
-                               const double *v)
+contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
 {
     const contact_point *point = &candidate->closed[q];
-    return candidate_is_edge(candidate) ? edge_frame(scene, candidate, point, x, v)
-                                        : node_frame(scene, candidate, point->feature, x, v);
+    return candidate_is_edge(candidate) ? edge_frame(scene, candidate, point, state)
+                                        : node_frame(scene, candidate, point->feature, state);
 }
 
-dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q,
+dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q, double t,
                                    const double *x)
 {
     const contact_point *point = &candidate->closed[q];
-    const contact_frame f = contact_frame_at(scene, candidate, q, x, x);
+    const contact_frame f = contact_frame_at(scene, candidate, q, (scene_state){t, x, x});
     const segment *s = scene_segment(scene, contact_point_segment(scene, candidate, point->feature));
     const vec2 at = candidate_is_edge(candidate) ? scene->model->obstacles.vertices[point->feature].at
                                                  : vec2_at(x, candidate->node);

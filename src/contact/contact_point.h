@@ -88,6 +88,12 @@ static inline double scene_margin(const contact_scene *scene)
     return 10.0 * scene->rule.penetration_tolerance;
 }
 
+/** A state in which contacts are asked: the nodes' positions and velocities [n][2] at a time. */
+typedef struct scene_state {
+    double t; /* s */
+    const double *x, *v;
+} scene_state;
+
 static inline bool candidate_is_edge(const contact_candidate *candidate)
 {
     return candidate->other >= 0;
@@ -97,6 +103,12 @@ static inline bool candidate_is_edge(const contact_candidate *candidate)
 static inline const state_layout *scene_layout(const contact_scene *scene)
 {
     return &scene->rule.layout;
+}
+
+/** The state y = (x, v) at t. */
+static inline scene_state scene_state_at(const contact_scene *scene, double t, const double *y)
+{
+    return (scene_state){t, y, y + state_velocities(scene_layout(scene))};
 }
 
 /** The segment that a contact is on, or that ends in the vertex it is on. */
@@ -109,9 +121,9 @@ const dem_obstacle *contact_point_obstacle(const contact_scene *scene, const con
 /** Coefficient of the sustained friction of Coulomb's law; 0 where there is none. */
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature);
 
-/** Frame of closed contact q of a site at positions x and velocities v [n][2]. */
-contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
-                               const double *v);
+/** Frame of closed contact q of a site in a state. */
+contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q,
+                               scene_state state);
 
 /** What rounding of the coordinates may make of the force of a contact, N. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
@@ -119,8 +131,8 @@ double contact_point_slack(const contact_scene *scene, const contact_frame *f, c
 /** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node, whose velocity is set. */
 double contact_point_noise(const contact_frame *f, const double *v);
 
-/** What the library tells of it. */
-dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q,
+/** What the library tells of it at t. */
+dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q, double t,
                                    const double *x);
 
 #endif

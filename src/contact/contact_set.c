@@ -178,15 +178,15 @@ void contact_set_store_forces(contact_set *c, dem_index k)
     }
 }
 
-void contact_set_solve_forces(contact_set *c, dem_index k, const double *x, const double *v)
+void contact_set_solve_forces(contact_set *c, dem_index k, scene_state state)
 {
-    contact_forces_solve(&c->forces, c->forces.group[k], x, v);
+    contact_forces_solve(&c->forces, c->forces.group[k], state);
     contact_set_store_forces(c, k);
 }
 
-void contact_set_solve_all(contact_set *c, const double *x, const double *v)
+void contact_set_solve_all(contact_set *c, scene_state state)
 {
-    for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, c->forces.groups[g], x, v);
+    for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, c->forces.groups[g], state);
 }
 
 /* A force without what should come from outside is none: the last known stays. */
@@ -199,32 +199,32 @@ void contact_set_store_all(contact_set *c)
             contact_set_store_forces(c, k);
 }
 
-double contact_set_stop(contact_set *c, dem_index group, const double *x, double *v)
+double contact_set_stop(contact_set *c, dem_index group, const contact_instant *now)
 {
     contact_forces *r = &c->forces;
+    const scene_state state = instant_state(now);
     double energy = 0.0;
     for (int after = 0; after < 2; after++) { /* impulses at points take -J.(v + v')/2 */
         for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
             contact_candidate *candidate = &c->list[k];
             for (int q = 0; q < candidate->n_closed; q++) {
-                const contact_frame f = contact_frame_at(&c->scene, candidate, q, x, v);
+                const contact_frame f = contact_frame_at(&c->scene, candidate, q, state);
                 const contact_force got = r->force[k][q];
                 const vec2 impulse = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
                 if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(candidate->closed[q].stop, f.velocity));
                 candidate->closed[q].stop = after ? impulse : f.velocity;
             }
         }
-        if (!after) contact_forces_stop(r, group, x, v);
+        if (!after) contact_forces_stop(r, group, state, now->v);
     }
     return energy;
 }
 
-contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, const double *x,
-                                              const double *v)
+contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, scene_state state)
 {
     const contact_candidate *candidate = &c->list[k];
     const contact_force *force = &c->forces.force[k][q];
-    const contact_frame f = contact_frame_at(&c->scene, candidate, q, x, v);
+    const contact_frame f = contact_frame_at(&c->scene, candidate, q, state);
     const vec2 along = vec2_scale(force->tangent, f.tangent);
     const bool slides = candidate->closed[q].slide != 0;
     return (contact_contribution){.obstacle =
@@ -241,7 +241,7 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
     const contact_candidate *candidate = &c->list[k];
     contact_candidate alone = *candidate;
     alone.closed[0] = (contact_point){.feature = feature, .slide = 1};
-    const contact_frame f = contact_frame_at(&c->scene, &alone, 0, now->x, now->v);
+    const contact_frame f = contact_frame_at(&c->scene, &alone, 0, instant_state(now));
     const segment *s = scene_segment(&c->scene, contact_point_segment(&c->scene, candidate, feature));
     const vec2 at = candidate_is_edge(candidate) ? c->scene.model->obstacles.vertices[feature].at
                                                  : vec2_at(now->x, candidate->node);

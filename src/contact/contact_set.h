@@ -68,15 +68,15 @@ void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x);
 void contact_set_store_forces(contact_set *c, dem_index k);
 
 /** Solves for the forces of the site's group and stores them in the site's contacts. */
-void contact_set_solve_forces(contact_set *c, dem_index k, const double *x, const double *v);
+void contact_set_solve_forces(contact_set *c, dem_index k, scene_state state);
 
 /** Solves for the forces of all groups; stores those of all closed contacts. */
-void contact_set_solve_all(contact_set *c, const double *x, const double *v);
+void contact_set_solve_all(contact_set *c, scene_state state);
 void contact_set_store_all(contact_set *c);
 
 /** Stops a group: closed contacts neither open nor slide where they stick. Leaves in `stop` of each the impulse that
  *  this takes.  \return the energy that it takes, J */
-double contact_set_stop(contact_set *c, dem_index group, const double *x, double *v);
+double contact_set_stop(contact_set *c, dem_index group, const contact_instant *now);
 
 /** What a closed contact does to its obstacle's account, with the forces last solved for. */
 typedef struct contact_contribution {
@@ -85,8 +85,7 @@ typedef struct contact_contribution {
     double power;         /* W, that friction takes */
 } contact_contribution;
 
-contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, const double *x,
-                                              const double *v);
+contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, scene_state state);
 
 /** The group that has closed contacts at a node, or -1. */
 static inline dem_index contact_set_group_at(const contact_set *c, dem_index node)

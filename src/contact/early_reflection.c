@@ -10,7 +10,7 @@ void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, co
     contact_candidate alone = *candidate;
     vec2 kick;
     alone.closed[0] = (contact_point){.feature = gap->feature, .slide = 1};
-    contact_frame f = contact_frame_at(&c->scene, &alone, 0, now->x, now->v);
+    contact_frame f = contact_frame_at(&c->scene, &alone, 0, instant_state(now));
     f.normal = gap->normal;
     const impact_surface wall = impact_rest_surface(c, k, gap->feature, f.normal);
     const vec2 after = impact_law_rebound(&wall, 1, f.velocity, &kick), impulse = vec2_scale(1.0 / f.mobility, kick);
@@ -38,7 +38,7 @@ static bool arrives(const contact_set *c, const contact_candidate *candidate, co
                     const candidate_positions *v)
 {
     const double window = c->scene.rule.window;
-    const candidate_positions ahead = {vec2_along(x->a, window, v->a), vec2_along(x->b, window, v->b),
+    const candidate_positions ahead = {x->t + window, vec2_along(x->a, window, v->a), vec2_along(x->b, window, v->b),
                                        vec2_along(x->previous, window, v->previous),
                                        vec2_along(x->next, window, v->next)};
     return candidate_gap(&c->scene, candidate, &ahead).distance < -c->scene.rule.penetration_tolerance;
@@ -48,7 +48,8 @@ void early_reflection(contact_set *c, contact_instant *now)
 {
     for (dem_index k = 0; k < c->n; k++) {
         contact_candidate candidate = c->list[k];
-        const candidate_positions spot = candidate_place(&candidate, now->x), v = candidate_place(&candidate, now->v);
+        const candidate_positions spot = candidate_place(&candidate, now->t, now->x),
+                                  v = candidate_place(&candidate, now->t, now->v);
         if (candidate.n_closed > 0 || contact_set_coupled(c, k) || !may_arrive(c, &candidate, &spot, &v)) continue;
         candidate_forget_clearance(&candidate); /* its true gap */
         const contact_gap gap = candidate_gap(&c->scene, &candidate, &spot);

@@ -223,12 +223,18 @@ void event_location_state(const contact_forces *r, dem_index group, const dense_
     if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, p->n_nodes - 1, state); /* the time */
 }
 
+/* The state at t as far as the group's forces depend on it, and those. */
+static void solve_at(contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
+{
+    event_location_state(r, group, p, t, state);
+    contact_forces_solve(r, group, scene_state_at(r->scene, t, state));
+}
+
 /* Forces and guards of a site in the state at t: the lowest of the guards, each in units of what it was at first. */
-static double lowest_guard(contact_forces *r, dem_index k, const double *state, const double *scale)
+static double lowest_guard(contact_forces *r, dem_index k, double t, const double *state, const double *scale)
 {
     double guard[CANDIDATE_ROOTS], low = INFINITY;
-    candidate_root_functions(r->scene, &r->candidates[k], r->force[k], state,
-                             state + state_velocities(scene_layout(r->scene)), guard);
+    candidate_root_functions(r->scene, &r->candidates[k], r->force[k], scene_state_at(r->scene, t, state), guard);
     for (int q = 0; q < CANDIDATE_ROOTS; q++)
         if (scale[q] > 0.0) low = fmin(low, guard[q] / scale[q]);
     return low;
@@ -238,23 +244,20 @@ double event_location_change(contact_forces *r, const contact_candidate *candida
                              double *state)
 {
     const dem_index k = candidate - r->candidates, group = r->group[k];
-    const double *v = state + state_velocities(scene_layout(r->scene));
     const double width = event_location_resolution(p);
+    const scene_state first = scene_state_at(r->scene, from, state);
     double scale[CANDIDATE_ROOTS];
-    event_location_state(r, group, p, from, state);
-    contact_forces_solve(r, group, state, v);
-    if (candidate_due(r->scene, candidate, r->force[k], state, v)) return from;
-    candidate_root_functions(r->scene, candidate, r->force[k], state, v, scale);
-    bracket b = {from, p->end, lowest_guard(r, k, state, scale), 0.0, 0, 0};
-    event_location_state(r, group, p, p->end, state);
-    contact_forces_solve(r, group, state, v);
-    b.below = lowest_guard(r, k, state, scale);
+    solve_at(r, group, p, from, state);
+    if (candidate_due(r->scene, candidate, r->force[k], first)) return from;
+    candidate_root_functions(r->scene, candidate, r->force[k], first, scale);
+    bracket b = {from, p->end, lowest_guard(r, k, from, state, scale), 0.0, 0, 0};
+    solve_at(r, group, p, p->end, state);
+    b.below = lowest_guard(r, k, p->end, state, scale);
     while (b.after - b.before > width) {
         const double t = bracket_trial(&b, width);
-        event_location_state(r, group, p, t, state);
-        contact_forces_solve(r, group, state, v);
-        bracket_close(&b, t, lowest_guard(r, k, state, scale),
-                      candidate_due(r->scene, candidate, r->force[k], state, v));
+        solve_at(r, group, p, t, state);
+        bracket_close(&b, t, lowest_guard(r, k, t, state, scale),
+                      candidate_due(r->scene, candidate, r->force[k], scene_state_at(r->scene, t, state)));
     }
     return b.after;
 }

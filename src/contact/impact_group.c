@@ -16,7 +16,7 @@ double impact_group_project(contact_set *c, dem_index group, contact_instant *no
 {
     contact_forces *r = &c->forces;
     double furthest = 0.0;
-    const double *shift = contact_forces_shift(r, group, now->x, now->v);
+    const double *shift = contact_forces_shift(r, group, instant_state(now));
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         const dem_index nodes[2] = {candidate->node, candidate->other};
@@ -40,7 +40,7 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
         c->involved[c->n_involved++] = m;
         candidate->n_involved = candidate->n_closed;
         for (int q = 0; q < candidate->n_closed; q++) {
-            const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
+            const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
             contact_point *point = &candidate->closed[q];
             point->before = f.velocity;
             point->impulse = (vec2){0.0, 0.0};
@@ -56,7 +56,7 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
 static bool strike(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
 {
     contact_point *point = &c->list[k].closed[q];
-    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
     vec2 kick;
     if (vec2_dot(f.velocity, f.normal) >= -tolerance) return false;
     impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
@@ -94,7 +94,7 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         for (int q = 0; q < c->list[k].n_closed; q++) {
             contact_point *point = &c->list[k].closed[q];
-            const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, now->x, now->v);
+            const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
             const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
             double back = f.turning;
             for (int e = 0; e < f.n; e++)
@@ -126,7 +126,7 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
     for (dem_index m = contact_forces_first(r, group); m >= 0 && any; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
             contact_point *point = &c->list[m].closed[q];
-            const contact_frame f = contact_frame_at(&c->scene, &c->list[m], q, now->x, now->v);
+            const contact_frame f = contact_frame_at(&c->scene, &c->list[m], q, instant_state(now));
             contact_set_push(c, &f, vec2_scale(-1.0, point->impulse), now->v);
             point->impulse = (vec2){0.0, 0.0};
             point->energy = 0.0;
@@ -160,11 +160,11 @@ static void part(contact_candidate *candidate)
 void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
-    c->ledger.impact += contact_set_stop(c, group, now->x, now->v);
+    c->ledger.impact += contact_set_stop(c, group, now);
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed; q++) {
-            const contact_frame f = contact_frame_at(&c->scene, candidate, q, now->x, now->v);
+            const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
             const dem_obstacle *on = contact_point_obstacle(&c->scene, candidate, candidate->closed[q].feature);
             contact_set_add_impulse(c, on - c->scene.model->obstacles.list, candidate->closed[q].stop, f.normal);
         }
@@ -194,7 +194,7 @@ static void settle_velocities(contact_set *c, contact_instant *now)
     for (dem_index p = 0; p < c->n_involved; p++) {
         const dem_index k = c->involved[p], group = r->group[k];
         if (group < 0 || contact_forces_first(r, group) != k) continue;
-        c->ledger.impact += contact_set_stop(c, group, now->x, now->v);
+        c->ledger.impact += contact_set_stop(c, group, now);
         for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
             contact_candidate *candidate = &c->list[m];
             for (int q = 0; q < candidate->n_closed; q++)

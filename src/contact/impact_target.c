@@ -81,7 +81,7 @@ dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_in
     dem_index best = -1;
     for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
         const dem_index e = contact_set_of_edge(c, s->at[p]);
-        const candidate_positions spot = candidate_place(&c->list[e], now->x);
+        const candidate_positions spot = candidate_place(&c->list[e], now->t, now->x);
         const contact_gap gap = candidate_gap(&c->scene, &c->list[e], &spot);
         if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
         const obstacle_vertex *v = &c->scene.model->obstacles.vertices[gap.feature];

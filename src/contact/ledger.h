@@ -25,6 +25,11 @@ typedef struct contact_instant {
     dem_status told; /* the first status other than DEM_OK that the listener returned */
 } contact_instant;
 
+static inline scene_state instant_state(const contact_instant *now)
+{
+    return (scene_state){now->t, now->x, now->v};
+}
+
 dem_status ledger_create(contact_ledger *out, dem_index n_obstacles);
 void ledger_destroy(contact_ledger *b);
 

@@ -272,7 +272,7 @@ static dem_status renew_books(event_queue *q)
     double *a = q->changed.f1 + state_velocities(l);
     for (dem_index row = first; row <= last; row++) TRY(changed_motion_keep(&q->changed, row));
     for (dem_index k = state_row(l, first); k <= state_total_index(l, STATE_FRICTION); k++) a[k] = 0.0;
-    automaton_add_rates(q->automaton, q->changed.y1, a);
+    automaton_add_rates(q->automaton, q->step->t1, q->changed.y1, a);
     return DEM_OK;
 }
 
@@ -294,7 +294,7 @@ static dem_status renew_end(event_queue *q)
     const triangles *t = &c->scene.model->triangles;
     const double *y1 = q->changed.y1;
     for (dem_index g = 0; g < c->forces.n_groups; g++)
-        contact_forces_solve(&c->forces, c->forces.groups[g], y1, y1 + state_velocities(scene_layout(&c->scene)));
+        contact_forces_solve(&c->forces, c->forces.groups[g], scene_state_at(&c->scene, q->step->t1, y1));
     for (dem_index e = 0, n = q->changed.n; e < n; e++) {
         const dem_index i = q->changed.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;

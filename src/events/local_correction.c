@@ -148,11 +148,10 @@ static vec2 node_powers(const local_correction *p, dem_index j, const double *x,
 }
 
 /* Adds the rates of the books that come from the patch, in a state whose contact forces are known. */
-static dem_status add_rates(local_correction *p, int stage, double sign, const double *y)
+static dem_status add_rates(local_correction *p, int stage, double sign, scene_state state)
 {
     const contact_set *c = p->near.set;
     const contact_forces *r = &c->forces;
-    const double *v = y + state_velocities(scene_layout(&c->scene));
     const state_layout *l = scene_layout(&c->scene);
     const int rings = reach(p, stage);
     vec2 totals[2] = {{0.0, 0.0}, {0.0, 0.0}};
@@ -160,7 +159,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, const d
         if (p->near.groups[g].ring > rings) continue;
         for (dem_index m = contact_forces_first(r, p->near.groups[g].group); m >= 0; m = r->next[m])
             for (int q = 0; q < c->list[m].n_closed; q++) {
-                const contact_contribution of = contact_set_contribution(c, m, q, y, v);
+                const contact_contribution of = contact_set_contribution(c, m, q, state);
                 TRY(add_rate(p, state_impulse(l, of.obstacle), stage, sign, of.force));
                 TRY(add_rate(p, state_friction_impulse(l, of.obstacle), stage, sign, of.friction));
                 totals[0].x += of.power;
@@ -168,7 +167,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, const d
     }
     if (has_powers(p))
         for (dem_index j = 0; j < p->near.end[rings]; j++) {
-            const vec2 powers = node_powers(p, j, y, v);
+            const vec2 powers = node_powers(p, j, state.x, state.v);
             totals[0].y += powers.x;
             totals[1].x += powers.y;
         }
@@ -211,13 +210,13 @@ static bool needs_state(const local_correction *p)
 
 static dem_status open_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
-    const neighbourhood_state s = {p->x[stage], p->v[stage], y};
+    const neighbourhood_state s = {stage_time(p, step, stage), p->x[stage], p->v[stage], y};
     const dem_index n = p->near.end[reach(p, stage) + 1];
     fetch_stage(p, stage, n);
     if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
     put_time(p, step, stage, y);
     neighbourhood_accelerate(&p->near, reach(p, stage), &s, p->a[stage]);
-    return add_rates(p, stage, -1.0, y);
+    return add_rates(p, stage, -1.0, scene_state_at(&p->near.set->scene, s.t, y));
 }
 
 /* At the end of the step that is known. */
@@ -230,14 +229,15 @@ static dem_status open_end(local_correction *p, const dense_output *step)
         vec2_put(p->a[p->last], j, vec2_at(step->f1, step->n_nodes + i));
     }
     neighbourhood_push(&p->near, reach(p, END), step->y1[4 * step->n_nodes - 1], p->x[p->last], p->v[p->last]);
-    TRY(add_rates(p, END, -1.0, step->y1));
-    return add_rates(p, p->last, -1.0, step->y1);
+    const scene_state state = scene_state_at(&p->near.set->scene, step->t1, step->y1);
+    TRY(add_rates(p, END, -1.0, state));
+    return add_rates(p, p->last, -1.0, state);
 }
 
 /* The state at the event. What it is due by has the bits that it was found with. */
 static void open_start(local_correction *p, const dense_output *step, double *y)
 {
-    const neighbourhood_state s = {p->x[0], p->v[0], y};
+    const neighbourhood_state s = {p->t, p->x[0], p->v[0], y};
     fetch_stage(p, 0, p->near.n);
     for (dem_index j = 0; j < p->near.end[1]; j++) {
         vec2_put(p->x[0], j, dense_output_position(step, p->t, p->near.nodes[j].i));
@@ -308,7 +308,7 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
 {
     const int at = stage == END ? p->last : stage, rings = reach(p, stage);
     const dem_index n = p->near.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
-    const neighbourhood_state s = {p->changed[0], p->changed[1], y};
+    const neighbourhood_state s = {stage_time(p, step, at), p->changed[0], p->changed[1], y};
     add_change(p->x[at], p->dx[stage], n, n_changed, p->changed[0]);
     add_change(p->v[at], p->dv[stage], n, n_changed, p->changed[1]);
     if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
@@ -318,7 +318,7 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
         p->da[stage][k] = k < 2 * p->near.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
     for (dem_index k = 0; k < 2 * n_moving(p) && p->rule.held != NULL; k++)
         if (p->rule.held[p->near.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
-    return add_rates(p, stage, 1.0, y);
+    return add_rates(p, stage, 1.0, scene_state_at(&p->near.set->scene, s.t, y));
 }
 
 static motion_change jump_at(const local_correction *p, int stage, dem_index j)

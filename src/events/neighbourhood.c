@@ -251,7 +251,8 @@ void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_s
             a, j,
             vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(load->external->value, j)));
     for (dem_index g = 0; g < b->n_groups; g++)
-        if (b->groups[g].ring <= rings) contact_forces_solve(&b->set->forces, b->groups[g].group, s->y, v);
+        if (b->groups[g].ring <= rings)
+            contact_forces_solve(&b->set->forces, b->groups[g].group, (scene_state){s->t, s->y, v});
     for (dem_index j = 0; j < b->end[rings] && b->n_groups > 0; j++)
         if (b->nodes[j].grouped) vec2_put(a, j, vec2_at(b->set->forces.a, b->nodes[j].i));
 }

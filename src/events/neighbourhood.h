@@ -59,6 +59,7 @@ static inline bool neighbourhood_has(const neighbourhood *b, dem_index node, int
 
 /** A state of the nodes: [n][2] by their numbers here. */
 typedef struct neighbourhood_state {
+    double t; /* s */
     const double *x, *v;
     double *y; /* [4 n_nodes] the same in a state of all nodes, as far as was put there */
 } neighbourhood_state;

@@ -233,5 +233,5 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
     s->path = (dense_output){0};
     TRY(integrator_renew(&s->integrator, &(integrator_start){n.t, n.next_step, y, c->ledger.counts}));
     s->y = integrator_state(&s->integrator);
-    return automaton_restore(&s->automaton, s->y);
+    return automaton_restore(&s->automaton, s->t, s->y);
 }

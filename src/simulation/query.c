@@ -38,7 +38,7 @@ static const double *seen_of(const dem_simulation *s)
 static dem_index contacts_of(const dem_simulation *s)
 {
     run_measures *m = s->measures;
-    if (!m->has_contacts) m->n_contacts = automaton_list(&s->automaton, seen_of(s), s->contacts);
+    if (!m->has_contacts) m->n_contacts = automaton_list(&s->automaton, s->seen_t, seen_of(s), s->contacts);
     m->has_contacts = true;
     return m->n_contacts;
 }

@@ -17,12 +17,12 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
 }
 
 /* Rates of the quadratures, behind the accelerations of the nodes. */
-static void fill_rates(dem_simulation *s, const double *y, double *a, double work)
+static void fill_rates(dem_simulation *s, double t, const double *y, double *a, double work)
 {
     const state_layout *l = &s->layout;
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
-    automaton_add_rates(&s->automaton, y, a);
+    automaton_add_rates(&s->automaton, t, y, a);
     if (s->damped)
         a[state_total_index(l, STATE_DAMPING)] =
             diagnostics_damping_power(s->model, &s->automaton.set.scene.rule.load, y, v);
@@ -40,9 +40,9 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
     const double sum = kernel_accelerate(&s->kernel, &s->automaton.set.scene.rule.load, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
-    automaton_constrain(&s->automaton, y, a);
+    automaton_constrain(&s->automaton, t, y, a);
     const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
-    fill_rates(s, y, a, s->external != NULL ? work + external_force_power(s->external, v) : work);
+    fill_rates(s, t, y, a, s->external != NULL ? work + external_force_power(s->external, v) : work);
     if (external_force_failed(s->external)) return 2;
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, a);
@@ -60,8 +60,8 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
     if (!kernel_can_fuse(&s->kernel, load) || s->automaton.set.forces.n_groups > 0) return -1;
     const double sum = kernel_accelerate(&s->kernel, load, &y);
-    automaton_constrain(&s->automaton, y.x, y.a);
-    fill_rates(s, y.x, y.a, 0.0);
+    automaton_constrain(&s->automaton, step->t1, y.x, y.a);
+    fill_rates(s, step->t1, y.x, y.a, 0.0);
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, step->t1, y.x, y.a);
     return 1;

@@ -53,7 +53,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     dem_simulation_state(s, &seen); /* with contacts and books of that time */
     TRY(check(s, "place", x, seen.x));
     TRY(check(s, "velocity", v, seen.v));
-    if (x != NULL) TRY(automaton_check_start(&s->automaton, x));
+    if (x != NULL) TRY(automaton_check_start(&s->automaton, s->seen_t, x));
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
     put(s, x, v, s->frame);
     s->events += s->in_hand ? s->queue.n_stops : 0;

@@ -59,7 +59,7 @@ static dem_status set_up(dem_simulation *s)
     const contact_rule rule = rule_of(s);
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(automaton_create(&s->automaton, model, &rule));
-    TRY(automaton_check_start(&s->automaton, s->y));
+    TRY(automaton_check_start(&s->automaton, 0.0, s->y));
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
     const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};

@@ -10,9 +10,9 @@ static void touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_
     open_scene(&s, 2, &half, 1);
     scene_put(&s, 0, 0.5, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 1.5, -penetration_tolerance, 0.0, 0.0);
-    assert_ok(automaton_check_start(&s.c, s.y));
+    assert_ok(automaton_check_start(&s.c, 0.0, s.y));
     scene_put(&s, 1, 1.5, -0.25, 0.0, 0.0);
-    assert_int_equal(automaton_check_start(&s.c, s.y), DEM_ERROR_MODEL);
+    assert_int_equal(automaton_check_start(&s.c, 0.0, s.y), DEM_ERROR_MODEL);
     assert_string_equal(
         dem_status_message(),
         "node 1 at (1.5, -0.25) m starts 0.25 m inside obstacle 0, deeper than the penetration tolerance of 1e-06 m");
@@ -34,7 +34,7 @@ static void at_the_start_touching_is_enough_for_a_contact(void **state)
     scene_check(&s, 0, 0.0, 0.0, 3.0, 0.0);
     scene_check(&s, 1, 1.0, 0.0, 0.0, 1.0);
     scene_check(&s, 2, 2.0, 1e-9, 0.0, -2.0);
-    assert_int_equal(automaton_list(&s.c, s.y, list), 1);
+    assert_int_equal(automaton_list(&s.c, 0.0, s.y, list), 1);
     assert_int_equal(list[0].nodes[0], 0);
     assert_int_equal(list[0].state, DEM_CONTACT_SLIP);
     assert_close(list[0].force, 2.0 * g, 0.0);
@@ -100,7 +100,7 @@ static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void
     scene_check(&s, 0, 0.25, 0.0, 3.0, 0.0);
     assert_int_not_equal(s.impacts[0].state, DEM_CONTACT_FREE);
     assert_int_equal(s.c.set.ledger.counts.closings, 1);
-    assert_int_equal(automaton_list(&s.c, s.y, list), 1);
+    assert_int_equal(automaton_list(&s.c, 0.0, s.y, list), 1);
     assert_int_equal(list[0].n_nodes, 1);
     assert_int_equal(list[0].obstacle, 0);
     assert_int_equal(list[0].segment, 0);
@@ -254,7 +254,7 @@ static void closed_contacts_hold_the_acceleration_along_their_normals(void **sta
     scene_put(&s, 2, 0.0, 0.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
     double a[6] = {1.0, -g, 1.0, -g, 1.0, -g};
-    automaton_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, 0.0, s.y, a);
     const double expected[6] = {1.0, -g, 0.5 * (1.0 - g), 0.5 * (1.0 - g), 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(a[k], expected[k], 1e-14);
     assert_int_equal(s.c.set.list[2].n_closed, 2);
@@ -274,7 +274,7 @@ static void contacts_are_listed_in_the_order_of_nodes(void **state)
     scene_put(&s, 1, 0.5, 3.0, 0.0, 0.0);
     scene_put(&s, 2, -1.0, 1.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
-    assert_int_equal(automaton_list(&s.c, s.y, list), 3);
+    assert_int_equal(automaton_list(&s.c, 0.0, s.y, list), 3);
     assert_int_equal(list[0].nodes[0], 0);
     assert_int_equal(list[1].nodes[0], 0);
     assert_int_equal(list[0].segment + list[1].segment, 1);
@@ -361,7 +361,7 @@ static void forces_and_friction_power_are_told_as_rates(void **state)
         rub(&s, u[k]);
         if (k == 2)
             scene_put(&s, 0, 0.5, 0.0, 1e-3, 0.0); /* what sticks takes nothing, whatever is left of its speed */
-        automaton_constrain(&s.c, s.y, a);
+        automaton_constrain(&s.c, 0.0, s.y, a);
         scene_add_rates(&s, rate);
         const double expected[6] = {T[k], 20.0, T[k], 0.0, fabs(10.0 * u[k]), 0.0};
         for (int q = 0; q < 6; q++) assert_close(rate[q] - 100.0, expected[q], 1e-13);
@@ -376,10 +376,10 @@ static void an_edge_may_touch_a_vertex_but_not_start_with_it_inside(void **state
     scene s;
     (void)state;
     open_side(&s, &roof, 0.25, -0.9 * penetration_tolerance, 0.0);
-    assert_ok(automaton_check_start(&s.c, s.y));
+    assert_ok(automaton_check_start(&s.c, 0.0, s.y));
     scene_close(&s);
     open_side(&s, &roof, 0.25, -0.125, 0.0);
-    assert_int_equal(automaton_check_start(&s.c, s.y), DEM_ERROR_MODEL);
+    assert_int_equal(automaton_check_start(&s.c, 0.0, s.y), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 starts 0.125 m inside the body, "
                                               "deeper than the penetration tolerance of 1e-06 m");
     scene_close(&s);

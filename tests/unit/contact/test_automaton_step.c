@@ -20,7 +20,7 @@ static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
     automaton_end_step(&s.c, &f.path, s.y);
     assert_close(s.c.set.list[0].closed[0].force, 1.0, 1e-13);
-    automaton_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, 0.0, s.y, a);
     scene_add_rates(&s, rate);
     const double expected[6] = {0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(rate[k], expected[k], 1e-13);

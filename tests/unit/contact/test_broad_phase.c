@@ -22,7 +22,7 @@ static void open_nodes(scene *s, dem_index n, const double *x)
 static void look(scene *s, double speed)
 {
     double v[8] = {speed};
-    broad_phase_update(&s->c.broad_phase, &s->c.set, s->y, v);
+    broad_phase_update(&s->c.broad_phase, &s->c.set, (scene_state){0.0, s->y, v});
     assert_close(s->c.broad_phase.speed, speed, 0.0);
 }
 

@@ -64,7 +64,7 @@ static void check_guards(const contact_scene *world, const contact_candidate *ca
                          const double expected[CANDIDATE_ROOTS])
 {
     double guards[CANDIDATE_ROOTS] = {77.0, 77.0, 77.0, 77.0};
-    candidate_root_functions(world, candidate, s->force, s->x, s->v, guards);
+    candidate_root_functions(world, candidate, s->force, (scene_state){0.0, s->x, s->v}, guards);
     for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-13);
 }
 
@@ -192,7 +192,7 @@ static double grip(const contact_scene *world, const contact_candidate *candidat
 {
     const contact_force force = {20.0, -4.0};
     const double x[2] = {1.0, 0.0}, v[2] = {0.0, 0.0};
-    const contact_frame f = contact_frame_at(world, candidate, 0, x, v);
+    const contact_frame f = contact_frame_at(world, candidate, 0, (scene_state){0.0, x, v});
     return candidate_grip(world, candidate, 0, &f, &force, x);
 }
 
@@ -213,7 +213,7 @@ static bool turns(const contact_scene *world, int sign, double speed)
 {
     const contact_candidate candidate = closed_site(0, sign);
     const double x[2] = {1.0, 0.0}, v[2] = {speed, 0.0};
-    const contact_frame f = contact_frame_at(world, &candidate, 0, x, v);
+    const contact_frame f = contact_frame_at(world, &candidate, 0, (scene_state){0.0, x, v});
     return candidate_turns(world, &candidate, 0, &f, v);
 }
 
@@ -239,7 +239,7 @@ static int end_passed(const contact_scene *world, double x, double vx)
 {
     const contact_candidate candidate = closed_site(0, 1);
     const double at[2] = {x, 0.0}, v[2] = {vx, 0.0};
-    return candidate_end_passed(world, &candidate, 0, at, v);
+    return candidate_end_passed(world, &candidate, 0, (scene_state){0.0, at, v});
 }
 
 static void an_end_is_passed_by_the_penetration_tolerance_heading_out(void **state)
@@ -281,14 +281,14 @@ static void what_sticks_passes_no_end(void **state)
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate sticks = closed_site(0, 0), slides = closed_site(0, 1);
-    assert_int_equal(candidate_end_passed(world, &sticks, 0, at, v), 0);
-    assert_int_equal(candidate_end_passed(world, &slides, 0, at, v), 1);
+    assert_int_equal(candidate_end_passed(world, &sticks, 0, (scene_state){0.0, at, v}), 0);
+    assert_int_equal(candidate_end_passed(world, &slides, 0, (scene_state){0.0, at, v}), 1);
     scene_close(&s);
 }
 
 static bool due(const contact_scene *world, const contact_candidate *candidate, const node_state *s)
 {
-    return candidate_due(world, candidate, s->force, s->x, s->v);
+    return candidate_due(world, candidate, s->force, (scene_state){0.0, s->x, s->v});
 }
 
 static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
@@ -377,7 +377,7 @@ static void check_edge(scene *s, const contact_candidate *edge, const double exp
 {
     const contact_force force[2] = {{20.0, -4.0}, {8.0, 6.0}};
     double guards[CANDIDATE_ROOTS];
-    candidate_root_functions(&s->c.set.scene, edge, force, s->y, scene_v(s), guards);
+    candidate_root_functions(&s->c.set.scene, edge, force, (scene_state){0.0, s->y, scene_v(s)}, guards);
     for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-13);
 }
 
@@ -424,7 +424,7 @@ static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
     scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
-    const candidate_positions spot = candidate_place(edge, s.y);
+    const candidate_positions spot = candidate_place(edge, 0.0, s.y);
     const contact_gap gap = candidate_gap(&s.c.set.scene, edge, &spot);
     assert_close(gap.distance, 0.8 * (-0.625 + 0.75 * 1.5), 1e-15);
     assert_close(gap.place, (0.8 * 1.5 + 0.6 * 0.625) / 2.0, 1e-15);
@@ -491,12 +491,14 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
     for (int k = 0; k < 6; k++) {
         move_all(&s, x[k], 0.0, u[k]);
-        assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, s.y, scene_v(&s)), passed[k]);
+        assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, (scene_state){0.0, s.y, scene_v(&s)}),
+                         passed[k]);
     }
     s.c.set.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
     for (int k = 0; k < 2; k++) {
         move_all(&s, k == 0 ? 1.01 * penetration_tolerance : -2.0 - 1.01 * penetration_tolerance, 0.0, 0.0);
-        assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, s.y, scene_v(&s)), k == 0 ? -1 : 0);
+        assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, (scene_state){0.0, s.y, scene_v(&s)}),
+                         k == 0 ? -1 : 0);
     }
     scene_close(&s);
 }
@@ -570,14 +572,14 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
         const contact_scene *world = &s.c.set.scene;
         const contact_candidate candidate = free_site();
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
-        const candidate_positions here = candidate_place(&candidate, x);
+        const candidate_positions here = candidate_place(&candidate, 0.0, x);
         const double clear = candidate_clearance(world, &candidate, &here, &nearest) - 10.0 * penetration_tolerance;
         assert_int_equal(nearest,
                          obstacles_gap(&world->model->obstacles, here.a, 10.0 * penetration_tolerance, -1, -1).segment);
         for (int q = 0; q < 50; q++) {
             const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
             const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};
-            const candidate_positions there = {to, to, to, to};
+            const candidate_positions there = {0.0, to, to, to, to};
             assert_true(candidate_gap(world, &candidate, &there).distance >= clear - way - 1e-15 || clear < way);
             inside += way < clear;
         }
@@ -600,13 +602,13 @@ static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
         const contact_candidate edge = s.c.set.list[scene_edge(&s, 0, 1)];
         const double x = uniform(&seed, -2.5, 2.0), y = uniform(&seed, 0.2, 0.6), length = uniform(&seed, 0.2, 1.0);
         const double at[6] = {x, y, x + length, y + 0.2 * length * uniform(&seed, -1.0, 1.0), x, y + 0.7};
-        const candidate_positions here = candidate_place(&edge, at);
+        const candidate_positions here = candidate_place(&edge, 0.0, at);
         const double clear = candidate_clearance(world, &edge, &here, &nearest);
         for (int q = 0; q < 50; q++) {
             double to[6], way = 0.0;
             for (int c = 0; c < 6; c++) to[c] = at[c] + 0.2 * length * uniform(&seed, -1.0, 1.0);
             for (int i = 0; i < 2; i++) way = fmax(way, vec2_norm(vec2_sub(vec2_at(to, i), vec2_at(at, i))));
-            const candidate_positions there = candidate_place(&edge, to);
+            const candidate_positions there = candidate_place(&edge, 0.0, to);
             assert_true(candidate_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
             inside += way < clear;
         }
@@ -625,7 +627,7 @@ static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(v
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 4; k++) {
         move_all(&s, -1.5, y[k], 0.0);
-        const candidate_positions spot = candidate_place(edge, s.y);
+        const candidate_positions spot = candidate_place(edge, 0.0, s.y);
         assert_close(candidate_clearance(&s.c.set.scene, edge, &spot, &nearest), clear[k], 1e-14);
     }
     scene_close(&s);
@@ -637,7 +639,7 @@ static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
     scene s;
     (void)state;
     const contact_candidate *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
-    const candidate_positions spot = candidate_place(edge, s.y);
+    const candidate_positions spot = candidate_place(edge, 0.0, s.y);
     assert_int_equal(candidate_gap(&s.c.set.scene, edge, &spot).feature, -1);
     assert_true(candidate_around(&s.c.set.scene, edge, &spot, 0.5).feature >= 0);
     assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.29).feature >= 0);

@@ -161,14 +161,14 @@ static void a_sticking_node_does_not_move_in_any_wind_it_withstands(void **state
     double a[2] = {0.3 * g, -g};
     (void)state;
     rub(&s, 0.0);
-    automaton_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, 0.0, s.y, a);
     assert_close(a[0], 0.0, 0.0);
     assert_close(a[1], 0.0, 0.0);
     scene_close(&s);
     a[0] = 0.3 * g;
     a[1] = -g;
     rub(&s, 1.0);
-    automaton_constrain(&s.c, s.y, a);
+    automaton_constrain(&s.c, 0.0, s.y, a);
     assert_close(a[0], 0.3 * g - 0.5 * g, 1e-14);
     assert_close(a[1], 0.0, 0.0);
     scene_close(&s);

@@ -196,7 +196,7 @@ static void a_node_on_an_incline_slides_or_sticks(void **state)
         bench_mass(&b, 0, 2.0);
         bench_touch(&b, 0, 1, M_PI / 3.0, sign); /* falls to the right; the tangent points down the slope */
         regroup(&b, &r);
-        contact_forces_hold(&r, b.x, b.v, a);
+        contact_forces_hold(&r, (scene_state){0.0, b.x, b.v}, a);
         const double friction = sign == 0 ? -along : -sign * 0.3 * normal;
         const double left = sign == 0 ? 0.0 : (along + friction) / 2.0;
         /* rounding of forces of order 10 */
@@ -218,7 +218,7 @@ static void a_corner_holds_its_node_with_two_normal_forces(void **state)
     bench_mass(&b, 0, 3.0);
     bench_corner(&b, 0, 0.25 * M_PI, 0.75 * M_PI);
     regroup(&b, &r);
-    contact_forces_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, (scene_state){0.0, b.x, b.v}, a);
     /* rounding of forces of order 30 */
     assert_close(r.force[0][0].normal, 3.0 * 8.0 / sqrt(2.0), 1e-14);
     assert_close(r.force[0][1].normal, 3.0 * 12.0 / sqrt(2.0), 1e-14);
@@ -241,7 +241,7 @@ static void an_edge_balances_on_a_vertex(void **state)
     bench_mass(&b, 1, 4.0);
     bench_touch(&b, 2, 1, 0.25, 1);
     regroup(&b, &r);
-    contact_forces_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, (scene_state){0.0, b.x, b.v}, a);
     /* rounding of forces of order 10 */
     assert_close(r.force[2][0].normal, force, 1e-14);
     assert_close(r.force[2][0].tangent, -0.3 * force, 1e-14);
@@ -264,7 +264,7 @@ static void a_sticking_edge_that_has_drifted_is_accelerated_back(void **state)
     contact_point *point = bench_touch(&b, 2, 0, 0.5, 0);
     b.vertices[point->feature].at = (vec2){0.52, -0.01};
     regroup(&b, &r);
-    contact_forces_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, (scene_state){0.0, b.x, b.v}, a);
     /* rounding of accelerations of order 10; 2 kg move with P, at (4, -4) m/s^2 without the force */
     check_vector(vec2_scale(0.5, vec2_add(vec2_at(a, 0), vec2_at(a, 1))), 0.12, -0.61, 1e-14);
     assert_close(r.force[2][0].normal, 2.0 * (-0.61 + 4.0), 1e-14);
@@ -286,7 +286,7 @@ static void a_contact_that_the_others_hold_already_gets_no_force(void **state)
     bench_touch(&b, 1, 0, 0.5 * M_PI, 1);
     bench_touch(&b, 2, 0, 0.75, 1);
     regroup(&b, &r);
-    contact_forces_hold(&r, b.x, b.v, a);
+    contact_forces_hold(&r, (scene_state){0.0, b.x, b.v}, a);
     /* rounding of forces of order 40 over the place of the vertex */
     assert_close(r.force[1][0].normal, 0.0, 0.0);
     assert_close(r.force[2][0].normal, 30.0 / 0.75, 1e-13);
@@ -519,7 +519,7 @@ static void forces_and_accelerations_agree_with_a_dense_solution(void **state)
         if (!mix_solve(&w, solution)) continue;
         const dem_index n_a = 2 * w.b.model.lattice.n_nodes;
         regroup(&w.b, &r);
-        contact_forces_hold(&r, w.b.x, w.b.v, w.a);
+        contact_forces_hold(&r, (scene_state){0.0, w.b.x, w.b.v}, w.a);
         for (dem_index i = 0; i < n_a; i++) assert_close(w.a[i], solution[i], dense_tolerance);
         check_forces(&w, &r, solution + n_a);
         tally(&w, kinds);
@@ -550,7 +550,8 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
         }
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);
-        for (dem_index g = 0; g < r.n_groups; g++) contact_forces_solve(&r, r.groups[g], w.b.x, w.b.v);
+        for (dem_index g = 0; g < r.n_groups; g++)
+            contact_forces_solve(&r, r.groups[g], (scene_state){0.0, w.b.x, w.b.v});
         check_forces(&w, &r, solution + 2 * w.b.model.lattice.n_nodes);
         n_solved++;
         contact_forces_destroy(&r);
@@ -570,7 +571,7 @@ static void what_is_held_has_the_acceleration_asked_for(void **state)
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);
-        contact_forces_hold(&r, w.b.x, w.b.v, w.a);
+        contact_forces_hold(&r, (scene_state){0.0, w.b.x, w.b.v}, w.a);
         for (int c = 0; c < w.n_links; c++) {
             const link *l = &w.list[c];
             assert_close(part_of(l, w.a, l->normal), l->keep, dense_tolerance);
@@ -617,8 +618,8 @@ static void the_order_in_which_sites_are_listed_does_not_matter(void **state)
         regroup(&w.b, &r);
         regroup(&other, &q);
         assert_int_equal(q.n_groups, r.n_groups);
-        contact_forces_hold(&r, w.b.x, w.b.v, w.a);
-        contact_forces_hold(&q, w.b.x, w.b.v, a);
+        contact_forces_hold(&r, (scene_state){0.0, w.b.x, w.b.v}, w.a);
+        contact_forces_hold(&q, (scene_state){0.0, w.b.x, w.b.v}, a);
         for (dem_index i = 0; i < 2 * w.b.model.lattice.n_nodes; i++) assert_close(a[i], w.a[i], dense_tolerance);
         for (int c = 0; c < w.n_links; c++) {
             const contact_force f = r.force[w.list[c].candidate][w.list[c].q],
@@ -640,7 +641,7 @@ static const double stop_tolerance = 1e-9;
 static void stop_all(mix *w, contact_forces *r, double *v)
 {
     memcpy(v, w->b.v, sizeof w->b.v);
-    for (dem_index g = 0; g < r->n_groups; g++) contact_forces_stop(r, r->groups[g], w->b.x, v);
+    for (dem_index g = 0; g < r->n_groups; g++) contact_forces_stop(r, r->groups[g], (scene_state){0.0, w->b.x, v}, v);
 }
 
 /* Also where contacts are redundant: rest is always allowed. */
@@ -708,7 +709,7 @@ static void impulses_account_for_the_momentum_of_every_node(void **state)
         contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
-        contact_forces_hold(&r, w.b.x, w.b.v, w.a); /* forces are not taken for impulses */
+        contact_forces_hold(&r, (scene_state){0.0, w.b.x, w.b.v}, w.a); /* forces are not taken for impulses */
         stop_all(&w, &r, v);
         for (int c = 0; c < w.n_links; c++) {
             const link *l = &w.list[c];
@@ -746,11 +747,11 @@ static void stopping_one_group_leaves_the_others_alone(void **state)
     bench_touch(&b, 3, 0, 0.5 * M_PI, 1);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 2);
-    contact_forces_stop(&r, r.groups[0], b.x, v);
+    contact_forces_stop(&r, r.groups[0], (scene_state){0.0, b.x, v}, v);
     /* an edge that turns about its middle has nothing left */
     for (int i = 0; i < 4; i++) assert_close(v[i], 0.0, 1e-15); /* rounding of velocities of order 1 */
     assert_memory_equal(v + 4, b.v + 4, 4 * sizeof *v);
-    contact_forces_stop(&r, r.groups[1], b.x, v);
+    contact_forces_stop(&r, r.groups[1], (scene_state){0.0, b.x, v}, v);
     check_vector(vec2_at(v, 2), 0.3, -1.0, 0.0);
     check_vector(vec2_at(v, 3), 0.3, 0.0, 1e-16); /* the cosine of pi/2 */
     contact_forces_destroy(&r);
@@ -770,12 +771,12 @@ static void a_shift_closes_the_gap_with_the_light_node_moving_more(void **state)
     contact_point *point = bench_touch(&b, 2, 1, 0.5, 1);
     b.vertices[point->feature].at.y = -0.1;
     regroup(&b, &r);
-    const double *shift = contact_forces_shift(&r, r.groups[0], b.x, b.v);
+    const double *shift = contact_forces_shift(&r, r.groups[0], (scene_state){0.0, b.x, b.v});
     /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 0), 0.0, -0.15, 1e-16);
     check_vector(vec2_at(shift, 1), 0.0, -0.05, 1e-16);
     b.inverse_mass[0] = 0.0;
-    shift = contact_forces_shift(&r, r.groups[0], b.x, b.v);
+    shift = contact_forces_shift(&r, r.groups[0], (scene_state){0.0, b.x, b.v});
     check_vector(vec2_at(shift, 0), 0.0, 0.0, 0.0);
     check_vector(vec2_at(shift, 1), 0.0, -0.2, 1e-16);
     contact_forces_destroy(&r);
@@ -794,7 +795,7 @@ static void a_shift_lets_what_sticks_slide(void **state)
     contact_point *point = bench_touch(&b, 2, 1, 0.5, 0);
     b.vertices[point->feature].at.x = 0.2;
     regroup(&b, &r);
-    const double *shift = contact_forces_shift(&r, r.groups[0], b.x, b.v);
+    const double *shift = contact_forces_shift(&r, r.groups[0], (scene_state){0.0, b.x, b.v});
     check_vector(vec2_at(shift, 0), 0.2, 0.0, 1e-16); /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 1), 0.2, 0.0, 1e-16);
     contact_forces_destroy(&r);
@@ -818,7 +819,7 @@ static double left_after_shift(const mix *w, double size)
     regroup(&b, &r);
     memcpy(x, b.x, sizeof x);
     for (dem_index g = 0; g < r.n_groups; g++) {
-        const double *shift = contact_forces_shift(&r, r.groups[g], b.x, b.v);
+        const double *shift = contact_forces_shift(&r, r.groups[g], (scene_state){0.0, b.x, b.v});
         for (dem_index k = contact_forces_first(&r, r.groups[g]); k >= 0; k = r.next[k]) {
             const contact_candidate *s = &b.candidates[k];
             vec2_put(x, s->node, vec2_add(vec2_at(b.x, s->node), vec2_at(shift, s->node)));
@@ -828,7 +829,8 @@ static double left_after_shift(const mix *w, double size)
     for (dem_index i = 0; i < 2 * w->b.model.lattice.n_nodes; i++) change = fmax(change, fabs(x[i] - b.x[i]));
     for (dem_index k = 0; k < b.n_candidates; k++)
         for (int q = 0; q < b.candidates[k].n_closed; q++)
-            largest = fmax(largest, fabs(contact_frame_at(&b.scene, &b.candidates[k], q, x, b.v).gap));
+            largest =
+                fmax(largest, fabs(contact_frame_at(&b.scene, &b.candidates[k], q, (scene_state){0.0, x, b.v}).gap));
     contact_forces_destroy(&r);
     gsl_rng_free(rng);
     return change > 0.0 ? largest / (change * change) : 0.0;

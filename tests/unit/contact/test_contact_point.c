@@ -23,7 +23,7 @@ static void the_frame_of_a_node_is_that_of_its_segment(void **state)
     b.segments[2] = (segment){.start = {1.0, 2.0}, .normal = {-0.6, 0.8}, .tangent = {0.8, 0.6}, .length = 5.0};
     vec2_put(b.x, 1, (vec2){1.0 + 1.6 - 0.3, 2.0 + 1.2 + 0.4}); /* 2 along, 0.5 up */
     vec2_put(b.v, 1, (vec2){3.0, -7.0});
-    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[1], 0, b.x, b.v);
+    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[1], 0, (scene_state){0.0, b.x, b.v});
     assert_int_equal(f.n, 1);
     assert_int_equal(f.node[0], 1);
     assert_close(f.weight[0], 1.0, 0.0);
@@ -55,7 +55,7 @@ static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void 
     const dem_index edge = bench_edge(&b, 0, 1);
     const dem_index feature = bench_touch(&b, edge, 0, 0.0, -1)->feature;
     b.vertices[feature].at = (vec2){0.75, 2.0};
-    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
     assert_int_equal(f.n, 2);
     assert_int_equal(f.node[0], 0);
     assert_int_equal(f.node[1], 1);
@@ -81,7 +81,7 @@ static void a_fixed_node_has_no_mobility(void **state)
     vec2_put(b.x, 1, (vec2){1.0, 0.0});
     const dem_index edge = bench_edge(&b, 0, 1);
     bench_touch(&b, edge, 0, 0.5, 1);
-    assert_close(contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v).mobility, 0.25, 0.0);
+    assert_close(contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v}).mobility, 0.25, 0.0);
 }
 
 /* The edge lies on the x axis, the vertex 0.02 m ahead of where it sticks and 0.01 m below; beta = 1/s for steps of
@@ -97,15 +97,15 @@ static void a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps(voi
     const dem_index edge = bench_edge(&b, 0, 1);
     contact_point *point = bench_touch(&b, edge, 0, 0.5, 0);
     b.vertices[point->feature].at = (vec2){0.52, -0.01};
-    contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+    contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
     assert_close(f.keep[0], -(2.0 * 0.3 + 0.01), 1e-15); /* rounding of terms of order 1 */
     assert_close(f.keep[1], -(2.0 * -0.05 - 0.02), 1e-15);
     point->slide = 1;
-    f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+    f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
     assert_close(f.keep[0], -(2.0 * 0.3 + 0.01), 1e-15); /* it does not turn */
     vec2_put(b.v, 0, (vec2){-0.05, 0.3 - 0.52});         /* by 1 rad/s now, about a point that moves as before */
     vec2_put(b.v, 1, (vec2){-0.05, 0.3 + 0.48});
-    f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+    f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
     assert_close(f.turning, -0.1, 1e-15);
     assert_close(f.keep[0], -0.1 - (2.0 * 0.3 + 0.01), 1e-15);
 }
@@ -188,7 +188,7 @@ static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void
         seen first, second;
         move_anyhow(rng, &m, &b, edge, gsl_rng_uniform(rng));
         b.candidates[edge].closed[0].slide = k % 2 == 0 ? 1 : -1; /* has no say in it */
-        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
         const vec2 at = b.vertices[b.candidates[edge].closed[0].feature].at;
         const vec2 a = vec2_along(vec2_scale(2.0 * f.weight[0], m.a[2]), 2.0 * f.weight[1], m.b[2]);
         differentiate(&m, at, &first, &second);
@@ -221,7 +221,7 @@ static void a_sticking_contact_asks_for_no_acceleration(void **state)
         move_anyhow(rng, &m, &b, edge, place);
         for (int q = 1; q < 4; q++) m.b[q] = vec2_scale(-(1.0 - place) / place, m.a[q]); /* P does not move */
         vec2_put(b.v, 1, m.b[1]);
-        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
         differentiate(&m, b.vertices[b.candidates[edge].closed[0].feature].at, &first, &second);
         /* P stays where it is, so there is rounding only */
         assert_close(first.height, 0.0, difference_tolerance);
@@ -250,7 +250,7 @@ static void a_sticking_contact_keeps_its_place(void **state)
         ode_problem m;
         move_anyhow(rng, &m, &b, edge, 0.375);
         b.vertices[b.candidates[edge].closed[0].feature].at = (vec2){any(rng), any(rng)};
-        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, b.x, b.v);
+        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
         const vec2 at = vec2_add(vec2_scale(0.625, m.a[0]), vec2_scale(0.375, m.b[0]));
         assert_close(f.place, 0.375, 0.0);
         assert_close(f.weight[0], 0.625, 0.0);
@@ -305,7 +305,7 @@ static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
     node->force = 7.0;
     node->friction = -3.0;
     b.segments[2].index = 40;
-    dem_contact c = contact_point_describe(&b.scene, &b.candidates[1], 0, b.x);
+    dem_contact c = contact_point_describe(&b.scene, &b.candidates[1], 0, 0.0, b.x);
     assert_int_equal(c.n_nodes, 1);
     assert_int_equal(c.nodes[0], 1);
     assert_int_equal(c.obstacle, 2);
@@ -317,10 +317,10 @@ static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
     assert_close(c.force, 7.0, 0.0);
     assert_close(c.friction, -3.0, 0.0);
     node->slide = 0;
-    assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, b.x).state, DEM_CONTACT_STICK);
+    assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, 0.0, b.x).state, DEM_CONTACT_STICK);
     node->slide = 1;
     node->held = true;
-    assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, b.x).state, DEM_CONTACT_STICK);
+    assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, 0.0, b.x).state, DEM_CONTACT_STICK);
 }
 
 static void the_second_contact_of_an_edge_tells_of_its_own_vertex(void **state)
@@ -333,7 +333,7 @@ static void the_second_contact_of_an_edge_tells_of_its_own_vertex(void **state)
     const dem_index edge = bench_edge(&b, 1, 2);
     bench_touch(&b, edge, 0, 0.5, 1);
     bench_touch(&b, edge, 1, 0.75, -1)->force = 9.0;
-    const dem_contact c = contact_point_describe(&b.scene, &b.candidates[edge], 1, b.x);
+    const dem_contact c = contact_point_describe(&b.scene, &b.candidates[edge], 1, 0.0, b.x);
     assert_int_equal(c.n_nodes, 2);
     assert_int_equal(c.nodes[0], 1);
     assert_int_equal(c.nodes[1], 2);

@@ -283,7 +283,7 @@ static void the_force_on_a_contact_is_elastic_and_weight(void **state)
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
     close_contact(&s, 0, 0, 1);
-    contact_set_solve_forces(&s.c.set, 0, s.y, scene_v(&s));
+    contact_set_solve_forces(&s.c.set, 0, (scene_state){0.0, s.y, scene_v(&s)});
     const contact_point *point = &s.c.set.list[0].closed[0];
     assert_close(point->force, 30.0 - 50.0, 1e-13);
     assert_close(point->friction, 0.0, 0.0);
@@ -304,7 +304,7 @@ static void a_sliding_edge_stores_force_and_friction(void **state)
         scene_put(&s, i, at.x + 1.0 - fraction, at.y, u, 0.0);
     }
     close_contact(&s, k, 1, -1);
-    contact_set_solve_forces(&s.c.set, k, s.y, scene_v(&s));
+    contact_set_solve_forces(&s.c.set, k, (scene_state){0.0, s.y, scene_v(&s)});
     const contact_point *point = &s.c.set.list[k].closed[0];
     assert_close(point->force, g / W, 1e-13);
     assert_close(point->friction, 0.5 * g / W, 1e-13);

@@ -258,8 +258,9 @@ static double first_due(scene *s, dem_index k, scene_flight *f)
     const double found = event_location_change(r, &s->c.set.list[k], &f->path, f->path.t0, f->scratch);
     for (int after = 0; after < 2; after++) { /* due there, and not a little before */
         dense_output_state(&f->path, found - (1 - after) * 4.0 * event_location_resolution(&f->path), y);
-        contact_forces_solve(r, r->group[k], y, v);
-        assert_int_equal(candidate_due(&s->c.set.scene, &s->c.set.list[k], r->force[k], y, v), after);
+        contact_forces_solve(r, r->group[k], (scene_state){0.0, y, v});
+        assert_int_equal(candidate_due(&s->c.set.scene, &s->c.set.list[k], r->force[k], (scene_state){0.0, y, v}),
+                         after);
     }
     return found;
 }

@@ -47,10 +47,10 @@ static void derive(const step *s, automaton *c, double t, const double *y, doubl
     double *a = f + n;
     memcpy(f, v, (size_t)n * sizeof *f);
     for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
-    automaton_constrain(c, y, a);
+    automaton_constrain(c, 0.0, y, a);
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
-    automaton_add_rates(c, y, a);
+    automaton_add_rates(c, 0.0, y, a);
     a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(s->model, load, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;

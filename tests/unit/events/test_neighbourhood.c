@@ -108,7 +108,7 @@ static void rings_are_distances(void **state)
 /* As far as two rings. Sums of forces of 1e3 N on 0.02 kg, in another order: 1e-16 times some ten of them. */
 static void check_accelerations(rig *r)
 {
-    const neighbourhood_state s = {r->x, r->v, calloc(4 * (size_t)r->n, sizeof(double))};
+    const neighbourhood_state s = {0.0, r->x, r->v, calloc(4 * (size_t)r->n, sizeof(double))};
     assert_non_null(s.y);
     for (dem_index j = 0; j < r->b.n; j++) {
         vec2_put(r->x, j, vec2_at(r->y, r->b.nodes[j].i));
@@ -120,7 +120,7 @@ static void check_accelerations(rig *r)
     assert_non_null(all);
     for (dem_index i = 0; i < r->n; i++)
         vec2_put(all, i, forces_acceleration(r->model, &r->c.set.scene.rule.load, i, r->y, r->y + 2 * r->n));
-    contact_forces_hold(&r->c.set.forces, r->y, r->y + 2 * r->n, all);
+    contact_forces_hold(&r->c.set.forces, (scene_state){0.0, r->y, r->y + 2 * r->n}, all);
     for (dem_index k = 0; k < 2 * r->b.end[2]; k++) assert_close(r->a[k], all[2 * r->b.nodes[k / 2].i + (k & 1)], 1e-9);
     free(all);
     free(s.y);
