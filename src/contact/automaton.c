@@ -92,14 +92,14 @@ dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y
 }
 
 /* Puts closed nodes back where rounding has taken them from. */
-static void straighten_nodes(contact_set *c, double *x)
+static void straighten_nodes(contact_set *c, double t, double *x)
 {
     for (dem_index k = 0; k < c->scene.model->n_contact_nodes; k++) {
         const contact_candidate *candidate = &c->list[k];
         for (int q = 0; q < candidate->n_closed; q++) {
-            const segment *s = scene_segment(&c->scene, candidate->closed[q].feature);
-            contact_set_move(c, candidate->node, vec2_scale(-segment_height(s, vec2_at(x, candidate->node)), s->normal),
-                             x);
+            const surface_line line = surface_line_at(&c->scene, candidate->closed[q].feature, t);
+            contact_set_move(c, candidate->node,
+                             vec2_scale(-surface_height(&line, vec2_at(x, candidate->node)), line.normal), x);
         }
     }
 }
@@ -111,7 +111,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     const dem_index impacts = s->ledger.counts.impacts;
     TRY(settle_until_done(c, -1, &now));
     if (s->scene.rule.window > 0.0 && s->ledger.counts.impacts > impacts) early_reflection(s, &now);
-    straighten_nodes(s, now.x);
+    straighten_nodes(s, t, now.x);
     contact_set_solve_all(s, instant_state(&now));
     contact_set_store_all(s);
     broad_phase_update(&c->broad_phase, s, instant_state(&now));
@@ -126,25 +126,27 @@ dem_status automaton_check_start(const automaton *c, double t, const double *x)
         const candidate_positions spot = candidate_place(&candidate, t, x);
         const contact_gap gap = candidate_gap(scene, &candidate, &spot);
         if (gap.distance >= -scene->rule.penetration_tolerance) continue;
-        const segment *s = scene_segment(scene, contact_point_segment(scene, &candidate, gap.feature));
+        const surface_feature feature = contact_point_feature(&candidate, gap.feature);
+        const long long obstacle = surface_obstacle(scene, feature);
+        const vec2 end = surface_line_at(scene, surface_segment(scene, feature), t).end;
         CHECK(candidate_is_edge(&candidate), DEM_ERROR_MODEL,
               "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the penetration tolerance of %g m",
-              (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, (long long)s->obstacle,
+              (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, obstacle,
               scene->rule.penetration_tolerance);
         return status_fail(DEM_ERROR_MODEL,
                            "the vertex at (%g, %g) m of obstacle %lld starts %g m inside the body, deeper than the "
                            "penetration tolerance of %g m",
-                           s->end.x, s->end.y, (long long)s->obstacle, -gap.distance,
-                           scene->rule.penetration_tolerance);
+                           end.x, end.y, obstacle, -gap.distance, scene->rule.penetration_tolerance);
     }
     return DEM_OK;
 }
 
 /* Largest coordinate that a gap is made of, m. */
-static double extent(const contact_set *c, dem_index k, dem_index feature, vec2 x)
+static double extent(const contact_set *c, dem_index k, dem_index feature, const candidate_positions *spot)
 {
-    const segment *s = scene_segment(&c->scene, contact_point_segment(&c->scene, &c->list[k], feature));
-    return fmax(vec2_norm(x), fmax(vec2_norm(s->start), vec2_norm(s->end)));
+    const dem_index id = surface_segment(&c->scene, contact_point_feature(&c->list[k], feature));
+    const surface_line line = surface_line_at(&c->scene, id, spot->t);
+    return fmax(vec2_norm(spot->a), fmax(vec2_norm(line.start), vec2_norm(line.end)));
 }
 
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener)
@@ -155,7 +157,7 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
         for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
             const candidate_positions spot = candidate_place(&s->list[k], t, now.x);
             const contact_gap gap = candidate_gap(&s->scene, &s->list[k], &spot);
-            if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, spot.a)) break;
+            if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, &spot)) break;
             TRY(candidate_resolve_touch(s, k, &gap, &now));
             if (!candidate_is_edge(&s->list[k]) || s->list[k].n_closed != 1) break;
         }

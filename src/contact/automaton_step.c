@@ -58,7 +58,7 @@ static bool come_round(contact_set *c, dem_index k, const candidate_positions *s
     if (!(candidate_moved(candidate, spot) < candidate->clear) ||
         candidate_clearance(&c->scene, candidate, spot, &nearest) >= 0.0)
         return false;
-    contact_set_pass_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
+    contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, nearest}));
     return true;
 }
 

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/status.h"
-#include "obstacle/point_gap.h"
 
 dem_status broad_phase_create(broad_phase *out, dem_index n_candidates)
 {
@@ -32,11 +31,9 @@ double broad_phase_speed(const contact_set *c, const double *v)
 }
 
 /* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */
-static void come_back(contact_set *c, dem_index k, vec2 x)
+static void come_back(contact_set *c, dem_index k, surface_query at)
 {
-    const double margin = scene_margin(&c->scene);
-    if (obstacles_gap_of(&c->scene.model->obstacles, x, margin, c->list[k].behind[0]).distance > 0.0)
-        contact_set_pass_behind(c, k, -1);
+    if (surface_gap_of(&c->scene, at, c->list[k].behind[0]).distance > 0.0) contact_set_pass_behind(c, k, -1);
 }
 
 /* Looks how far a site is from everything else, and lets it sleep if that is further than `reach`. */
@@ -49,7 +46,7 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state sta
     const bool untouched = candidate->inactive ? candidate->active_from > w->travelled
                                                : candidate_moved(candidate, &spot) < candidate->clear;
     if (clear < 0.0 && untouched && candidate->n_closed == 0 && !candidate_is_edge(candidate)) {
-        contact_set_pass_behind(c, k, scene_segment(&c->scene, nearest)->obstacle);
+        contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, nearest}));
         clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
     }
     clear -= 2.0 * scene_margin(&c->scene);
@@ -75,7 +72,7 @@ void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
     w->n = 0;
     w->earliest = (double)INFINITY;
     for (dem_index k = 0; k < c->scene.model->n_contact_nodes && c->ledger.counts.behind > 0; k++)
-        if (c->list[k].behind[0] >= 0) come_back(c, k, vec2_at(state.x, c->list[k].node));
+        if (c->list[k].behind[0] >= 0) come_back(c, k, (surface_query){state.t, vec2_at(state.x, c->list[k].node)});
     for (dem_index k = 0; k < c->n; k++) {
         const contact_candidate *candidate = &c->list[k];
         if (worth_a_look(w, candidate, state, reach)) look_at(w, c, k, state, reach);

@@ -2,9 +2,6 @@
 /* Gaps and guards of one contact site. */
 #include "contact/candidate.h"
 
-#include "obstacle/point_gap.h"
-#include "obstacle/vertex_gap.h"
-
 /* ---- gaps ---- */
 
 candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x)
@@ -25,11 +22,11 @@ candidate_positions candidate_place_at(const contact_candidate *candidate, const
     return spot;
 }
 
-static contact_gap node_gap(const contact_scene *scene, const contact_candidate *candidate, vec2 x)
+static contact_gap node_gap(const contact_scene *scene, const contact_candidate *candidate, surface_query at)
 {
-    const obstacle_set *o = &scene->model->obstacles;
-    const dem_index own = candidate->n_closed > 0 ? scene_segment(scene, candidate->closed[0].feature)->obstacle : -1;
-    const obstacle_gap gap = obstacles_gap(o, x, scene_margin(scene), candidate->behind[0], own);
+    const surface_feature on = contact_point_feature(candidate, candidate->closed[0].feature);
+    const dem_index without[2] = {candidate->behind[0], candidate->n_closed > 0 ? surface_obstacle(scene, on) : -1};
+    const obstacle_gap gap = surface_gap(scene, at, scene_margin(scene), without);
     return (contact_gap){gap.distance, gap.segment, 0.0, gap.normal};
 }
 
@@ -56,7 +53,7 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_candidate 
                             const candidate_positions *spot)
 {
     const obstacle_edge edge = edge_query(scene, candidate, spot);
-    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
+    const obstacle_poke poke = surface_poke(scene, spot->t, &edge);
     return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
@@ -72,7 +69,8 @@ contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *c
     if (candidate->n_closed == 2 || candidate->inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
     const double left = candidate->clear > 0.0 ? candidate->clear - candidate_moved(candidate, spot) : 0.0;
     if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
-    return candidate_is_edge(candidate) ? edge_gap(scene, candidate, spot) : node_gap(scene, candidate, spot->a);
+    return candidate_is_edge(candidate) ? edge_gap(scene, candidate, spot)
+                                        : node_gap(scene, candidate, (surface_query){spot->t, spot->a});
 }
 
 contact_gap candidate_around(const contact_scene *scene, const contact_candidate *candidate,
@@ -82,7 +80,7 @@ contact_gap candidate_around(const contact_scene *scene, const contact_candidate
     edge.tolerance = edge.depth = edge.reach = reach;
     edge.previous = edge.a;
     edge.next = edge.b;
-    const obstacle_poke poke = obstacles_poke(&scene->model->obstacles, &edge);
+    const obstacle_poke poke = surface_poke(scene, spot->t, &edge);
     return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
@@ -90,11 +88,10 @@ contact_gap candidate_around(const contact_scene *scene, const contact_candidate
 static double edge_clearance(const contact_scene *scene, const contact_candidate *candidate,
                              const candidate_positions *spot)
 {
-    const obstacle_set *o = &scene->model->obstacles;
     const obstacle_edge edge = edge_query(scene, candidate, spot);
-    const double near = obstacles_clearance(o, &edge);
+    const double near = surface_clearance(scene, spot->t, &edge);
     if (near < edge.reach) return near;
-    return fmax(near, obstacles_gap(o, spot->a, 0.0, candidate->behind[0], candidate->behind[1]).distance -
+    return fmax(near, surface_gap(scene, (surface_query){spot->t, spot->a}, 0.0, candidate->behind).distance -
                           near / edge_reach);
 }
 
@@ -102,7 +99,7 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
                            const candidate_positions *spot, dem_index *nearest)
 {
     if (candidate_is_edge(candidate)) return edge_clearance(scene, candidate, spot);
-    const contact_gap gap = node_gap(scene, candidate, spot->a);
+    const contact_gap gap = node_gap(scene, candidate, (surface_query){spot->t, spot->a});
     *nearest = gap.feature;
     return gap.distance;
 }
@@ -111,18 +108,18 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
 
 /* Distance to the nearer end of the segment or edge, and the penetration tolerance: an end is passed when a contact is
  * beyond it by that. */
-static double end_guard(const contact_scene *scene, const contact_candidate *candidate, int q, const double *x,
+static double end_guard(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state,
                         int *end)
 {
     double place, length;
     if (candidate_is_edge(candidate)) {
-        const vec2 a = vec2_at(x, candidate->node), ab = vec2_sub(vec2_at(x, candidate->other), a);
+        const vec2 a = vec2_at(state.x, candidate->node), ab = vec2_sub(vec2_at(state.x, candidate->other), a);
         length = vec2_norm(ab);
-        place = vec2_dot(vec2_sub(scene->model->obstacles.vertices[candidate->closed[q].feature].at, a), ab) / length;
+        place = vec2_dot(vec2_sub(surface_vertex_at(scene, candidate->closed[q].feature, state.t), a), ab) / length;
     } else {
-        const segment *s = scene_segment(scene, candidate->closed[q].feature);
-        length = s->length;
-        place = segment_place(s, vec2_at(x, candidate->node));
+        const surface_line line = surface_line_at(scene, candidate->closed[q].feature, state.t);
+        length = line.length;
+        place = surface_place(&line, vec2_at(state.x, candidate->node));
     }
     *end = place > 0.5 * length ? 1 : -1;
     return fmin(place, length - place) + scene->rule.penetration_tolerance;
@@ -137,7 +134,7 @@ static bool sticks(const contact_candidate *candidate, int q)
 int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
 {
     int end;
-    if (sticks(candidate, q) || end_guard(scene, candidate, q, state.x, &end) > 0.0) return 0;
+    if (sticks(candidate, q) || end_guard(scene, candidate, q, state, &end) > 0.0) return 0;
     const contact_frame f = contact_frame_at(scene, candidate, q, state);
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
@@ -188,12 +185,12 @@ void candidate_root_functions(const contact_scene *scene, const contact_candidat
         g[1] = fmin(g[1], force[q].normal);
         if (candidate->closed[q].held) continue;
         if (!sticks(candidate, q) && contact_point_friction(scene, candidate, candidate->closed[q].feature) == 0.0) {
-            g[2] = fmin(g[2], end_guard(scene, candidate, q, state.x, &end));
+            g[2] = fmin(g[2], end_guard(scene, candidate, q, state, &end));
             continue;
         }
         const contact_frame f = contact_frame_at(scene, candidate, q, state);
         g[2] = fmin(g[2], sticks(candidate, q) ? candidate_grip(scene, candidate, q, &f, &force[q], state.x)
-                                               : end_guard(scene, candidate, q, state.x, &end));
+                                               : end_guard(scene, candidate, q, state, &end));
         if (sticks(candidate, q)) continue;
         g[3] = fmin(g[3], candidate->closed[q].slide * vec2_dot(f.velocity, f.tangent));
     }

@@ -16,15 +16,14 @@ static const double touch_share = 0.99;
 static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, double depth, const contact_instant *now)
 {
     const vec2 x = vec2_at(now->x, c->list[k].node);
-    const segment *s = scene_segment(&c->scene, feature);
-    const double place = segment_place(s, x), tolerance = impact_target_depth(c, k, now);
-    const double margin = scene_margin(&c->scene) + tolerance;
-    const bool at_free_end = (s->before < 0 && fabs(place) <= fmax(margin, s->buried[0] + tolerance)) ||
-                             (s->after < 0 && fabs(place - s->length) <= fmax(margin, s->buried[1] + tolerance));
+    const surface_line line = surface_line_at(&c->scene, feature, now->t);
+    const dem_index obstacle = surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, feature});
+    const bool at_free_end =
+        surface_at_free_end(&c->scene, feature, surface_place(&line, x), impact_target_depth(c, k, now));
     CHECK(at_free_end && c->list[k].behind[0] < 0, DEM_ERROR_CONTACT,
           "node %lld at (%g, %g) m is %g m inside obstacle %lld at t = %.9g s", (long long)c->list[k].node, x.x, x.y,
-          depth, (long long)s->obstacle, now->t);
-    contact_set_pass_behind(c, k, s->obstacle);
+          depth, (long long)obstacle, now->t);
+    contact_set_pass_behind(c, k, obstacle);
     return DEM_OK;
 }
 
@@ -44,12 +43,12 @@ static dem_status touch_edge(contact_set *c, dem_index k, const contact_gap *gap
 {
     const contact_candidate *candidate = &c->list[k];
     const vec2 ab = vec2_sub(vec2_at(now->x, candidate->other), vec2_at(now->x, candidate->node));
-    const segment *s = scene_segment(&c->scene, contact_point_segment(&c->scene, candidate, gap->feature));
+    const vec2 vertex = surface_vertex_at(&c->scene, gap->feature, now->t);
     CHECK(gap->distance >= -1e-3 * vec2_norm(ab), DEM_ERROR_CONTACT,
           "the vertex at (%g, %g) m of obstacle %lld is %g m inside the body, behind the edge from node %lld to %lld, "
           "at t = %.9g s",
-          s->end.x, s->end.y, (long long)s->obstacle, -gap->distance, (long long)candidate->node,
-          (long long)candidate->other, now->t);
+          vertex.x, vertex.y, (long long)surface_obstacle(&c->scene, contact_point_feature(candidate, gap->feature)),
+          -gap->distance, (long long)candidate->node, (long long)candidate->other, now->t);
     return impact_solve(c, k, (impact_target){1, {gap->feature}}, now);
 }
 
@@ -89,16 +88,16 @@ static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact
     contact_candidate *candidate = &c->list[k];
     impact_target next = {.n = 1};
     const dem_index here = candidate->closed[0].feature;
-    const obstacle_bend bend = obstacles_bend(&c->scene.model->obstacles, here, backwards, &next.feature[0]);
+    const obstacle_bend bend = surface_bend(&c->scene, here, backwards, &next.feature[0]);
     TRY(enter(c, k, here, DEM_EVENT_PASS, now));
     if (bend == OBSTACLE_CONCAVE) return impact_solve(c, k, (impact_target){2, {next.feature[0], here}}, now);
     if (bend != OBSTACLE_STRAIGHT) return release(c, k, 0, now);
-    const segment *s = scene_segment(&c->scene, next.feature[0]);
+    const surface_line line = surface_line_at(&c->scene, next.feature[0], now->t);
     const vec2 v = vec2_at(now->v, candidate->node);
     candidate->closed[0].feature = next.feature[0];
-    contact_set_move(c, candidate->node, vec2_scale(-segment_height(s, vec2_at(now->x, candidate->node)), s->normal),
-                     now->x);
-    vec2_put(now->v, candidate->node, vec2_along(v, -vec2_dot(v, s->normal), s->normal));
+    contact_set_move(c, candidate->node,
+                     vec2_scale(-surface_height(&line, vec2_at(now->x, candidate->node)), line.normal), now->x);
+    vec2_put(now->v, candidate->node, vec2_along(v, -vec2_dot(v, line.normal), line.normal));
     return DEM_OK;
 }
 
@@ -122,7 +121,7 @@ static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, 
     const dem_index next = edge_beyond(c, k, backwards, feature);
     TRY(enter(c, k, feature, DEM_EVENT_PASS, now));
     if (next < 0) return release(c, k, q, now);
-    const vec2 at = c->scene.model->obstacles.vertices[feature].at;
+    const vec2 at = surface_vertex_at(&c->scene, feature, now->t);
     contact_set_move(c, node, vec2_sub(at, vec2_at(now->x, node)), now->x);
     if (impact_rest_in_notch(c, k, next, now)) return impact_solve(c, next, (impact_target){1, {feature}}, now);
     TRY(release(c, k, q, now));
@@ -181,7 +180,8 @@ static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now
     const double depth = impact_target_depth(c, k, now);
     if (gap.distance < -depth) return go_behind(c, k, gap.feature, -gap.distance, now);
     const dem_index here = candidate->closed[0].feature;
-    const bool both = impact_target_is_corner(c, gap.feature, here, vec2_at(now->x, candidate->node), depth);
+    const bool both =
+        impact_target_is_corner(c, gap.feature, here, (surface_query){now->t, vec2_at(now->x, candidate->node)}, depth);
     return impact_solve(c, k, (impact_target){both ? 2 : 1, {gap.feature, here}}, now);
 }
 

@@ -235,32 +235,32 @@ static double sliding_friction(const contact_forces *r, const contact_candidate 
 }
 
 /* A node on one segment: what holds it is minus the force towards the segment, and friction on that. */
-static void hold_node(contact_forces *r, dem_index k, double *a)
+static void hold_node(contact_forces *r, dem_index k, double t, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
-    const segment *s = scene_segment(r->scene, candidate->closed[0].feature);
+    const surface_line line = surface_line_at(r->scene, candidate->closed[0].feature, t);
     const double m = r->scene->model->lattice.mass[candidate->node];
     const vec2 free_a = vec2_at(a, candidate->node);
     contact_force *f = &r->force[k][0];
-    f->normal = -m * vec2_dot(free_a, s->normal);
+    f->normal = -m * vec2_dot(free_a, line.normal);
     if (candidate->closed[0].slide == 0) {
-        f->tangent = -m * vec2_dot(free_a, s->tangent);
+        f->tangent = -m * vec2_dot(free_a, line.tangent);
         vec2_put(a, candidate->node, (vec2){0.0, 0.0});
         return;
     }
     f->tangent = -sliding_friction(r, candidate, 0) * f->normal;
-    const vec2 along = vec2_along(free_a, -vec2_dot(free_a, s->normal), s->normal);
-    vec2_put(a, candidate->node, vec2_along(along, f->tangent / m, s->tangent));
+    const vec2 along = vec2_along(free_a, -vec2_dot(free_a, line.normal), line.normal);
+    vec2_put(a, candidate->node, vec2_along(along, f->tangent / m, line.tangent));
 }
 
 /* A node in a corner of two segments: at rest. */
-static void hold_corner(contact_forces *r, dem_index k, double *a)
+static void hold_corner(contact_forces *r, dem_index k, double t, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
     double part[2];
     const vec2 f = vec2_scale(-r->scene->model->lattice.mass[candidate->node], vec2_at(a, candidate->node));
-    vec2_parts(f, scene_segment(r->scene, candidate->closed[0].feature)->normal,
-               scene_segment(r->scene, candidate->closed[1].feature)->normal, part);
+    vec2_parts(f, surface_line_at(r->scene, candidate->closed[0].feature, t).normal,
+               surface_line_at(r->scene, candidate->closed[1].feature, t).normal, part);
     for (int q = 0; q < 2; q++) r->force[k][q] = (contact_force){part[q], 0.0};
     vec2_put(a, candidate->node, (vec2){0.0, 0.0});
 }
@@ -392,9 +392,9 @@ static void hold(contact_forces *r, dem_index group, scene_state state, double *
     if (!alone(r, group))
         solve(r, group, FORCE, state, a);
     else if (r->candidates[k].n_closed == 2)
-        hold_corner(r, k, a);
+        hold_corner(r, k, state.t, a);
     else
-        hold_node(r, k, a);
+        hold_node(r, k, state.t, a);
 }
 
 /* ---- public ---- */
@@ -428,15 +428,15 @@ void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
 }
 
 /* A node by itself stops exactly. */
-static void stop_node(contact_forces *r, dem_index k, double *v)
+static void stop_node(contact_forces *r, dem_index k, double t, double *v)
 {
     const contact_candidate *candidate = &r->candidates[k];
-    const segment *s = scene_segment(r->scene, candidate->closed[0].feature);
+    const surface_line line = surface_line_at(r->scene, candidate->closed[0].feature, t);
     const vec2 vi = vec2_at(v, candidate->node);
     const bool rests = candidate->n_closed == 2 || candidate->closed[0].slide == 0;
-    const vec2 after = rests ? (vec2){0.0, 0.0} : vec2_along(vi, -vec2_dot(vi, s->normal), s->normal);
+    const vec2 after = rests ? (vec2){0.0, 0.0} : vec2_along(vi, -vec2_dot(vi, line.normal), line.normal);
     const vec2 impulse = vec2_scale(r->scene->model->lattice.mass[candidate->node], vec2_sub(after, vi));
-    r->force[k][0] = (contact_force){vec2_dot(impulse, s->normal), vec2_dot(impulse, s->tangent)};
+    r->force[k][0] = (contact_force){vec2_dot(impulse, line.normal), vec2_dot(impulse, line.tangent)};
     r->force[k][1] = (contact_force){0.0, 0.0};
     vec2_put(v, candidate->node, after);
 }
@@ -444,7 +444,7 @@ static void stop_node(contact_forces *r, dem_index k, double *v)
 void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, double *v)
 {
     if (alone(r, group))
-        stop_node(r, contact_forces_first(r, group), v);
+        stop_node(r, contact_forces_first(r, group), state.t, v);
     else
         solve(r, group, IMPULSE, state, v);
 }

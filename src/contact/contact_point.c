@@ -7,37 +7,24 @@
 /* How fast a closed vertex contact that the integrator's error has opened is drawn back, in units of 1/max_step. */
 static const double draw_back = 0.1;
 
-dem_index contact_point_segment(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
-{
-    return candidate_is_edge(candidate) ? scene->model->obstacles.vertices[feature].before : feature;
-}
-
-const dem_obstacle *contact_point_obstacle(const contact_scene *scene, const contact_candidate *candidate,
-                                           dem_index feature)
-{
-    return &scene->model->obstacles
-                .list[scene_segment(scene, contact_point_segment(scene, candidate, feature))->obstacle];
-}
-
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
 {
-    const dem_obstacle *obstacle = contact_point_obstacle(scene, candidate, feature);
-    return obstacle->friction_law == DEM_FRICTION_COULOMB ? obstacle->friction : 0.0;
+    return contact_law_friction(contact_point_law(scene, candidate, feature));
 }
 
 static contact_frame node_frame(const contact_scene *scene, const contact_candidate *candidate, dem_index feature,
                                 scene_state state)
 {
-    const segment *s = scene_segment(scene, feature);
+    const surface_line line = surface_line_at(scene, feature, state.t);
     const vec2 at = vec2_at(state.x, candidate->node);
     return (contact_frame){.n = 1,
                            .node = {candidate->node, -1},
                            .weight = {1.0, 0.0},
-                           .normal = s->normal,
-                           .tangent = s->tangent,
+                           .normal = line.normal,
+                           .tangent = line.tangent,
                            .velocity = vec2_at(state.v, candidate->node),
-                           .gap = segment_height(s, at),
-                           .place = segment_place(s, at),
+                           .gap = surface_height(&line, at),
+                           .place = surface_place(&line, at),
                            .mobility = scene->model->inverse_mass[candidate->node]};
 }
 
@@ -48,7 +35,7 @@ static contact_frame edge_frame(const contact_scene *scene, const contact_candid
                                 const contact_point *point, scene_state state)
 {
     const double *inverse_mass = scene->model->inverse_mass;
-    const vec2 at = scene->model->obstacles.vertices[point->feature].at;
+    const vec2 at = surface_vertex_at(scene, point->feature, state.t);
     const vec2 a = vec2_at(state.x, candidate->node), b = vec2_at(state.x, candidate->other), ab = vec2_sub(b, a);
     const vec2 va = vec2_at(state.v, candidate->node), vb = vec2_at(state.v, candidate->other);
     const double length = vec2_norm(ab);
@@ -98,15 +85,15 @@ dem_contact contact_point_describe(const contact_scene *scene, const contact_can
 {
     const contact_point *point = &candidate->closed[q];
     const contact_frame f = contact_frame_at(scene, candidate, q, (scene_state){t, x, x});
-    const segment *s = scene_segment(scene, contact_point_segment(scene, candidate, point->feature));
-    const vec2 at = candidate_is_edge(candidate) ? scene->model->obstacles.vertices[point->feature].at
-                                                 : vec2_at(x, candidate->node);
+    const surface_feature feature = contact_point_feature(candidate, point->feature);
+    const vec2 at =
+        candidate_is_edge(candidate) ? surface_vertex_at(scene, point->feature, t) : vec2_at(x, candidate->node);
     return (dem_contact){.n_nodes = f.n,
                          .state = point->held || point->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
                          .nodes = {f.node[0], f.n > 1 ? f.node[1] : 0},
                          .weights = {f.weight[0], f.weight[1]},
-                         .obstacle = s->obstacle,
-                         .segment = s->index,
+                         .obstacle = surface_obstacle(scene, feature),
+                         .segment = surface_segment_index(scene, feature),
                          .x = {at.x, at.y},
                          .normal = {f.normal.x, f.normal.y},
                          .force = point->force,

@@ -4,8 +4,7 @@
 #ifndef DEM_CONTACT_CONTACT_POINT_H
 #define DEM_CONTACT_CONTACT_POINT_H
 
-#include "base/state.h"
-#include "forces/forces.h"
+#include "contact/surface_feature.h"
 
 /** A closed contact of a site. */
 typedef struct contact_point {
@@ -42,26 +41,6 @@ typedef struct contact_candidate {
     dem_index storm;    /* changes of this site since then */
 } contact_candidate;
 
-typedef struct contact_rule {
-    double penetration_tolerance; /* m, depth at which an impact is taken */
-    double position_error;        /* m, tolerance of positions: hops below it are rest */
-    double rest_speed;            /* m/s, rebounds up to this are rest whatever else the rule says */
-    double window;                /* s, impacts nearer than this are taken together */
-    double max_step;              /* s, longest step: with t it sets how exactly an event is located */
-    double storm_time;            /* s */
-    dem_index max_impacts;        /* within storm_time at one site */
-    bool vertices;                /* whether edges touch vertices */
-    state_layout layout;          /* of the states */
-    int n_threads;                /* that look at free sites at once; 0 counts as 1 */
-    forces load;
-} contact_rule;
-
-/** What does not change during a run. */
-typedef struct contact_scene {
-    const dem_model *model;
-    contact_rule rule;
-} contact_scene;
-
 /** A closed contact in a state: the point of the body that touches, and how it moves. */
 typedef struct contact_frame {
     int n; /* nodes that carry the point: 1, or 2 */
@@ -77,46 +56,23 @@ typedef struct contact_frame {
     double mobility;      /* 1/kg, sum of weight^2/m */
 } contact_frame;
 
-static inline const segment *scene_segment(const contact_scene *scene, dem_index s)
-{
-    return &scene->model->obstacles.segments[s];
-}
-
-/** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
-static inline double scene_margin(const contact_scene *scene)
-{
-    return 10.0 * scene->rule.penetration_tolerance;
-}
-
-/** A state in which contacts are asked: the nodes' positions and velocities [n][2] at a time. */
-typedef struct scene_state {
-    double t; /* s */
-    const double *x, *v;
-} scene_state;
-
 static inline bool candidate_is_edge(const contact_candidate *candidate)
 {
     return candidate->other >= 0;
 }
 
-/** Where things stand in the states. */
-static inline const state_layout *scene_layout(const contact_scene *scene)
+/** What a site touches under this number: a node touches segments, an edge vertices. */
+static inline surface_feature contact_point_feature(const contact_candidate *candidate, dem_index id)
 {
-    return &scene->rule.layout;
+    return (surface_feature){candidate_is_edge(candidate) ? SURFACE_VERTEX : SURFACE_SEGMENT, id};
 }
 
-/** The state y = (x, v) at t. */
-static inline scene_state scene_state_at(const contact_scene *scene, double t, const double *y)
+/** The law between a site and what it touches under this number. */
+static inline contact_law contact_point_law(const contact_scene *scene, const contact_candidate *candidate,
+                                            dem_index id)
 {
-    return (scene_state){t, y, y + state_velocities(scene_layout(scene))};
+    return contact_law_of(scene, surface_obstacle(scene, contact_point_feature(candidate, id)));
 }
-
-/** The segment that a contact is on, or that ends in the vertex it is on. */
-dem_index contact_point_segment(const contact_scene *scene, const contact_candidate *candidate, dem_index feature);
-
-/** The obstacle that it is on. */
-const dem_obstacle *contact_point_obstacle(const contact_scene *scene, const contact_candidate *candidate,
-                                           dem_index feature);
 
 /** Coefficient of the sustained friction of Coulomb's law; 0 where there is none. */
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature);

@@ -227,12 +227,11 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
     const contact_frame f = contact_frame_at(&c->scene, candidate, q, state);
     const vec2 along = vec2_scale(force->tangent, f.tangent);
     const bool slides = candidate->closed[q].slide != 0;
-    return (contact_contribution){.obstacle =
-                                      contact_point_obstacle(&c->scene, candidate, candidate->closed[q].feature) -
-                                      c->scene.model->obstacles.list,
-                                  .force = vec2_along(along, force->normal, f.normal),
-                                  .friction = along,
-                                  .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
+    return (contact_contribution){
+        .obstacle = surface_obstacle(&c->scene, contact_point_feature(candidate, candidate->closed[q].feature)),
+        .force = vec2_along(along, force->normal, f.normal),
+        .friction = along,
+        .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
 }
 
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
@@ -242,16 +241,16 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
     contact_candidate alone = *candidate;
     alone.closed[0] = (contact_point){.feature = feature, .slide = 1};
     const contact_frame f = contact_frame_at(&c->scene, &alone, 0, instant_state(now));
-    const segment *s = scene_segment(&c->scene, contact_point_segment(&c->scene, candidate, feature));
-    const vec2 at = candidate_is_edge(candidate) ? c->scene.model->obstacles.vertices[feature].at
-                                                 : vec2_at(now->x, candidate->node);
+    const surface_feature on = contact_point_feature(candidate, feature);
+    const vec2 at =
+        candidate_is_edge(candidate) ? surface_vertex_at(&c->scene, feature, now->t) : vec2_at(now->x, candidate->node);
     dem_event event = {.t = now->t,
                        .kind = kind,
                        .node = candidate->node,
                        .other = candidate->other,
                        .weight = candidate_is_edge(candidate) ? f.place : 0.0,
-                       .obstacle = s->obstacle,
-                       .segment = s->index,
+                       .obstacle = surface_obstacle(&c->scene, on),
+                       .segment = surface_segment_index(&c->scene, on),
                        .x = {at.x, at.y},
                        .normal = {f.normal.x, f.normal.y},
                        .before = {f.velocity.x, f.velocity.y},
@@ -272,8 +271,8 @@ void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse
 
 void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal)
 {
-    const dem_obstacle *o = &c->scene.model->obstacles.list[obstacle];
-    const bool smooth = o->friction == 0.0 && o->friction_law == DEM_FRICTION_COULOMB;
+    const contact_law law = contact_law_of(&c->scene, obstacle);
+    const bool smooth = law.friction == 0.0 && law.friction_law == DEM_FRICTION_COULOMB;
     const vec2 along = smooth ? impulse : vec2_scale(vec2_dot(impulse, normal), normal);
     ledger_add_impulse(&c->ledger, obstacle, impulse, vec2_sub(impulse, along));
 }

@@ -165,8 +165,8 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
         const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
-            const dem_obstacle *on = contact_point_obstacle(&c->scene, candidate, candidate->closed[q].feature);
-            contact_set_add_impulse(c, on - c->scene.model->obstacles.list, candidate->closed[q].stop, f.normal);
+            const surface_feature on = contact_point_feature(candidate, candidate->closed[q].feature);
+            contact_set_add_impulse(c, surface_obstacle(&c->scene, on), candidate->closed[q].stop, f.normal);
         }
     }
 }

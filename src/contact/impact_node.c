@@ -10,19 +10,19 @@
 static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
 
 /* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
-static vec2 way_back(const contact_set *c, impact_target hit, vec2 x)
+static vec2 way_back(const contact_set *c, impact_target hit, double t, vec2 x)
 {
-    const segment *a = scene_segment(&c->scene, hit.feature[0]), *b = scene_segment(&c->scene, hit.feature[hit.n - 1]);
+    const surface_line a = surface_line_at(&c->scene, hit.feature[0], t),
+                       b = surface_line_at(&c->scene, hit.feature[hit.n - 1], t);
     vec2 vertex;
-    if (hit.n == 2 && obstacles_share(&c->scene.model->obstacles, hit.feature[0], hit.feature[1], &vertex))
-        return vec2_sub(vertex, x);
-    const double h0 = segment_height(a, x), h1 = segment_height(b, x), place = segment_place(a, x);
+    if (hit.n == 2 && surface_share(&c->scene, hit.feature[0], hit.feature[1], t, &vertex)) return vec2_sub(vertex, x);
+    const double h0 = surface_height(&a, x), h1 = surface_height(&b, x), place = surface_place(&a, x);
     if (hit.n == 2) /* n0.shift = -h0 and n1.shift = -h1 */
-        return vec2_scale(1.0 / vec2_cross(a->tangent, b->tangent),
-                          vec2_along(vec2_scale(h1, a->tangent), -h0, b->tangent));
+        return vec2_scale(1.0 / vec2_cross(a.tangent, b.tangent),
+                          vec2_along(vec2_scale(h1, a.tangent), -h0, b.tangent));
     const double beyond =
-        (place < 0.0 && a->before >= 0) ? place : (place > a->length && a->after >= 0 ? place - a->length : 0.0);
-    return vec2_along(vec2_scale(-h0, a->normal), -beyond, a->tangent);
+        (place < 0.0 && a.before >= 0) ? place : (place > a.length && a.after >= 0 ? place - a.length : 0.0);
+    return vec2_along(vec2_scale(-h0, a.normal), -beyond, a.tangent);
 }
 
 /* Of the segments struck, those on which a node with velocity v stays. At rest it is all that push it; in a corner at
@@ -37,7 +37,7 @@ static impact_target lasting(const contact_set *c, dem_index k, impact_target hi
     double push[2], away[2];
     impact_target held = {0};
     for (int q = 0; q < hit.n; q++) {
-        wall[q] = impact_rest_surface(c, k, hit.feature[q], scene_segment(&c->scene, hit.feature[q])->normal);
+        wall[q] = impact_rest_surface(c, k, hit.feature[q], surface_line_at(&c->scene, hit.feature[q], now->t).normal);
         away[q] = vec2_dot(v, wall[q].normal);
     }
     const int holding = impact_law_holding(wall, hit.n, a, push);
@@ -53,11 +53,11 @@ static impact_target lasting(const contact_set *c, dem_index k, impact_target hi
     return held;
 }
 
-static vec2 without_normals(const contact_set *c, impact_target held, vec2 v)
+static vec2 without_normals(const contact_set *c, impact_target held, double t, vec2 v)
 {
     if (held.n == 2) return (vec2){0.0, 0.0};
     if (held.n == 0) return v;
-    const vec2 n = scene_segment(&c->scene, held.feature[0])->normal;
+    const vec2 n = surface_line_at(&c->scene, held.feature[0], t).normal;
     return vec2_along(v, -vec2_dot(v, n), n);
 }
 
@@ -70,8 +70,8 @@ static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const
     candidate_forget_clearance(candidate);
     if (stays_free) return DEM_OK;
     for (int q = 0; q < held.n; q++) {
-        const segment *s = scene_segment(&c->scene, held.feature[q]);
-        const double speed = vec2_dot(vec2_at(now->v, candidate->node), s->tangent);
+        const vec2 tangent = surface_line_at(&c->scene, held.feature[q], now->t).tangent;
+        const double speed = vec2_dot(vec2_at(now->v, candidate->node), tangent);
         candidate->closed[candidate->n_closed++] =
             (contact_point){.feature = held.feature[q], .slide = impact_rest_slide(c, k, held.feature[q], speed)};
     }
@@ -98,8 +98,8 @@ dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, con
     impact_surface wall[2];
     vec2 kick[2];
     for (int q = 0; q < hit.n; q++)
-        wall[q] = impact_rest_surface(c, k, hit.feature[q], scene_segment(&c->scene, hit.feature[q])->normal);
-    contact_set_move(c, i, way_back(c, hit, vec2_at(now->x, i)), now->x);
+        wall[q] = impact_rest_surface(c, k, hit.feature[q], surface_line_at(&c->scene, hit.feature[q], now->t).normal);
+    contact_set_move(c, i, way_back(c, hit, now->t, vec2_at(now->x, i)), now->x);
     vec2 after = impact_law_rebound(wall, hit.n, before, kick);
     if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
     const impact_target held = lasting(c, k, hit, after, now);
@@ -107,7 +107,7 @@ dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, con
         for (int q = 0; q < hit.n; q++)
             for (int h = 0; h < held.n; h++)
                 if (held.feature[h] == hit.feature[q]) wall[q].restitution = 0.0;
-        after = without_normals(c, held, impact_law_rebound(wall, hit.n, before, kick));
+        after = without_normals(c, held, now->t, impact_law_rebound(wall, hit.n, before, kick));
     }
     vec2_put(now->v, i, after);
     TRY(hold_on(c, k, held, now));
@@ -119,8 +119,8 @@ dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, con
         const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
         kick[first] = vec2_add(kick[first], rest);
         for (int q = 0; q < hit.n; q++)
-            contact_set_add_impulse(c, scene_segment(&c->scene, hit.feature[q])->obstacle, vec2_scale(m, kick[q]),
-                                    wall[q].normal);
+            contact_set_add_impulse(c, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, hit.feature[q]}),
+                                    vec2_scale(m, kick[q]), wall[q].normal);
         dem_event event = contact_set_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
         event.before[0] = before.x;
         event.before[1] = before.y;

@@ -8,8 +8,8 @@ static const double noise = 64.0 * DBL_EPSILON; /* what rounding leaves, as a sh
 
 impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index feature, vec2 normal)
 {
-    const dem_obstacle *o = contact_point_obstacle(&c->scene, &c->list[k], feature);
-    return (impact_surface){normal, o->restitution, o->friction, o->friction_law};
+    const contact_law law = contact_point_law(&c->scene, &c->list[k], feature);
+    return (impact_surface){normal, law.restitution, law.friction, law.friction_law};
 }
 
 int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, double speed)

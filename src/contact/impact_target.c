@@ -2,8 +2,6 @@
 /* What a site that touches strikes. */
 #include "contact/impact_target.h"
 
-#include "obstacle/point_gap.h"
-
 #include <float.h>
 
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now)
@@ -17,29 +15,29 @@ double impact_target_depth(const contact_set *c, dem_index k, const contact_inst
 
 /* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the
  * one approached faster, on a tie the one that ends there. */
-static bool yields(const contact_set *c, dem_index s, dem_index to, vec2 v)
+static bool yields(const contact_set *c, dem_index s, dem_index to, double t, vec2 v)
 {
     dem_index after, before;
-    const obstacle_bend ahead = obstacles_bend(&c->scene.model->obstacles, s, false, &after);
-    const obstacle_bend behind = obstacles_bend(&c->scene.model->obstacles, s, true, &before);
+    const obstacle_bend ahead = surface_bend(&c->scene, s, false, &after);
+    const obstacle_bend behind = surface_bend(&c->scene, s, true, &before);
     const bool follows = before == to && behind != OBSTACLE_CONCAVE, leads = after == to && ahead != OBSTACLE_CONCAVE;
     if (!follows && !leads) return false;
-    const double mine = vec2_dot(v, scene_segment(&c->scene, s)->normal),
-                 other = vec2_dot(v, scene_segment(&c->scene, to)->normal);
+    const double mine = vec2_dot(v, surface_line_at(&c->scene, s, t).normal),
+                 other = vec2_dot(v, surface_line_at(&c->scene, to, t).normal);
     return mine > other || (mine == other && follows);
 }
 
-bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, vec2 x, double tolerance)
+bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, surface_query at, double tolerance)
 {
     vec2 vertex;
-    if (obstacles_share(&c->scene.model->obstacles, s, other, &vertex))
-        return vec2_norm(vec2_sub(x, vertex)) <= 4.0 * tolerance;
-    return fabs(vec2_cross(scene_segment(&c->scene, s)->tangent, scene_segment(&c->scene, other)->tangent)) > 0.01;
+    if (surface_share(&c->scene, s, other, at.t, &vertex)) return vec2_norm(vec2_sub(at.x, vertex)) <= 4.0 * tolerance;
+    return fabs(vec2_cross(surface_line_at(&c->scene, s, at.t).tangent,
+                           surface_line_at(&c->scene, other, at.t).tangent)) > 0.01;
 }
 
-static double approach(const contact_set *c, dem_index s, vec2 v)
+static double approach(const contact_set *c, dem_index s, double t, vec2 v)
 {
-    return -vec2_dot(v, scene_segment(&c->scene, s)->normal);
+    return -vec2_dot(v, surface_line_at(&c->scene, s, t).normal);
 }
 
 impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now)
@@ -48,28 +46,24 @@ impact_target impact_target_of_node(const contact_set *c, dem_index k, const con
     dem_index hits[capacity];
     impact_target out = {0};
     const contact_candidate *candidate = &c->list[k];
-    const vec2 x = vec2_at(now->x, candidate->node), v = vec2_at(now->v, candidate->node);
+    const surface_query at = {now->t, vec2_at(now->x, candidate->node)};
+    const vec2 v = vec2_at(now->v, candidate->node);
     const obstacle_touch point = {impact_target_depth(c, k, now), scene_margin(&c->scene), candidate->behind[0]};
-    const int n = obstacles_touching(&c->scene.model->obstacles, x, &point, hits, capacity);
+    const int n = surface_touching(&c->scene, at, &point, hits, capacity);
     for (int h = 0; h < n; h++) {
         bool meets = true;
-        for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[h], hits[q], v);
+        for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[h], hits[q], now->t, v);
         if (!meets) continue;
-        const int place = out.n > 0 && approach(c, hits[h], v) <= approach(c, out.feature[0], v) ? 1 : 0;
-        if (place == 1 && out.n == 2 && approach(c, hits[h], v) <= approach(c, out.feature[1], v)) continue;
+        const int place =
+            out.n > 0 && approach(c, hits[h], now->t, v) <= approach(c, out.feature[0], now->t, v) ? 1 : 0;
+        if (place == 1 && out.n == 2 && approach(c, hits[h], now->t, v) <= approach(c, out.feature[1], now->t, v))
+            continue;
         if (place == 0) out.feature[1] = out.feature[0];
         out.feature[place] = hits[h];
         out.n = out.n < 2 ? out.n + 1 : 2;
     }
-    if (out.n == 2 && !impact_target_is_corner(c, out.feature[0], out.feature[1], x, point.tolerance)) out.n = 1;
+    if (out.n == 2 && !impact_target_is_corner(c, out.feature[0], out.feature[1], at, point.tolerance)) out.n = 1;
     return out;
-}
-
-/* Whether a direction lies between the normals of a convex vertex. */
-static bool in_cone(const contact_set *c, const obstacle_vertex *at, vec2 n)
-{
-    return vec2_cross(scene_segment(&c->scene, at->before)->normal, n) <= 0.0 &&
-           vec2_cross(n, scene_segment(&c->scene, at->after)->normal) <= 0.0;
 }
 
 dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex)
@@ -84,8 +78,10 @@ dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_in
         const candidate_positions spot = candidate_place(&c->list[e], now->t, now->x);
         const contact_gap gap = candidate_gap(&c->scene, &c->list[e], &spot);
         if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
-        const obstacle_vertex *v = &c->scene.model->obstacles.vertices[gap.feature];
-        if (vec2_norm(vec2_sub(v->at, vec2_at(now->x, node))) > 2.0 * tolerance || !in_cone(c, v, gap.normal)) continue;
+        const vec2 at = surface_vertex_at(&c->scene, gap.feature, now->t);
+        if (vec2_norm(vec2_sub(at, vec2_at(now->x, node))) > 2.0 * tolerance ||
+            !surface_in_cone(&c->scene, gap.feature, now->t, gap.normal))
+            continue;
         const double speed = -vec2_dot(vec2_at(now->v, node), gap.normal);
         if (speed <= fastest) continue;
         fastest = speed;

@@ -15,9 +15,9 @@ typedef struct impact_target {
  *  which events are located, and how far it may have been moved to straighten a contact beside it. */
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now);
 
-/** Whether a node at x is in a corner of two segments, rather than on one nearly straight surface or in a channel:
- *  neighbours, which bend up here, form one at their vertex. */
-bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, vec2 x, double tolerance);
+/** Whether a node at a point is in a corner of two segments, rather than on one nearly straight surface or in a
+ *  channel: neighbours, which bend up here, form one at their vertex. */
+bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, surface_query at, double tolerance);
 
 /** What a touching node meets: the segment approached fastest, and a second one that forms a corner with it. */
 impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now);

@@ -431,7 +431,7 @@ static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
     assert_close(gap.normal.x, -0.6, 1e-15);
     assert_close(gap.normal.y, 0.8, 1e-15);
     assert_int_equal(gap.feature, 0);
-    assert_int_equal(contact_point_segment(&s.c.set.scene, edge, gap.feature), 0);
+    assert_int_equal(surface_segment(&s.c.set.scene, contact_point_feature(edge, gap.feature)), 0);
     scene_close(&s);
 }
 

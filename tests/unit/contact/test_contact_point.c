@@ -264,21 +264,11 @@ static void a_sticking_contact_keeps_its_place(void **state)
 
 /* ---- what a contact is on ---- */
 
-static void a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there(void **state)
+static void a_scene_knows_its_margin_and_where_velocities_begin(void **state)
 {
     bench b;
     (void)state;
     bench_open(&b, 2);
-    const dem_index edge = bench_edge(&b, 0, 1);
-    b.segments[3].obstacle = 2;
-    b.segments[5].obstacle = 1;
-    b.vertices[3] = (obstacle_vertex){.before = 5, .after = 0};
-    assert_int_equal(contact_point_segment(&b.scene, &b.candidates[0], 3), 3);
-    assert_int_equal(contact_point_segment(&b.scene, &b.candidates[edge], 3), 5);
-    assert_ptr_equal(contact_point_obstacle(&b.scene, &b.candidates[0], 3), &b.list[2]);
-    assert_ptr_equal(contact_point_obstacle(&b.scene, &b.candidates[edge], 3), &b.list[1]);
-    assert_false(candidate_is_edge(&b.candidates[0]));
-    assert_true(candidate_is_edge(&b.candidates[edge]));
     assert_close(scene_margin(&b.scene), 1e-5, 1e-20); /* ten penetration tolerances, rounded */
     assert_int_equal(scene_layout(&b.scene)->n_nodes, 2);
 }
@@ -357,7 +347,7 @@ int main(void)
         cmocka_unit_test(a_sliding_contact_stays_closed_under_the_acceleration_asked_for),
         cmocka_unit_test(a_sticking_contact_asks_for_no_acceleration),
         cmocka_unit_test(a_sticking_contact_keeps_its_place),
-        cmocka_unit_test(a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there),
+        cmocka_unit_test(a_scene_knows_its_margin_and_where_velocities_begin),
         cmocka_unit_test(only_coulombs_law_has_sustained_friction),
         cmocka_unit_test(a_contact_tells_where_it_is_and_what_it_carries),
         cmocka_unit_test(the_second_contact_of_an_edge_tells_of_its_own_vertex),

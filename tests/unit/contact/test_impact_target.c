@@ -38,11 +38,13 @@ static void neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross
     (void)state;
     open_node(&s, three, 3, 0.0, 0.0);
     const contact_set *c = &s.c.set;
-    assert_true(impact_target_is_corner(c, 0, 1, (vec2){3.9 * penetration_tolerance, 0.0}, penetration_tolerance));
-    assert_false(impact_target_is_corner(c, 0, 1, (vec2){4.1 * penetration_tolerance, 0.0}, penetration_tolerance));
-    assert_true(impact_target_is_corner(c, 1, 2, (vec2){2.0, 0.0}, penetration_tolerance));
-    assert_true(impact_target_is_corner(c, 2, 1, (vec2){2.0, 0.0}, penetration_tolerance));
-    assert_false(impact_target_is_corner(c, 1, 3, (vec2){1.0, 0.0}, penetration_tolerance));
+    assert_true(impact_target_is_corner(c, 0, 1, (surface_query){0.0, (vec2){3.9 * penetration_tolerance, 0.0}},
+                                        penetration_tolerance));
+    assert_false(impact_target_is_corner(c, 0, 1, (surface_query){0.0, (vec2){4.1 * penetration_tolerance, 0.0}},
+                                         penetration_tolerance));
+    assert_true(impact_target_is_corner(c, 1, 2, (surface_query){0.0, (vec2){2.0, 0.0}}, penetration_tolerance));
+    assert_true(impact_target_is_corner(c, 2, 1, (surface_query){0.0, (vec2){2.0, 0.0}}, penetration_tolerance));
+    assert_false(impact_target_is_corner(c, 1, 3, (surface_query){0.0, (vec2){1.0, 0.0}}, penetration_tolerance));
     scene_close(&s);
 }
 

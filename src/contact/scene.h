@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What contacts stand in: the model, the rules that hold during a run, and a state at a time. */
+#ifndef DEM_CONTACT_SCENE_H
+#define DEM_CONTACT_SCENE_H
+
+#include "base/state.h"
+#include "forces/forces.h"
+
+typedef struct contact_rule {
+    double penetration_tolerance; /* m, depth at which an impact is taken */
+    double position_error;        /* m, tolerance of positions: hops below it are rest */
+    double rest_speed;            /* m/s, rebounds up to this are rest whatever else the rule says */
+    double window;                /* s, impacts nearer than this are taken together */
+    double max_step;              /* s, longest step: with t it sets how exactly an event is located */
+    double storm_time;            /* s */
+    dem_index max_impacts;        /* within storm_time at one site */
+    bool vertices;                /* whether edges touch vertices */
+    state_layout layout;          /* of the states */
+    int n_threads;                /* that look at free sites at once; 0 counts as 1 */
+    forces load;
+} contact_rule;
+
+/** What does not change during a run. */
+typedef struct contact_scene {
+    const dem_model *model;
+    contact_rule rule;
+} contact_scene;
+
+/** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
+static inline double scene_margin(const contact_scene *scene)
+{
+    return 10.0 * scene->rule.penetration_tolerance;
+}
+
+/** A state in which contacts are asked: the nodes' positions and velocities [n][2] at a time. */
+typedef struct scene_state {
+    double t; /* s */
+    const double *x, *v;
+} scene_state;
+
+/** Where things stand in the states. */
+static inline const state_layout *scene_layout(const contact_scene *scene)
+{
+    return &scene->rule.layout;
+}
+
+/** The state y = (x, v) at t. */
+static inline scene_state scene_state_at(const contact_scene *scene, double t, const double *y)
+{
+    return (scene_state){t, y, y + state_velocities(scene_layout(scene))};
+}
+
+#endif
