@@ -66,7 +66,7 @@ static inline dem_index state_size(const state_layout *l)
     return 2 * state_velocities(l);
 }
 
-/** Rows of the impulse of an obstacle, of its frictional part, and the first one of the totals. */
+/** Rows of the impulse of an obstacle, of its frictional part, the first one of the totals, and that of the time. */
 static inline dem_index state_impulse(const state_layout *l, dem_index obstacle)
 {
     return l->n_rows - state_n_quadratures(l) + obstacle;
@@ -80,6 +80,11 @@ static inline dem_index state_friction_impulse(const state_layout *l, dem_index 
 static inline dem_index state_total_rows(const state_layout *l)
 {
     return state_impulse(l, 2 * l->n_obstacles);
+}
+
+static inline dem_index state_time_row(const state_layout *l)
+{
+    return state_total_rows(l) + STATE_TIME / l->dim;
 }
 
 /** Of a total in v, and of its rate in a. */

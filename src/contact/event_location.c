@@ -120,9 +120,10 @@ static double fastest(const dense_output *p, double t, const contact_candidate *
 static double bend(const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
-    const dem_index a0 = p->n_nodes + candidate->node, b0 = p->n_nodes + candidate->other;
-    const double a = fmax(fmax(vec2_norm(vec2_at(p->f0, a0)), vec2_norm(vec2_at(p->f1, a0))),
-                          fmax(vec2_norm(vec2_at(p->f0, b0)), vec2_norm(vec2_at(p->f1, b0))));
+    const dem_index v = state_velocities(&p->layout), a0 = candidate->node, b0 = candidate->other;
+    const double *start = p->f0 + v, *end = p->f1 + v;
+    const double a = fmax(fmax(vec2_norm(vec2_at(start, a0)), vec2_norm(vec2_at(end, a0))),
+                          fmax(vec2_norm(vec2_at(start, b0)), vec2_norm(vec2_at(end, b0))));
     const vec2 va = dense_output_velocity(p, p->end, candidate->node),
                vb = dense_output_velocity(p, p->end, candidate->other);
     const double length = vec2_norm(vec2_sub(dense_output_position(p, p->end, candidate->other),
@@ -194,7 +195,7 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
 static void put_node(const dense_output *p, double t, dem_index i, double *state)
 {
     vec2_put(state, i, dense_output_position(p, t, i));
-    vec2_put(state, p->n_nodes + i, dense_output_velocity(p, t, i));
+    vec2_put(state + state_velocities(&p->layout), i, dense_output_velocity(p, t, i));
 }
 
 /* A node and all whose positions its force depends on. */
@@ -220,7 +221,7 @@ void event_location_state(const contact_forces *r, dem_index group, const dense_
         if (candidate->previous >= 0) put_node(p, t, candidate->previous, state);
         if (candidate->next >= 0) put_node(p, t, candidate->next, state);
     }
-    if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, p->n_nodes - 1, state); /* the time */
+    if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, state_time_row(&p->layout), state);
 }
 
 /* The state at t as far as the group's forces depend on it, and those. */

@@ -23,7 +23,7 @@ static dem_status allocate(event_queue *q, const dem_model *model)
     CHECK(q->crossing && q->kept && q->saved && q->before, DEM_ERROR_MEMORY, "out of memory for %lld contact sites",
           (long long)q->automaton->set.n);
     TRY(event_heap_create(&q->heap, q->automaton->set.n));
-    TRY(changed_motion_create(&q->changed, scene_layout(&q->automaton->set.scene)->n_rows));
+    TRY(changed_motion_create(&q->changed, scene_layout(&q->automaton->set.scene)));
     return ledger_create(&q->ledger, model->obstacles.n);
 }
 
@@ -187,11 +187,12 @@ static void look_again(event_queue *q, dem_index k)
 static double furthest(const event_queue *q)
 {
     const dense_output *step = q->step;
+    const double *v1 = step->y1 + state_velocities(&step->layout);
     double way = q->automaton->way;
     for (dem_index j = 0; j < n_moving(q); j++) {
         const dem_index i = q->correction.near.nodes[j].i;
         if (q->automaton->set.of_node[i] < 0) continue;
-        way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1, step->n_nodes + i)));
+        way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(v1, i)));
     }
     return way;
 }

@@ -185,9 +185,9 @@ static double stage_time(const local_correction *p, const dense_output *step, in
 /* Puts the time into a state, for those who are driven by it. */
 static void put_time(const local_correction *p, const dense_output *step, int stage, double *y)
 {
-    const dem_index last = step->n_nodes - 1;
+    const dem_index row = state_time_row(&step->layout);
     if (!forces_are_driven(&p->near.set->scene.rule.load)) return;
-    vec2_put(y, step->n_nodes + last, dense_output_velocity(step, stage_time(p, step, stage), last));
+    vec2_put(y + state_velocities(&step->layout), row, dense_output_velocity(step, stage_time(p, step, stage), row));
 }
 
 /* How n nodes go on to a stage without the event. */
@@ -222,13 +222,15 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
 /* At the end of the step that is known. */
 static dem_status open_end(local_correction *p, const dense_output *step)
 {
+    const state_layout *l = &step->layout;
+    const double *v1 = step->y1 + state_velocities(l), *a1 = step->f1 + state_velocities(l);
     for (dem_index j = 0; j < p->near.n; j++) {
         const dem_index i = p->near.nodes[j].i;
         vec2_put(p->x[p->last], j, vec2_at(step->y1, i));
-        vec2_put(p->v[p->last], j, vec2_at(step->y1, step->n_nodes + i));
-        vec2_put(p->a[p->last], j, vec2_at(step->f1, step->n_nodes + i));
+        vec2_put(p->v[p->last], j, vec2_at(v1, i));
+        vec2_put(p->a[p->last], j, vec2_at(a1, i));
     }
-    neighbourhood_push(&p->near, reach(p, END), step->y1[4 * step->n_nodes - 1], p->x[p->last], p->v[p->last]);
+    neighbourhood_push(&p->near, reach(p, END), state_time(l, step->y1), p->x[p->last], p->v[p->last]);
     const scene_state state = scene_state_at(&p->near.set->scene, step->t1, step->y1);
     TRY(add_rates(p, END, -1.0, state));
     return add_rates(p, p->last, -1.0, state);
@@ -382,11 +384,12 @@ static double squared_error(const local_correction *p)
 dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
                                   double *error)
 {
+    const double *v = state + state_velocities(&step->layout);
     TRY(neighbourhood_regroup(&p->near));
     for (dem_index j = 0; j < n_moving(p); j++) {
         const dem_index i = p->near.nodes[j].i;
         vec2_put(p->dx[0], j, vec2_sub(vec2_at(state, i), vec2_at(p->x[0], j)));
-        vec2_put(p->dv[0], j, vec2_sub(vec2_at(state, step->n_nodes + i), vec2_at(p->v[0], j)));
+        vec2_put(p->dv[0], j, vec2_sub(vec2_at(v, i), vec2_at(p->v[0], j)));
     }
     for (int stage = 0; stage <= p->table.stages; stage++) {
         const int at = stage < p->table.stages ? stage : END;

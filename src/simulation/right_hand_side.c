@@ -84,8 +84,7 @@ ode_problem right_hand_side_problem(dem_simulation *s)
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
     return (ode_problem){
-        .n_nodes = s->layout.n_rows,
-        .n_quadratures = s->layout.n_rows - s->layout.n_nodes,
+        .layout = s->layout,
         .n_roots = model->obstacles.n > 0 && !run_is_local(s) ? CANDIDATE_ROOTS * s->automaton.set.n : 0,
         .prescribes = boundary_conditions_move(&s->boundaries),
         .derivative = derivative,

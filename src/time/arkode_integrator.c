@@ -55,7 +55,7 @@ static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
         return 0;
     }
     I->counts.evaluations++;
-    double *u = nvector_fresh(f), *a = u + 2 * I->problem.n_nodes;
+    double *u = nvector_fresh(f), *a = u + state_velocities(&I->problem.layout);
     const int flag = I->problem.derivative(t, nvector_values(y), u, a, I->problem.context);
     I->refused = flag > 1;
     return flag == 0 ? 0 : -1;
@@ -79,7 +79,7 @@ static int fetch_step(arkode_integrator *I)
 
 static dense_output held_path(const arkode_integrator *I)
 {
-    return (dense_output){.n_nodes = I->problem.n_nodes,
+    return (dense_output){.layout = I->problem.layout,
                           .t0 = I->t,
                           .t1 = I->t1,
                           .end = I->t1,
@@ -134,7 +134,7 @@ static void keep_message(const char *message, void *user)
 
 static dem_status allocate(arkode_integrator *I)
 {
-    const dem_index n = 4 * I->problem.n_nodes;
+    const dem_index n = state_size(&I->problem.layout);
     N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
@@ -145,25 +145,27 @@ static dem_status allocate(arkode_integrator *I)
         *vectors[k] = nvector_create(I->space, I->sundials);
         complete = *vectors[k] != NULL;
     }
-    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)I->problem.n_nodes);
+    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+          (long long)I->problem.layout.n_nodes);
     return DEM_OK;
 }
 
 /* The norm is a mean over all entries, the quadratures too, which have no part in the error. */
 static void fill_weights(arkode_integrator *I)
 {
-    const dem_index n = I->problem.n_nodes, n_real = n - I->problem.n_quadratures;
-    const double share = sqrt((double)n / (double)n_real);
+    const state_layout *l = &I->problem.layout;
+    const dem_index v = state_velocities(l), n_real = state_row(l, l->n_nodes);
+    const double share = sqrt((double)l->n_rows / (double)l->n_nodes);
     double *w = nvector_fresh(I->weights);
-    for (dem_index k = 0; k < 4 * n; k++) w[k] = no_weight;
-    for (dem_index k = 0; k < 2 * n_real; k++) w[k] = share / I->problem.position_error;
-    for (dem_index k = 2 * n; k < 2 * (n + n_real); k++) w[k] = share / I->problem.velocity_error;
+    for (dem_index k = 0; k < state_size(l); k++) w[k] = no_weight;
+    for (dem_index k = 0; k < n_real; k++) w[k] = share / I->problem.position_error;
+    for (dem_index k = v; k < v + n_real; k++) w[k] = share / I->problem.velocity_error;
 }
 
 /* The state from which the next step goes. */
 static void start_from(arkode_integrator *I, double t, const double *y)
 {
-    if (y != nvector_values(I->y0)) memcpy(nvector_fresh(I->y0), y, 4 * (size_t)I->problem.n_nodes * sizeof *y);
+    if (y != nvector_values(I->y0)) memcpy(nvector_fresh(I->y0), y, (size_t)state_size(&I->problem.layout) * sizeof *y);
     nvector_share(I->y0, I->y);
     I->t = t;
     I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;

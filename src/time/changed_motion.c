@@ -7,11 +7,11 @@
 #include "base/grow.h"
 #include "base/status.h"
 
-dem_status changed_motion_create(changed_motion *out, dem_index n_nodes)
+dem_status changed_motion_create(changed_motion *out, const state_layout *layout)
 {
-    changed_motion tr = {.n_nodes = n_nodes, .place = malloc((size_t)n_nodes * sizeof *tr.place)};
-    CHECK(tr.place != NULL, DEM_ERROR_MEMORY, "out of memory for the motion of %lld nodes", (long long)n_nodes);
-    for (dem_index i = 0; i < n_nodes; i++) tr.place[i] = -1;
+    changed_motion tr = {.layout = *layout, .place = malloc((size_t)layout->n_rows * sizeof *tr.place)};
+    CHECK(tr.place != NULL, DEM_ERROR_MEMORY, "out of memory for the motion of %lld nodes", (long long)layout->n_nodes);
+    for (dem_index i = 0; i < layout->n_rows; i++) tr.place[i] = -1;
     *out = tr;
     return DEM_OK;
 }
@@ -39,7 +39,7 @@ void changed_motion_start(changed_motion *tr, double end, double *y1, double *f1
 
 void changed_motion_undo(changed_motion *tr)
 {
-    const dem_index n = tr->n_nodes;
+    const dem_index n = tr->layout.n_rows;
     for (dem_index k = tr->n - 1; k >= 0; k--) { /* of a node that is kept twice the first was before */
         const changed_motion_node *e = &tr->list[k];
         vec2_put(tr->y1, e->node, e->x);
@@ -52,7 +52,7 @@ void changed_motion_undo(changed_motion *tr)
 
 dem_status changed_motion_keep(changed_motion *tr, dem_index node)
 {
-    const dem_index n = tr->n_nodes;
+    const dem_index n = tr->layout.n_rows;
     CHECK(grow_array((void **)&tr->list, &tr->capacity, tr->n + 1, sizeof *tr->list), DEM_ERROR_MEMORY,
           "out of memory for the contact events of a step");
     changed_motion_node *e = &tr->list[tr->n++];
@@ -81,7 +81,7 @@ static void add_to(double *array, dem_index i, vec2 change)
 
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump)
 {
-    const dem_index n = tr->n_nodes;
+    const dem_index n = tr->layout.n_rows;
     add_to(tr->y1, node, jump->x);
     add_to(tr->y1, n + node, jump->v);
     add_to(tr->f1, node, jump->v);

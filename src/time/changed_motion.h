@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 
+#include "base/state.h"
 #include "base/vec2.h"
 
 enum { MOTION_TERMS = 6 };
@@ -30,16 +31,16 @@ typedef struct changed_motion_node {
 } changed_motion_node;
 
 typedef struct changed_motion {
-    dem_index n_nodes;
+    state_layout layout;
     double end;       /* s, of the step */
-    double *y1, *f1;  /* [4 n] state there and its derivative, the engine's */
-    dem_index *place; /* [n_nodes] of a node in the list, -1: its motion has not changed */
+    double *y1, *f1;  /* state there and its derivative, the engine's */
+    dem_index *place; /* [n_rows] of a node, or a quadrature, in the list, -1: its motion has not changed */
     dem_index n, capacity;
     changed_motion_node *list; /* [n] those whose motion has changed, and those that are kept */
 } changed_motion;
 
 /** Free with changed_motion_destroy(). */
-dem_status changed_motion_create(changed_motion *out, dem_index n_nodes);
+dem_status changed_motion_create(changed_motion *out, const state_layout *layout);
 void changed_motion_destroy(changed_motion *tr);
 
 /** Begins a step that ends in y1, with derivative f1: nothing has changed. */

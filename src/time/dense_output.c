@@ -32,13 +32,23 @@ static basis basis_at(const dense_output *p, double t)
                    .slope = 30.0 * s2 * (1.0 - s) * (1.0 - s)};
 }
 
+/* Both ends of the step: positions, velocities and accelerations. */
+typedef struct ends {
+    const double *x0, *v0, *a0, *x1, *v1, *a1;
+} ends;
+
+static inline ends ends_of(const dense_output *p)
+{
+    const dem_index v = state_velocities(&p->layout);
+    return (ends){p->y0, p->y0 + v, p->f0 + v, p->y1, p->y1 + v, p->f1 + v};
+}
+
 /* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the
  * bump's slope would turn into velocity when h is tiny. */
-static inline double defect(const dense_output *p, dem_index k, double h)
+static inline double defect(const ends *e, dem_index k, double h)
 {
-    const dem_index n = 2 * p->n_nodes;
-    const double x0 = p->y0[k], x1 = p->y1[k], v0 = p->y0[n + k], v1 = p->y1[n + k];
-    const double d = x1 - x0 - h * (0.5 * (v0 + v1) + h * (p->f0[n + k] - p->f1[n + k]) / 12.0);
+    const double x0 = e->x0[k], x1 = e->x1[k], v0 = e->v0[k], v1 = e->v1[k];
+    const double d = x1 - x0 - h * (0.5 * (v0 + v1) + h * (e->a0[k] - e->a1[k]) / 12.0);
     return fabs(d) > 4.0 * DBL_EPSILON * fmax(fabs(x0), fabs(x1)) ? d : 0.0;
 }
 
@@ -48,22 +58,20 @@ static inline double parabola(const basis *b, double y0, double f0, double y1)
     return y0 + b->s * (b->h * f0 + b->s * (y1 - y0 - b->h * f0));
 }
 
-static inline double position(const dense_output *p, const basis *b, dem_index k)
+static inline double position(bool parabolic, const ends *e, const basis *b, dem_index k)
 {
-    const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
-    if (p->parabolic) return parabola(b, p->y0[k], p->y0[n + k], p->y1[k]);
-    return p->y0[k] + h * (b->iv0 * p->y0[n + k] + b->iv1 * p->y1[n + k]) +
-           h * h * (b->ia0 * p->f0[n + k] + b->ia1 * p->f1[n + k]) + b->bump * defect(p, k, h);
+    if (parabolic) return parabola(b, e->x0[k], e->v0[k], e->x1[k]);
+    return e->x0[k] + h * (b->iv0 * e->v0[k] + b->iv1 * e->v1[k]) + h * h * (b->ia0 * e->a0[k] + b->ia1 * e->a1[k]) +
+           b->bump * defect(e, k, h);
 }
 
-static inline double velocity(const dense_output *p, const basis *b, dem_index k)
+static inline double velocity(bool parabolic, const ends *e, const basis *b, dem_index k)
 {
-    const dem_index n = 2 * p->n_nodes;
     const double h = b->h;
-    if (p->parabolic) return parabola(b, p->y0[n + k], p->f0[n + k], p->y1[n + k]);
-    return b->v0 * p->y0[n + k] + b->v1 * p->y1[n + k] + h * (b->a0 * p->f0[n + k] + b->a1 * p->f1[n + k]) +
-           b->slope * defect(p, k, h) / h;
+    if (parabolic) return parabola(b, e->v0[k], e->a0[k], e->v1[k]);
+    return b->v0 * e->v0[k] + b->v1 * e->v1[k] + h * (b->a0 * e->a0[k] + b->a1 * e->a1[k]) +
+           b->slope * defect(e, k, h) / h;
 }
 
 static bool turned(const dense_output *p, dem_index i)
@@ -77,55 +85,67 @@ vec2 dense_output_position(const dense_output *p, double t, dem_index i)
     if (turned(p, i)) return changed_motion_position(p->changed, t, i);
     if (t == p->t0) return vec2_at(p->y0, i);
     const basis b = basis_at(p, t);
-    return (vec2){position(p, &b, 2 * i), position(p, &b, 2 * i + 1)};
+    const ends e = ends_of(p);
+    return (vec2){position(p->parabolic, &e, &b, 2 * i), position(p->parabolic, &e, &b, 2 * i + 1)};
 }
 
 vec2 dense_output_velocity(const dense_output *p, double t, dem_index i)
 {
-    const dem_index n = p->n_nodes;
+    const dem_index n = p->layout.n_rows;
     if (t == p->t1) return vec2_at(p->y1, n + i);
     if (turned(p, i)) return changed_motion_velocity(p->changed, t, i);
     if (t == p->t0) return vec2_at(p->y0, n + i);
     const basis b = basis_at(p, t);
-    return (vec2){velocity(p, &b, 2 * i), velocity(p, &b, 2 * i + 1)};
+    const ends e = ends_of(p);
+    return (vec2){velocity(p->parabolic, &e, &b, 2 * i), velocity(p->parabolic, &e, &b, 2 * i + 1)};
+}
+
+/* Of all numbers of x and v. */
+static inline void fill(bool parabolic, const dense_output *p, double t, double *restrict y)
+{
+    const dem_index n = state_velocities(&p->layout);
+    const ends e = ends_of(p);
+    const basis b = basis_at(p, t);
+    for (dem_index k = 0; k < n; k++) {
+        y[k] = position(parabolic, &e, &b, k);
+        y[n + k] = velocity(parabolic, &e, &b, k);
+    }
 }
 
 /* As if no event inside had changed it. */
 static void interpolate(const dense_output *p, double t, double *y)
 {
-    const dem_index n = 2 * p->n_nodes;
-    const basis b = basis_at(p, t);
-    for (dem_index k = 0; k < n; k++) {
-        y[k] = position(p, &b, k);
-        y[n + k] = velocity(p, &b, k);
-    }
+    if (p->parabolic)
+        fill(true, p, t, y);
+    else
+        fill(false, p, t, y);
 }
 
 void dense_output_state(const dense_output *p, double t, double *y)
 {
     if (t == p->t0 || t == p->t1)
-        memcpy(y, t == p->t0 ? p->y0 : p->y1, 4 * (size_t)p->n_nodes * sizeof *y);
+        memcpy(y, t == p->t0 ? p->y0 : p->y1, (size_t)state_size(&p->layout) * sizeof *y);
     else
         interpolate(p, t, y);
-    for (dem_index i = 0; i < p->n_nodes && p->changed != NULL && t != p->t1; i++) {
+    for (dem_index i = 0; i < p->layout.n_rows && p->changed != NULL && t != p->t1; i++) {
         if (!changed_motion_has(p->changed, i)) continue;
         vec2_put(y, i, changed_motion_position(p->changed, t, i));
-        vec2_put(y, p->n_nodes + i, changed_motion_velocity(p->changed, t, i));
+        vec2_put(y, p->layout.n_rows + i, changed_motion_velocity(p->changed, t, i));
     }
 }
 
 /* The same in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
 static void quintic(const dense_output *p, dem_index i, motion_polynomial *m)
 {
-    const dem_index n = 2 * p->n_nodes;
+    const ends e = ends_of(p);
     const double h = p->t1 - p->t0, per_h = 1.0 / h;
     for (int d = 0; d < 2; d++) {
         const dem_index k = 2 * i + d;
-        const double bump = 30.0 * per_h * defect(p, k, h), jump = p->y1[n + k] - p->y0[n + k];
-        const double a0 = h * p->f0[n + k], a1 = h * p->f1[n + k];
+        const double bump = 30.0 * per_h * defect(&e, k, h), jump = e.v1[k] - e.v0[k];
+        const double a0 = h * e.a0[k], a1 = h * e.a1[k];
         const double v[MOTION_TERMS] = {
-            p->y0[n + k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump, bump, 0.0};
-        m->c[0][d] = p->y0[k];
+            e.v0[k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump, bump, 0.0};
+        m->c[0][d] = e.x0[k];
         for (int q = 0; q < MOTION_TERMS; q++) m->c[q][2 + d] = v[q];
         for (int q = 1; q < MOTION_TERMS; q++) m->c[q][d] = h / q * v[q - 1];
     }
@@ -133,16 +153,16 @@ static void quintic(const dense_output *p, dem_index i, motion_polynomial *m)
 
 static void parabolas(const dense_output *p, dem_index i, motion_polynomial *m)
 {
-    const dem_index n = 2 * p->n_nodes;
+    const ends e = ends_of(p);
     const double h = p->t1 - p->t0;
     for (int d = 0; d < 2; d++) {
         const dem_index k = 2 * i + d;
-        m->c[0][d] = p->y0[k];
-        m->c[1][d] = h * p->y0[n + k];
-        m->c[2][d] = p->y1[k] - m->c[0][d] - m->c[1][d];
-        m->c[0][2 + d] = p->y0[n + k];
-        m->c[1][2 + d] = h * p->f0[n + k];
-        m->c[2][2 + d] = p->y1[n + k] - m->c[0][2 + d] - m->c[1][2 + d];
+        m->c[0][d] = e.x0[k];
+        m->c[1][d] = h * e.v0[k];
+        m->c[2][d] = e.x1[k] - m->c[0][d] - m->c[1][d];
+        m->c[0][2 + d] = e.v0[k];
+        m->c[1][2 + d] = h * e.a0[k];
+        m->c[2][2 + d] = e.v1[k] - m->c[0][2 + d] - m->c[1][2 + d];
     }
 }
 

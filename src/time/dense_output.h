@@ -9,7 +9,7 @@
 #include "time/changed_motion.h"
 
 typedef struct dense_output {
-    dem_index n_nodes;
+    state_layout layout;
     double t0, t1;    /* the accepted step, s */
     double end;       /* the motion holds up to here, t0 <= end <= t1: an event cuts it short */
     const double *y0; /* [4 n] state (x, v) at t0 */

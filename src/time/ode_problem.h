@@ -14,17 +14,16 @@ typedef struct ode_fused_step {
 } ode_fused_step;
 
 typedef struct ode_problem {
-    dem_index n_nodes;       /* y has 4 n_nodes entries */
-    dem_index n_quadratures; /* the last of these nodes are integrated along, and have no part in the error */
-    dem_index n_roots;       /* root functions, each looked for as it falls through 0; may be 0 */
-    bool prescribes;         /* whether some x' are given, so that they are not v */
+    state_layout layout; /* of y; what stands behind the nodes is integrated along, and has no part in the error */
+    dem_index n_roots;   /* root functions, each looked for as it falls through 0; may be 0 */
+    bool prescribes;     /* whether some x' are given, so that they are not v */
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An engine that knows v may leave
      *  u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or 2
      *  if nothing may. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
-    /** Does the step of all nodes but the books, whose positions and velocities at its end are given, and fills their
-     *  rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not from this
-     *  state. NULL: from none. */
+    /** Does the step of the nodes; of what stands behind them the positions and velocities at its end are given, and it
+     *  fills the rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not
+     *  from this state. NULL: from none. */
     int (*fused_step)(const ode_fused_step *step, void *context);
     void (*root_functions)(double t, const double *y, double *g, void *context);
     /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */

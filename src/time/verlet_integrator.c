@@ -25,11 +25,11 @@ typedef struct verlet_integrator {
 
 static dem_status allocate(verlet_integrator *V)
 {
-    const size_t n = 4 * (size_t)V->problem.n_nodes, n_roots = (size_t)V->problem.n_roots;
+    const size_t n = (size_t)state_size(&V->problem.layout), n_roots = (size_t)V->problem.n_roots;
     V->arrays = aligned_zeros(5 * n);
     V->values = calloc(3 * n_roots + 1, sizeof *V->values);
     CHECK(V->arrays && V->values, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
-          (long long)V->problem.n_nodes);
+          (long long)V->problem.layout.n_nodes);
     V->y0 = V->arrays;
     V->f0 = V->arrays + n;
     V->y1 = V->arrays + 2 * n;
@@ -53,7 +53,7 @@ static void verlet_integrator_destroy(void *self)
 static dem_status verlet_integrator_restart(void *self, double t, const double *y)
 {
     verlet_integrator *V = self;
-    if (y != V->y0) memcpy(V->y0, y, 4 * (size_t)V->problem.n_nodes * sizeof *y);
+    if (y != V->y0) memcpy(V->y0, y, (size_t)state_size(&V->problem.layout) * sizeof *y);
     V->t = t;
     V->has_f0 = V->has_low = V->at_end = false;
     return DEM_OK;
@@ -127,7 +127,7 @@ static double *verlet_integrator_state(const void *self)
 
 static int evaluate(verlet_integrator *V, double t, const double *y, double *f)
 {
-    double *u = V->problem.prescribes ? f : NULL, *a = f + 2 * V->problem.n_nodes;
+    double *u = V->problem.prescribes ? f : NULL, *a = f + state_velocities(&V->problem.layout);
     V->counts.evaluations++;
     return V->problem.derivative(t, y, u, a, V->problem.context);
 }
@@ -139,27 +139,27 @@ typedef struct stretch {
 
 static stretch share_of(const verlet_integrator *V, int t)
 {
-    const dem_index n = 2 * V->problem.n_nodes, at = threads_share(n, V->problem.n_threads, t);
+    const dem_index n = state_velocities(&V->problem.layout), at = threads_share(n, V->problem.n_threads, t);
     return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
 }
 
 static void drift_stretch(verlet_integrator *V, double h, stretch s)
 {
-    const dem_index n = 2 * V->problem.n_nodes;
+    const dem_index n = state_velocities(&V->problem.layout);
     const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
     V->problem.ops->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
 }
 
 static void kick_stretch(verlet_integrator *V, double h, stretch s)
 {
-    const dem_index at = 2 * V->problem.n_nodes + s.at;
+    const dem_index at = state_velocities(&V->problem.layout) + s.at;
     V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
 }
 
 /* A velocity that the derivative does not take over as it is, is prescribed. */
 static void kick_free(verlet_integrator *V, double h)
 {
-    const dem_index n = 2 * V->problem.n_nodes;
+    const dem_index n = state_velocities(&V->problem.layout);
     double *v1 = V->y1 + n;
     for (dem_index k = 0; k < n; k++)
         v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
@@ -170,7 +170,8 @@ static int take_fused_step(verlet_integrator *V, double h)
 {
     const ode_problem *p = &V->problem;
     const ode_fused_step step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
-    const stretch quadratures = {2 * (p->n_nodes - p->n_quadratures), 2 * p->n_quadratures};
+    const dem_index n_real = state_row(&p->layout, p->layout.n_nodes);
+    const stretch quadratures = {n_real, state_velocities(&p->layout) - n_real};
     if (p->fused_step == NULL) return -1;
     drift_stretch(V, h, quadratures);
     const int flag = p->fused_step(&step, p->context);
@@ -262,7 +263,7 @@ static dem_status verlet_integrator_step(void *self, dense_output *step, bool *r
     if (!V->has_low) TRY(look(V, V->t, V->y0, V->low));
     if (kick_drift_kick(V, ode_problem_fixed_step(&V->problem, V->y0)) != 0) return DEM_ERROR_INTEGRATOR;
     TRY(look(V, V->t1, V->y1, V->high));
-    *step = (dense_output){.n_nodes = V->problem.n_nodes,
+    *step = (dense_output){.layout = V->problem.layout,
                            .parabolic = true,
                            .t0 = V->t,
                            .t1 = V->t1,

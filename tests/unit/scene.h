@@ -144,7 +144,8 @@ static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_
         vec2_put(out->f0, n + i, a);
         vec2_put(out->f1, n + i, a);
     }
-    out->path = (dense_output){n, t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
+    out->path = (dense_output){
+        *scene_layout(&s->c.set.scene), t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
 }
 
 /** Adds the rates of the quadratures of one obstacle, [3][2], in the same state with room for them. */

@@ -123,7 +123,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
     (void)derive(t, y0, f0, p);
     (void)derive(t1, y1, f1, p);
-    dense_output step = {p->n_all, t, t1, t1, y0, f0, y1, f1, false, NULL};
+    dense_output step = {p->rule.layout, t, t1, t1, y0, f0, y1, f1, false, NULL};
     event_queue_start(&q, &step, y1, f1, state);
     assert_ok(event_queue_show(&q, t1));
     const estimates e = {norm(p, error, error + 2 * p->n_all), event_queue_error(&q)};

@@ -72,7 +72,8 @@ static void close_rig(rig *r)
 
 static void take_up(rig *r, double t0, double h)
 {
-    r->path = (dense_output){r->n_all, t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
+    r->path =
+        (dense_output){*scene_layout(&r->c.set.scene), t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
     event_queue_start(&r->q, &r->path, r->y1, r->f1, r->state);
 }
 

@@ -202,7 +202,7 @@ static void open_step(step *s, kind k)
     put_start(s);
     assert_ok(local_correction_create(&s->correction, &s->c.set,
                                       &(local_correction_rule){5, position_error, velocity_error, s->b.held}));
-    assert_ok(changed_motion_create(&s->changed, s->n_all));
+    assert_ok(changed_motion_create(&s->changed, scene_layout(&s->c.set.scene)));
 }
 
 static void close_step(step *s)
@@ -226,7 +226,7 @@ static void go(step *s)
     s->y1[4 * s->n_all - 1] = start + s->h;
     derive(s, &s->before, start, s->y0, s->f0);
     derive(s, &s->before, start + s->h, s->y1, s->f1);
-    s->path = (dense_output){.n_nodes = s->n_all,
+    s->path = (dense_output){.layout = *scene_layout(&s->c.set.scene),
                              .t0 = start,
                              .t1 = start + s->h,
                              .end = start + s->h,
@@ -590,11 +590,11 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     dem_lattice_free(&lattice);
     assert_ok(automaton_create(&c, model, &rule));
     assert_ok(local_correction_create(&near, &c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
-    assert_ok(changed_motion_create(&tr, 5));
+    assert_ok(changed_motion_create(&tr, &rule.layout));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
     y1[0] = v * h, y1[1] = y0[1] - 0.5 * g * h * h, y1[10] = v, y1[11] = -g * h;
-    const dense_output p = {5, 0.0, h, h, y0, f0, y1, f1, false, &tr};
+    const dense_output p = {rule.layout, 0.0, h, h, y0, f0, y1, f1, false, &tr};
     changed_motion_start(&tr, h, y1, f1);
     assert_ok(local_correction_open(&near, &p, 0, at, y));
     assert_close(y[1], 0.0, 1e-16);
@@ -642,7 +642,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
     assert_ok(automaton_create(&s.c, s.model, &rule));
     assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
-    assert_ok(changed_motion_create(&s.changed, s.n));
+    assert_ok(changed_motion_create(&s.changed, &rule.layout));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);
     put_start(&s);
@@ -651,7 +651,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     triplets_reach(&l, h, s.y1);
     (void)triplets_derivative(0.0, s.y0, s.f0, &l);
     (void)triplets_derivative(h, s.y1, s.f1, &l);
-    s.path = (dense_output){s.n, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
+    s.path = (dense_output){rule.layout, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
     changed_motion_start(&s.changed, h, s.y1, s.f1);
     const dem_index struck = node_near(&s, 0.0, 0.0);
     assert_ok(local_correction_open(&s.correction, &s.path, s.c.set.of_node[struck], at, s.state));

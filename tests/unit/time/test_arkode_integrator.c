@@ -77,7 +77,7 @@ static void broken_heights(double t, const double *y, double *guards, void *cont
 static integrator make(world *w, int (*derivative)(double, const double *, double *, double *, void *),
                        dem_method method, double error, double fixed_step, const double *y)
 {
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .derivative = derivative,
@@ -180,7 +180,7 @@ static void adaptive_steps_keep_the_error_they_are_given(void **state)
 static int steps_with_errors(double position, double velocity)
 {
     world w = {.fails_after = 1e9};
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .derivative = swing,
@@ -211,7 +211,7 @@ static void errors_of_positions_and_of_velocities_both_count(void **state)
 
 static void an_unknown_method_is_refused(void **state)
 {
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .derivative = fall,
@@ -241,7 +241,7 @@ static void a_path_starts_where_the_last_one_ended_and_holds_the_derivatives(voi
     for (int k = 0; k < 30; k++) {
         bool rooted;
         assert_ok(integrator_step(&i, &p, &rooted));
-        assert_int_equal(p.n_nodes, 1);
+        assert_int_equal(p.layout.n_rows, 1);
         assert_close(p.t0, t, 0.0);
         assert_true(p.t1 > t && p.end == p.t1);
         assert_memory_equal(p.y0, y, sizeof y);
@@ -294,7 +294,7 @@ static void evaluations_are_counted(void **state)
 
 static integrator make_fall(world *w, const double *y)
 {
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .n_roots = 2,
@@ -479,7 +479,7 @@ static void a_tolerance_below_rounding_is_told(void **state)
 
 static void guards_that_are_no_numbers_are_an_error(void **state)
 {
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .n_roots = 2,

@@ -42,6 +42,8 @@ static motion_polynomial written_from(double from, double end)
     return m;
 }
 
+static const state_layout layout = {.dim = 2, .n_nodes = n_nodes, .n_rows = n_nodes};
+
 typedef struct step {
     changed_motion changed;
     double y1[n_state], f1[n_state];
@@ -49,7 +51,7 @@ typedef struct step {
 
 static void open_step(step *s, double end)
 {
-    assert_ok(changed_motion_create(&s->changed, n_nodes));
+    assert_ok(changed_motion_create(&s->changed, &layout));
     for (int k = 0; k < n_state; k++) {
         s->y1[k] = 1.0 / (3.0 + k);
         s->f1[k] = -1.0 / (7.0 + k);

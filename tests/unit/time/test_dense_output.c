@@ -13,6 +13,8 @@ typedef struct ode_problem {
     double (*x)(int k, double t), (*v)(int k, double t), (*a)(int k, double t);
 } ode_problem;
 
+static const state_layout layout = {.dim = 2, .n_nodes = n_nodes, .n_rows = n_nodes};
+
 typedef struct step {
     double y0[n_state], f0[n_state], y1[n_state], f1[n_state];
     dense_output path;
@@ -31,7 +33,7 @@ static void make_step(step *s, const ode_problem *m, double t0, double t1)
 {
     sample(m, t0, s->y0, s->f0);
     sample(m, t1, s->y1, s->f1);
-    s->path = (dense_output){n_nodes, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
+    s->path = (dense_output){layout, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
 }
 
 /* Polynomials of degree 5 in t, other ones for each coordinate. */
@@ -200,7 +202,7 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
 static void a_displacement_beyond_rounding_is_followed(void **state)
 {
     double y0[4] = {1.0, 2.0, 0.0, 0.0}, y1[4] = {1.1, 2.0, 0.0, 0.0}, f[4] = {0.0, 0.0, 0.0, 0.0};
-    const dense_output p = {1, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
+    const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
     (void)state;
     assert_close(dense_output_position(&p, 1.0, 0).x, 1.05, 1e-15);
     assert_close(dense_output_velocity(&p, 1.0, 0).x, 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
@@ -213,7 +215,7 @@ static void a_parabolic_path_matches_what_a_method_of_order_2_knows(void **state
 {
     double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};
     double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
-    const dense_output p = {1, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
+    const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
     (void)state;
     assert_close(dense_output_position(&p, 1.0, 0).x, 1.0 + 3.0 - 1.25, 1e-15);
     assert_close(dense_output_velocity(&p, 1.0, 0).x, 3.0 + 4.0 - 1.5, 1e-15);

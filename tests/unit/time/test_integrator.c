@@ -32,7 +32,7 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
         dem_method_traits traits;
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
         int calls = 0, bounces = 0;
-        const ode_problem problem = {.n_nodes = 1,
+        const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                      .ops = &array_ops_portable,
                                      .n_threads = 1,
                                      .n_roots = 1,
@@ -74,7 +74,7 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
     (void)state;
     for (int m = 0; m < 2; m++) {
         int calls = 0, bounces = 0;
-        const ode_problem problem = {.n_nodes = 1,
+        const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                      .ops = &array_ops_portable,
                                      .n_threads = 1,
                                      .n_roots = 1,
@@ -124,7 +124,7 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
 
 static void what_cannot_be_made_is_told(void **state)
 {
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .derivative = fall,

@@ -55,7 +55,7 @@ static double stiffening(const double *y, void *context)
 
 static integrator make(world *w, double h, dem_index n_roots, const double *y)
 {
-    const ode_problem problem = {.n_nodes = 1,
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .n_roots = n_roots,
@@ -151,8 +151,7 @@ static void a_step_in_one_pass_is_that_in_parts(void **state)
         if (k == 1) worlds[0].fails_after = worlds[1].fails_after = 7.5 * h;
         for (int fused = 0; fused < 2; fused++) {
             const ode_problem problem = {.method = DEM_METHOD_VERLET,
-                                         .n_nodes = 2,
-                                         .n_quadratures = 1,
+                                         .layout = {.dim = 2, .n_nodes = 1, .n_rows = 2},
                                          .ops = &array_ops_portable,
                                          .n_threads = 1,
                                          .derivative = move_with_book,
@@ -434,7 +433,7 @@ static void guards_that_are_no_numbers_are_an_error(void **state)
 static void without_a_fixed_step_it_is_refused(void **state)
 {
     const ode_problem problem = {.method = DEM_METHOD_VERLET,
-                                 .n_nodes = 1,
+                                 .layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
                                  .derivative = move,
