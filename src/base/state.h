@@ -18,7 +18,7 @@ enum { STATE_DIM_MOST = 3 };
 typedef enum state_total { STATE_FRICTION, STATE_DAMPING, STATE_WORK, STATE_TIME, STATE_TOTALS } state_total;
 
 typedef struct state_layout {
-    int dim;               /* components of a row, at most STATE_DIM_MOST */
+    int dim;               /* components of a row, 2 or 3 */
     dem_index n_nodes;     /* of the lattice */
     dem_index n_ghosts;    /* copies of nodes that are integrated elsewhere, behind the nodes: none as yet */
     dem_index n_obstacles; /* whose impulses are integrated along */
@@ -94,6 +94,15 @@ static inline dem_index state_total_index(const state_layout *l, state_total whi
 }
 
 /* ---- values ---- */
+
+/** Copies a row; two components at once, for vector instructions. */
+static inline void state_copy_row(const state_layout *l, double *to, const double *from)
+{
+    const double first = from[0], second = from[1];
+    if (l->dim > 2) to[2] = from[2];
+    to[0] = first;
+    to[1] = second;
+}
 
 /** Position, velocity [dim] of a row of y. */
 static inline const double *state_x(const state_layout *l, const double *y, dem_index row)

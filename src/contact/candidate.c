@@ -2,6 +2,8 @@
 /* Gaps and guards of one contact site. */
 #include "contact/candidate.h"
 
+#include "contact/node_motion.h"
+
 /* ---- gaps ---- */
 
 candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x)
@@ -15,10 +17,10 @@ candidate_positions candidate_place(const contact_candidate *candidate, double t
 
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t)
 {
-    candidate_positions spot = {.t = t, .a = dense_output_position(p, t, candidate->node)};
-    spot.b = candidate_is_edge(candidate) ? dense_output_position(p, t, candidate->other) : spot.a;
-    spot.previous = candidate->previous >= 0 ? dense_output_position(p, t, candidate->previous) : spot.a;
-    spot.next = candidate->next >= 0 ? dense_output_position(p, t, candidate->next) : spot.b;
+    candidate_positions spot = {.t = t, .a = node_motion_position(p, t, candidate->node)};
+    spot.b = candidate_is_edge(candidate) ? node_motion_position(p, t, candidate->other) : spot.a;
+    spot.previous = candidate->previous >= 0 ? node_motion_position(p, t, candidate->previous) : spot.a;
+    spot.next = candidate->next >= 0 ? node_motion_position(p, t, candidate->next) : spot.b;
     return spot;
 }
 

@@ -4,6 +4,8 @@
 
 #include <float.h>
 
+#include "contact/node_motion.h"
+
 double event_location_resolution(const dense_output *p)
 {
     return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
@@ -51,10 +53,10 @@ static sample sample_at(const contact_scene *scene, const contact_candidate *can
 {
     const candidate_positions spot = candidate_place_at(candidate, p, t);
     const contact_gap gap = candidate_gap(scene, candidate, &spot);
-    vec2 v = dense_output_velocity(p, t, candidate->node);
+    vec2 v = node_motion_velocity(p, t, candidate->node);
     if (candidate_is_edge(candidate))
         v = vec2_add(vec2_scale(1.0 - gap.place, v),
-                     vec2_scale(gap.place, dense_output_velocity(p, t, candidate->other)));
+                     vec2_scale(gap.place, node_motion_velocity(p, t, candidate->other)));
     return (sample){t, fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance, vec2_dot(gap.normal, v)};
 }
 
@@ -111,8 +113,8 @@ static double crossing(const contact_scene *scene, const contact_candidate *cand
 
 static double fastest(const dense_output *p, double t, const contact_candidate *candidate)
 {
-    const double v = vec2_norm(dense_output_velocity(p, t, candidate->node));
-    return candidate_is_edge(candidate) ? fmax(v, vec2_norm(dense_output_velocity(p, t, candidate->other))) : v;
+    const double v = vec2_norm(node_motion_velocity(p, t, candidate->node));
+    return candidate_is_edge(candidate) ? fmax(v, vec2_norm(node_motion_velocity(p, t, candidate->other))) : v;
 }
 
 /* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
@@ -124,10 +126,10 @@ static double bend(const contact_candidate *candidate, const dense_output *p)
     const double *start = p->f0 + v, *end = p->f1 + v;
     const double a = fmax(fmax(vec2_norm(vec2_at(start, a0)), vec2_norm(vec2_at(end, a0))),
                           fmax(vec2_norm(vec2_at(start, b0)), vec2_norm(vec2_at(end, b0))));
-    const vec2 va = dense_output_velocity(p, p->end, candidate->node),
-               vb = dense_output_velocity(p, p->end, candidate->other);
-    const double length = vec2_norm(vec2_sub(dense_output_position(p, p->end, candidate->other),
-                                             dense_output_position(p, p->end, candidate->node)));
+    const vec2 va = node_motion_velocity(p, p->end, candidate->node),
+               vb = node_motion_velocity(p, p->end, candidate->other);
+    const double length = vec2_norm(
+        vec2_sub(node_motion_position(p, p->end, candidate->other), node_motion_position(p, p->end, candidate->node)));
     const double turn = 2.0 * vec2_norm(vec2_sub(vb, va)) / length * fmax(vec2_norm(va), vec2_norm(vb));
     return 0.5 * h * h * (a + turn);
 }
@@ -140,8 +142,8 @@ static bool edge_is_clear(const contact_scene *scene, const contact_candidate *c
     const candidate_positions spot = candidate_place_at(candidate, p, p->end);
     const contact_gap around = candidate_around(scene, candidate, &spot, reach + scene->rule.penetration_tolerance);
     if (around.feature < 0) return true;
-    const double va = vec2_dot(dense_output_velocity(p, p->end, candidate->node), around.normal),
-                 vb = vec2_dot(dense_output_velocity(p, p->end, candidate->other), around.normal);
+    const double va = vec2_dot(node_motion_velocity(p, p->end, candidate->node), around.normal),
+                 vb = vec2_dot(node_motion_velocity(p, p->end, candidate->other), around.normal);
     const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
     return around.distance + scene->rule.penetration_tolerance > way + bend(candidate, p);
 }
@@ -194,8 +196,8 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
 
 static void put_node(const dense_output *p, double t, dem_index i, double *state)
 {
-    vec2_put(state, i, dense_output_position(p, t, i));
-    vec2_put(state + state_velocities(&p->layout), i, dense_output_velocity(p, t, i));
+    dense_output_position(p, t, i, state + state_row(&p->layout, i));
+    dense_output_velocity(p, t, i, state + state_velocities(&p->layout) + state_row(&p->layout, i));
 }
 
 /* A node and all whose positions its force depends on. */

@@ -187,7 +187,8 @@ static void put_time(const local_correction *p, const dense_output *step, int st
 {
     const dem_index row = state_time_row(&step->layout);
     if (!forces_are_driven(&p->near.set->scene.rule.load)) return;
-    vec2_put(y + state_velocities(&step->layout), row, dense_output_velocity(step, stage_time(p, step, stage), row));
+    dense_output_velocity(step, stage_time(p, step, stage), row,
+                          y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }
 
 /* How n nodes go on to a stage without the event. */
@@ -195,10 +196,7 @@ static void fetch_stage(local_correction *p, int stage, dem_index n)
 {
     const double s = p->table.c[stage];
     for (dem_index j = 0; j < n; j++) {
-        double at[4];
-        motion_polynomial_at(&p->motions[j], s, at);
-        vec2_put(p->x[stage], j, vec2_at(at, 0));
-        vec2_put(p->v[stage], j, vec2_at(at, 1));
+        motion_polynomial_at(&p->motions[j], s, p->x[stage] + 2 * j, p->v[stage] + 2 * j);
     }
 }
 
@@ -242,19 +240,20 @@ static void open_start(local_correction *p, const dense_output *step, double *y)
     const neighbourhood_state s = {p->t, p->x[0], p->v[0], y};
     fetch_stage(p, 0, p->near.n);
     for (dem_index j = 0; j < p->near.end[1]; j++) {
-        vec2_put(p->x[0], j, dense_output_position(step, p->t, p->near.nodes[j].i));
-        vec2_put(p->v[0], j, dense_output_velocity(step, p->t, p->near.nodes[j].i));
+        dense_output_position(step, p->t, p->near.nodes[j].i, p->x[0] + 2 * j);
+        dense_output_velocity(step, p->t, p->near.nodes[j].i, p->v[0] + 2 * j);
     }
     neighbourhood_put(&p->near, &s, p->near.n);
     put_time(p, step, 0, y);
 }
 
-static motion_polynomial motion_of(const local_correction *p, const dense_output *step, dem_index place)
+static void find_motion(const local_correction *p, const dense_output *step, dem_index place, motion_polynomial *out)
 {
-    const bool turned = changed_motion_has(step->changed, place);
-    const motion_polynomial motion =
-        turned ? *changed_motion_of(step->changed, place) : dense_output_motion(step, place);
-    return motion_polynomial_later(&motion, p->t, step->t1);
+    if (changed_motion_has(step->changed, place))
+        motion_polynomial_copy(out, changed_motion_of(step->changed, place));
+    else
+        dense_output_motion(step, place, out);
+    motion_polynomial_restart(out, p->t, step->t1);
 }
 
 dem_status local_correction_open(local_correction *p, const dense_output *step, dem_index candidate, double t,
@@ -266,7 +265,7 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
     p->n_quadratures = 0;
     TRY(neighbourhood_gather(&p->near, candidate));
     TRY(reserve(p, p->near.n, 0));
-    for (dem_index j = 0; j < p->near.n; j++) p->motions[j] = motion_of(p, step, p->near.nodes[j].i);
+    for (dem_index j = 0; j < p->near.n; j++) find_motion(p, step, p->near.nodes[j].i, &p->motions[j]);
     TRY(open_end(p, step));
     for (int stage = 0; stage < p->table.stages; stage++)
         if (stage != p->last) TRY(open_stage(p, step, stage, state));
@@ -325,7 +324,8 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
 
 static motion_change jump_at(const local_correction *p, int stage, dem_index j)
 {
-    return (motion_change){vec2_at(p->dx[stage], j), vec2_at(p->dv[stage], j), vec2_at(p->da[stage], j)};
+    const double *x = p->dx[stage] + 2 * j, *v = p->dv[stage] + 2 * j, *a = p->da[stage] + 2 * j;
+    return (motion_change){{x[0], x[1]}, {v[0], v[1]}, {a[0], a[1]}};
 }
 
 /* What takes the slope of a node's velocity at the event, which parabolas have to a term of h^2 only, to its
@@ -336,7 +336,7 @@ static vec2 change_of_slope(const local_correction *p, dem_index j, const motion
     const unsigned held = p->rule.held != NULL ? p->rule.held[p->near.nodes[j].i] : 0;
     const vec2 after = vec2_add(vec2_at(p->a[0], j), vec2_at(p->da[0], j));
     const double per_h = p->h > 0.0 ? 1.0 / p->h : 0.0;
-    const vec2 change = {after.x - per_h * motion->c[1][2], after.y - per_h * motion->c[1][3]};
+    const vec2 change = {after.x - per_h * motion->c[0][1][1], after.y - per_h * motion->c[1][1][1]};
     return (vec2){held & DEM_COMPONENT_X ? 0.0 : change.x, held & DEM_COMPONENT_Y ? 0.0 : change.y};
 }
 
@@ -347,8 +347,13 @@ static void add_change_of_node(const local_correction *p, dem_index j, motion_po
 {
     const motion_change end = jump_at(p, END, j);
     motion_change at = jump_at(p, 0, j);
-    const motion_change by = {vec2_sub(end.x, at.x), vec2_sub(end.v, at.v), vec2_sub(end.a, at.a)};
-    if (p->parabolic && j < p->near.end[reach(p, 0)]) at.a = change_of_slope(p, j, motion);
+    motion_change by = {.x = {0.0}};
+    for (int d = 0; d < 2; d++) {
+        by.x[d] = end.x[d] - at.x[d];
+        by.v[d] = end.v[d] - at.v[d];
+        by.a[d] = end.a[d] - at.a[d];
+    }
+    if (p->parabolic && j < p->near.end[reach(p, 0)]) vec2_put(at.a, 0, change_of_slope(p, j, motion));
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
 
@@ -398,7 +403,8 @@ dem_status local_correction_close(local_correction *p, const dense_output *step,
     }
     for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->near.nodes[j].i, &p->motions[j]));
     for (dem_index b = 0; b < p->n_quadratures; b++) {
-        motion_polynomial motion = motion_of(p, step, p->book[b]);
+        motion_polynomial motion;
+        find_motion(p, step, p->book[b], &motion);
         TRY(leave(p, tr, p->near.n + b, p->book[b], &motion));
     }
     *error = squared_error(p);

@@ -2,6 +2,7 @@
 /* ERKStep in one-step mode. Nothing is left to ARKODE's defaults, which differ between its versions. */
 #include "time/arkode_integrator.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -39,28 +39,30 @@ void changed_motion_start(changed_motion *tr, double end, double *y1, double *f1
 
 void changed_motion_undo(changed_motion *tr)
 {
-    const dem_index n = tr->layout.n_rows;
+    const state_layout *l = &tr->layout;
     for (dem_index k = tr->n - 1; k >= 0; k--) { /* of a node that is kept twice the first was before */
         const changed_motion_node *e = &tr->list[k];
-        vec2_put(tr->y1, e->node, e->x);
-        vec2_put(tr->y1, n + e->node, e->v);
-        vec2_put(tr->f1, e->node, e->u);
-        vec2_put(tr->f1, n + e->node, e->a);
+        const dem_index at = state_row(l, e->node), v = state_velocities(l) + at;
+        state_copy_row(l, tr->y1 + at, e->x);
+        state_copy_row(l, tr->y1 + v, e->v);
+        state_copy_row(l, tr->f1 + at, e->u);
+        state_copy_row(l, tr->f1 + v, e->a);
     }
     forget(tr);
 }
 
 dem_status changed_motion_keep(changed_motion *tr, dem_index node)
 {
-    const dem_index n = tr->layout.n_rows;
+    const state_layout *l = &tr->layout;
+    const dem_index at = state_row(l, node), v = state_velocities(l) + at;
     CHECK(grow_array((void **)&tr->list, &tr->capacity, tr->n + 1, sizeof *tr->list), DEM_ERROR_MEMORY,
           "out of memory for the contact events of a step");
     changed_motion_node *e = &tr->list[tr->n++];
     e->node = node;
-    e->x = vec2_at(tr->y1, node);
-    e->v = vec2_at(tr->y1, n + node);
-    e->u = vec2_at(tr->f1, node);
-    e->a = vec2_at(tr->f1, n + node);
+    state_copy_row(l, e->x, tr->y1 + at);
+    state_copy_row(l, e->v, tr->y1 + v);
+    state_copy_row(l, e->u, tr->f1 + at);
+    state_copy_row(l, e->a, tr->f1 + v);
     return DEM_OK;
 }
 
@@ -70,22 +72,26 @@ dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_p
         TRY(changed_motion_keep(tr, node));
         tr->place[node] = tr->n - 1;
     }
-    tr->list[tr->place[node]].motion = *motion;
+    motion_polynomial_copy(&tr->list[tr->place[node]].motion, motion);
     return DEM_OK;
 }
 
-static void add_to(double *array, dem_index i, vec2 change)
+static inline void add_to_row(const state_layout *l, double *to, const double *change)
 {
-    vec2_put(array, i, vec2_add(vec2_at(array, i), change));
+    const double first = to[0] + change[0], second = to[1] + change[1];
+    if (l->dim > 2) to[2] += change[2];
+    to[0] = first;
+    to[1] = second;
 }
 
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump)
 {
-    const dem_index n = tr->layout.n_rows;
-    add_to(tr->y1, node, jump->x);
-    add_to(tr->y1, n + node, jump->v);
-    add_to(tr->f1, node, jump->v);
-    add_to(tr->f1, n + node, jump->a);
+    const state_layout *l = &tr->layout;
+    const dem_index at = state_row(l, node), v = state_velocities(l) + at;
+    add_to_row(l, tr->y1 + at, jump->x);
+    add_to_row(l, tr->y1 + v, jump->v);
+    add_to_row(l, tr->f1 + at, jump->v);
+    add_to_row(l, tr->f1 + v, jump->a);
 }
 
 /* ---- polynomials ---- */
@@ -95,72 +101,74 @@ static double share(const changed_motion *tr, const motion_polynomial *m, double
     return tr->end > m->from ? (t - m->from) / (tr->end - m->from) : 0.0;
 }
 
-vec2 changed_motion_position(const changed_motion *tr, double t, dem_index node)
+void changed_motion_position(const changed_motion *tr, double t, dem_index node, double *out)
 {
-    double at[4];
+    double v[STATE_DIM_MOST];
     const motion_polynomial *m = changed_motion_of(tr, node);
-    motion_polynomial_at(m, share(tr, m, t), at);
-    return vec2_at(at, 0);
+    motion_polynomial_at(m, share(tr, m, t), out, v);
 }
 
-vec2 changed_motion_velocity(const changed_motion *tr, double t, dem_index node)
+void changed_motion_velocity(const changed_motion *tr, double t, dem_index node, double *out)
 {
-    double at[4];
+    double x[STATE_DIM_MOST];
     const motion_polynomial *m = changed_motion_of(tr, node);
-    motion_polynomial_at(m, share(tr, m, t), at);
-    return vec2_at(at, 1);
+    motion_polynomial_at(m, share(tr, m, t), x, out);
 }
 
 /* c(s + r u) in powers of u: Taylor's shift, then the scale. */
-motion_polynomial motion_polynomial_later(const motion_polynomial *m, double from, double end)
+static inline void shift(motion_component c, double s)
 {
-    motion_polynomial later = *m;
-    const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
     double power = 1.0 - s;
-    later.from = from;
-    if (s == 0.0) return later;
     for (int k = 0; k < MOTION_TERMS; k++)
         for (int j = MOTION_TERMS - 2; j >= k; j--)
-            for (int q = 0; q < 4; q++) later.c[j][q] += s * later.c[j + 1][q];
+            for (int q = 0; q < 2; q++) c[j][q] += s * c[j + 1][q];
     for (int k = 1; k < MOTION_TERMS; k++, power *= 1.0 - s)
-        for (int q = 0; q < 4; q++) later.c[k][q] *= power;
-    return later;
+        for (int q = 0; q < 2; q++) c[k][q] *= power;
+}
+
+void motion_polynomial_restart(motion_polynomial *m, double from, double end)
+{
+    const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
+    m->from = from;
+    if (s == 0.0) return;
+    for (int d = 0; d < 2; d++) shift(m->c[d], s);
+    if (m->dim > 2) shift(m->c[2], s);
 }
 
 /* Quintic Hermite through (x, v, a) and (x + dx, v + dv, a + da). */
+static inline void add_quintic(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
+{
+    const double per_h = h > 0.0 ? 1.0 / h : 0.0, v0 = h * at->v[d], a0 = h * h * at->a[d];
+    const double D = by->x[d] - v0 - 0.5 * a0, V = h * by->v[d] - a0, A = h * h * by->a[d];
+    const double c[MOTION_TERMS] = {
+        at->x[d], v0, 0.5 * a0, 10.0 * D - 4.0 * V + 0.5 * A, -15.0 * D + 7.0 * V - A, 6.0 * D - 3.0 * V + 0.5 * A};
+    for (int k = 0; k < MOTION_TERMS; k++) {
+        m->c[d][k][0] += c[k];
+        m->c[d][k][1] += k + 1 < MOTION_TERMS ? per_h * (k + 1) * c[k + 1] : 0.0;
+    }
+    if (!(h > 0.0)) m->c[d][0][1] += at->v[d];
+}
+
 void motion_polynomial_add(motion_polynomial *m, double end, const motion_change *at, const motion_change *by)
 {
-    const double h = end - m->from, per_h = h > 0.0 ? 1.0 / h : 0.0;
-    const vec2 v0 = vec2_scale(h, at->v), a0 = vec2_scale(h * h, at->a);
-    const vec2 D = vec2_along(vec2_sub(by->x, v0), -0.5, a0), V = vec2_along(vec2_scale(h, by->v), -1.0, a0);
-    const vec2 A = vec2_scale(h * h, by->a);
-    const vec2 c[MOTION_TERMS] = {at->x,
-                                  v0,
-                                  vec2_scale(0.5, a0),
-                                  vec2_along(vec2_along(vec2_scale(10.0, D), -4.0, V), 0.5, A),
-                                  vec2_along(vec2_along(vec2_scale(-15.0, D), 7.0, V), -1.0, A),
-                                  vec2_along(vec2_along(vec2_scale(6.0, D), -3.0, V), 0.5, A)};
-    for (int k = 0; k < MOTION_TERMS; k++) {
-        const vec2 slope = k + 1 < MOTION_TERMS ? vec2_scale(per_h * (k + 1), c[k + 1]) : (vec2){0.0, 0.0};
-        m->c[k][0] += c[k].x;
-        m->c[k][1] += c[k].y;
-        m->c[k][2] += slope.x;
-        m->c[k][3] += slope.y;
+    const double h = end - m->from;
+    for (int d = 0; d < 2; d++) add_quintic(m, h, at, by, d);
+    if (m->dim > 2) add_quintic(m, h, at, by, 2);
+}
+
+static inline void add_parabola(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
+{
+    const double v0 = h * at->v[d], a0 = h * at->a[d];
+    const double x[3] = {at->x[d], v0, by->x[d] - v0}, v[3] = {at->v[d], a0, by->v[d] - a0};
+    for (int k = 0; k < 3; k++) {
+        m->c[d][k][0] += x[k];
+        m->c[d][k][1] += v[k];
     }
-    if (h > 0.0) return;
-    m->c[0][2] += at->v.x;
-    m->c[0][3] += at->v.y;
 }
 
 void motion_polynomial_add_parabolas(motion_polynomial *m, double end, const motion_change *at, const motion_change *by)
 {
     const double h = end - m->from;
-    const vec2 v0 = vec2_scale(h, at->v), a0 = vec2_scale(h, at->a);
-    const vec2 x[3] = {at->x, v0, vec2_sub(by->x, v0)}, v[3] = {at->v, a0, vec2_sub(by->v, a0)};
-    for (int k = 0; k < 3; k++) {
-        m->c[k][0] += x[k].x;
-        m->c[k][1] += x[k].y;
-        m->c[k][2] += v[k].x;
-        m->c[k][3] += v[k].y;
-    }
+    for (int d = 0; d < 2; d++) add_parabola(m, h, at, by, d);
+    if (m->dim > 2) add_parabola(m, h, at, by, 2);
 }

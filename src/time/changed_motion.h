@@ -5,29 +5,34 @@
 #define DEM_TIME_CHANGED_MOTION_H
 
 #include <stdbool.h>
+#include <string.h>
 
 #include "base/state.h"
-#include "base/vec2.h"
 
 enum { MOTION_TERMS = 6 };
 
-/** Motion of a node from a time to the end of the step: coefficients of powers of s = (t - from)/(end - from) for its
- *  position, m, and its velocity, m/s: x, y, x', y' of each power side by side, for vector instructions. */
+/** Of one component of a motion: coefficients of powers of s for the position, m, and the velocity, m/s, side by side
+ *  for vector instructions. */
+typedef double motion_component[MOTION_TERMS][2];
+
+/** Motion of a node from a time to the end of the step, in powers of s = (t - from)/(end - from). Code does
+ *  two components in loops that compilers unroll, and the third where there is one. */
 typedef struct motion_polynomial {
     double from; /* s */
-    double c[MOTION_TERMS][4];
+    int dim;
+    motion_component c[STATE_DIM_MOST]; /* [dim] */
 } motion_polynomial;
 
 /** Change of a state at one node: of position, velocity and acceleration. */
 typedef struct motion_change {
-    vec2 x, v, a;
+    double x[STATE_DIM_MOST], v[STATE_DIM_MOST], a[STATE_DIM_MOST];
 } motion_change;
 
 /** A node that has been changed, and its end of the step before that. */
 typedef struct changed_motion_node {
     dem_index node;
     motion_polynomial motion; /* from the last event that has changed it */
-    vec2 x, v, u, a;
+    double x[STATE_DIM_MOST], v[STATE_DIM_MOST], u[STATE_DIM_MOST], a[STATE_DIM_MOST];
 } changed_motion_node;
 
 typedef struct changed_motion {
@@ -68,20 +73,38 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node);
 /** Adds a change to the state at the end and its derivative. */
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump);
 
-/** Of a node whose motion has changed, from its last change on. */
-vec2 changed_motion_position(const changed_motion *tr, double t, dem_index node);
-vec2 changed_motion_velocity(const changed_motion *tr, double t, dem_index node);
+/** Of a node whose motion has changed, from its last change on: [dim]. */
+void changed_motion_position(const changed_motion *tr, double t, dem_index node, double *out);
+void changed_motion_velocity(const changed_motion *tr, double t, dem_index node, double *out);
 
-/** Position and velocity of a motion at s, 0 to 1: x, y, x', y'. */
-static inline void motion_polynomial_at(const motion_polynomial *m, double s, double out[4])
+/** Position and velocity of one component at s, 0 to 1. */
+static inline void motion_component_at(const motion_component c, double s, double *x, double *v)
 {
-    for (int q = 0; q < 4; q++) out[q] = m->c[MOTION_TERMS - 1][q];
+    double at[2] = {c[MOTION_TERMS - 1][0], c[MOTION_TERMS - 1][1]};
     for (int k = MOTION_TERMS - 2; k >= 0; k--)
-        for (int q = 0; q < 4; q++) out[q] = m->c[k][q] + s * out[q];
+        for (int q = 0; q < 2; q++) at[q] = c[k][q] + s * at[q];
+    *x = at[0];
+    *v = at[1];
 }
 
-/** The same motion written from a later time on. */
-motion_polynomial motion_polynomial_later(const motion_polynomial *m, double from, double end);
+/** Position and velocity [dim] of a motion at s, 0 to 1. */
+static inline void motion_polynomial_at(const motion_polynomial *m, double s, double *x, double *v)
+{
+    for (int d = 0; d < 2; d++) motion_component_at(m->c[d], s, &x[d], &v[d]);
+    if (m->dim > 2) motion_component_at(m->c[2], s, &x[2], &v[2]);
+}
+
+/** Copies the components that there are. */
+static inline void motion_polynomial_copy(motion_polynomial *to, const motion_polynomial *from)
+{
+    to->from = from->from;
+    to->dim = from->dim;
+    memcpy(to->c, from->c, 2 * sizeof to->c[0]);
+    if (from->dim > 2) memcpy(to->c[2], from->c[2], sizeof to->c[2]);
+}
+
+/** Writes the same motion from a later time on. */
+void motion_polynomial_restart(motion_polynomial *m, double from, double end);
 
 /** Adds to a motion the quintic of a change that is `at` its start and grows by `by` until the end. */
 void motion_polynomial_add(motion_polynomial *m, double end, const motion_change *at, const motion_change *by);

@@ -4,6 +4,7 @@
 #include "time/dense_output.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* Coefficients at s = (t - t0)/h.  With v(s) the cubic through v0, h a0, v1, h a1 and C its integral over the step,
@@ -79,25 +80,50 @@ static bool turned(const dense_output *p, dem_index i)
     return p->changed != NULL && changed_motion_has(p->changed, i);
 }
 
-vec2 dense_output_position(const dense_output *p, double t, dem_index i)
+static void interpolate_third(const dense_output *p, double t, dem_index k, double *x, double *v)
 {
-    if (t == p->t1) return vec2_at(p->y1, i);
-    if (turned(p, i)) return changed_motion_position(p->changed, t, i);
-    if (t == p->t0) return vec2_at(p->y0, i);
     const basis b = basis_at(p, t);
     const ends e = ends_of(p);
-    return (vec2){position(p->parabolic, &e, &b, 2 * i), position(p->parabolic, &e, &b, 2 * i + 1)};
+    if (x != NULL) *x = position(p->parabolic, &e, &b, k);
+    if (v != NULL) *v = velocity(p->parabolic, &e, &b, k);
 }
 
-vec2 dense_output_velocity(const dense_output *p, double t, dem_index i)
+void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out)
 {
-    const dem_index n = p->layout.n_rows;
-    if (t == p->t1) return vec2_at(p->y1, n + i);
-    if (turned(p, i)) return changed_motion_velocity(p->changed, t, i);
-    if (t == p->t0) return vec2_at(p->y0, n + i);
+    const dem_index k = state_row(&p->layout, i);
+    if (turned(p, i)) {
+        changed_motion_position(p->changed, t, i, out);
+        return;
+    }
+    if (t == p->t0) {
+        state_copy_row(&p->layout, out, p->y0 + k);
+        return;
+    }
     const basis b = basis_at(p, t);
     const ends e = ends_of(p);
-    return (vec2){velocity(p->parabolic, &e, &b, 2 * i), velocity(p->parabolic, &e, &b, 2 * i + 1)};
+    const double first = position(p->parabolic, &e, &b, k), second = position(p->parabolic, &e, &b, k + 1);
+    out[0] = first;
+    out[1] = second;
+    if (p->layout.dim > 2) interpolate_third(p, t, k + 2, &out[2], NULL);
+}
+
+void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out)
+{
+    const dem_index k = state_row(&p->layout, i);
+    if (turned(p, i)) {
+        changed_motion_velocity(p->changed, t, i, out);
+        return;
+    }
+    if (t == p->t0) {
+        state_copy_row(&p->layout, out, state_v(&p->layout, p->y0, i));
+        return;
+    }
+    const basis b = basis_at(p, t);
+    const ends e = ends_of(p);
+    const double first = velocity(p->parabolic, &e, &b, k), second = velocity(p->parabolic, &e, &b, k + 1);
+    out[0] = first;
+    out[1] = second;
+    if (p->layout.dim > 2) interpolate_third(p, t, k + 2, NULL, &out[2]);
 }
 
 /* Of all numbers of x and v. */
@@ -129,49 +155,49 @@ void dense_output_state(const dense_output *p, double t, double *y)
         interpolate(p, t, y);
     for (dem_index i = 0; i < p->layout.n_rows && p->changed != NULL && t != p->t1; i++) {
         if (!changed_motion_has(p->changed, i)) continue;
-        vec2_put(y, i, changed_motion_position(p->changed, t, i));
-        vec2_put(y, p->layout.n_rows + i, changed_motion_velocity(p->changed, t, i));
+        changed_motion_position(p->changed, t, i, y + state_row(&p->layout, i));
+        changed_motion_velocity(p->changed, t, i, y + state_velocities(&p->layout) + state_row(&p->layout, i));
     }
 }
 
-/* The same in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
-static void quintic(const dense_output *p, dem_index i, motion_polynomial *m)
+/* The same of one number in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
+static inline void write_quintic(const ends *e, double h, dem_index k, motion_component c)
+{
+    const double bump = 30.0 * (1.0 / h) * defect(e, k, h), jump = e->v1[k] - e->v0[k];
+    const double a0 = h * e->a0[k], a1 = h * e->a1[k];
+    const double v[MOTION_TERMS] = {e->v0[k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump,
+                                    bump,     0.0};
+    c[0][0] = e->x0[k];
+    for (int q = 0; q < MOTION_TERMS; q++) c[q][1] = v[q];
+    for (int q = 1; q < MOTION_TERMS; q++) c[q][0] = h / q * v[q - 1];
+}
+
+static inline void write_parabolas(const ends *e, double h, dem_index k, motion_component c)
+{
+    const double v0 = e->v0[k], x[2] = {e->x0[k], h * v0}, v[2] = {v0, h * e->a0[k]};
+    const double last[2] = {e->x1[k] - x[0] - x[1], e->v1[k] - v[0] - v[1]};
+    for (int q = 0; q < 2; q++) {
+        c[q][0] = x[q];
+        c[q][1] = v[q];
+        c[2][q] = last[q];
+    }
+    for (int q = 3; q < MOTION_TERMS; q++) c[q][0] = c[q][1] = 0.0;
+}
+
+static inline void write_component(const dense_output *p, dem_index k, motion_component c)
 {
     const ends e = ends_of(p);
-    const double h = p->t1 - p->t0, per_h = 1.0 / h;
-    for (int d = 0; d < 2; d++) {
-        const dem_index k = 2 * i + d;
-        const double bump = 30.0 * per_h * defect(&e, k, h), jump = e.v1[k] - e.v0[k];
-        const double a0 = h * e.a0[k], a1 = h * e.a1[k];
-        const double v[MOTION_TERMS] = {
-            e.v0[k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump, bump, 0.0};
-        m->c[0][d] = e.x0[k];
-        for (int q = 0; q < MOTION_TERMS; q++) m->c[q][2 + d] = v[q];
-        for (int q = 1; q < MOTION_TERMS; q++) m->c[q][d] = h / q * v[q - 1];
-    }
-}
-
-static void parabolas(const dense_output *p, dem_index i, motion_polynomial *m)
-{
-    const ends e = ends_of(p);
-    const double h = p->t1 - p->t0;
-    for (int d = 0; d < 2; d++) {
-        const dem_index k = 2 * i + d;
-        m->c[0][d] = e.x0[k];
-        m->c[1][d] = h * e.v0[k];
-        m->c[2][d] = e.x1[k] - m->c[0][d] - m->c[1][d];
-        m->c[0][2 + d] = e.v0[k];
-        m->c[1][2 + d] = h * e.a0[k];
-        m->c[2][2 + d] = e.v1[k] - m->c[0][2 + d] - m->c[1][2 + d];
-    }
-}
-
-motion_polynomial dense_output_motion(const dense_output *p, dem_index i)
-{
-    motion_polynomial m = {.from = p->t0};
     if (p->parabolic)
-        parabolas(p, i, &m);
+        write_parabolas(&e, p->t1 - p->t0, k, c);
     else
-        quintic(p, i, &m);
-    return m;
+        write_quintic(&e, p->t1 - p->t0, k, c);
+}
+
+void dense_output_motion(const dense_output *p, dem_index i, motion_polynomial *out)
+{
+    const dem_index k = state_row(&p->layout, i);
+    out->from = p->t0;
+    out->dim = p->layout.dim;
+    for (int d = 0; d < 2; d++) write_component(p, k + d, out->c[d]);
+    if (out->dim > 2) write_component(p, k + 2, out->c[2]);
 }

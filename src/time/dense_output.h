@@ -19,11 +19,29 @@ typedef struct dense_output {
     const changed_motion *changed; /* how nodes go on from events inside, up to y1; NULL: there were none */
 } dense_output;
 
-vec2 dense_output_position(const dense_output *p, double t, dem_index i);
-vec2 dense_output_velocity(const dense_output *p, double t, dem_index i);
+/** Position and velocity [dim] of a node, or of any other row of the state, before the end of the step. */
+void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out);
+void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out);
+
+/** The same up to the end, which is asked for most often. */
+static inline void dense_output_position(const dense_output *p, double t, dem_index i, double *out)
+{
+    if (t == p->t1)
+        state_copy_row(&p->layout, out, state_x(&p->layout, p->y1, i));
+    else
+        dense_output_position_inside(p, t, i, out);
+}
+
+static inline void dense_output_velocity(const dense_output *p, double t, dem_index i, double *out)
+{
+    if (t == p->t1)
+        state_copy_row(&p->layout, out, state_v(&p->layout, p->y1, i));
+    else
+        dense_output_velocity_inside(p, t, i, out);
+}
 
 /** The motion of a node over the whole step, as if no event inside had changed it. */
-motion_polynomial dense_output_motion(const dense_output *p, dem_index i);
+void dense_output_motion(const dense_output *p, dem_index i, motion_polynomial *out);
 
 /** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at t0 has
  *  changed there. */

@@ -4,6 +4,7 @@
 #include "time/verlet_integrator.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

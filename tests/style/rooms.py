@@ -22,6 +22,9 @@ ROOMS = [  # pattern, files that may have it
     (r"/\s*\(?[\w.>\[\]-]*\brest(_length)?\b(?!\w)", {"src/elastic/springs.c", "src/elastic/springs.h"}),
     (r"\b(TODO|FIXME|XXX|HACK)\b", set()),
 ]
+# Rooms that know no number of dimensions, so no vectors of two components; and their files that still do.
+DIMENSION_FREE = {"base", "time", "simulation", "output"}
+TWO_DIMENSIONAL = {"src/base/vec2.h", "src/simulation/options.c", "src/output/event_table.c", "src/output/probe.c"}
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 
 
@@ -88,6 +91,15 @@ def check_rooms(path, lines):
                 complain(path, number, f"'{line.strip()}' has its place elsewhere")
 
 
+def check_dimensions(path, lines):
+    top, room = path.relative_to(ROOT).parts[:2]
+    if top != "src" or room not in DIMENSION_FREE or str(path.relative_to(ROOT)) in TWO_DIMENSIONAL:
+        return
+    for number, line in enumerate(lines, 1):
+        if re.search(r"vec2|sym2", line):
+            complain(path, number, f"src/{room} knows no number of dimensions, and so no vec2")
+
+
 def check_functions(path, lines):
     start, head = None, ""
     for number, line in enumerate(lines, 1):
@@ -123,6 +135,7 @@ for source in sources:
     if top in ("src", "drivers"):
         check_edges(source, rows)
         check_rooms(source, rows)
+        check_dimensions(source, rows)
 check_circles()
 for top, rooms in (("src", SRC), ("drivers", DRIVERS)):
     faults.extend(f"docs/architecture.md: {top}/{room} is not there" for room in rooms if not (ROOT / top / room).is_dir())

@@ -1,39 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* dense_output.c: the quintic through both ends of a step, and its derivative. */
+/* dense_output.c: the quintic through both ends of a step, and its derivative, in two and in three dimensions. */
 #include "verification/support.h"
 
 #include <string.h>
 
 #include "time/dense_output.h"
 
-enum { n_nodes = 2, n_state = 4 * n_nodes };
+enum { n_nodes = 2, n_state = 2 * STATE_DIM_MOST * n_nodes };
 
 /* A motion of two nodes: value and derivatives of coordinate k. */
 typedef struct ode_problem {
     double (*x)(int k, double t), (*v)(int k, double t), (*a)(int k, double t);
 } ode_problem;
 
-static const state_layout layout = {.dim = 2, .n_nodes = n_nodes, .n_rows = n_nodes};
-
 typedef struct step {
     double y0[n_state], f0[n_state], y1[n_state], f1[n_state];
     dense_output path;
 } step;
 
-static void sample(const ode_problem *m, double t, double *y, double *f)
+static void sample(const ode_problem *m, int n, double t, double *y, double *f)
 {
-    for (int k = 0; k < 2 * n_nodes; k++) {
+    for (int k = 0; k < n; k++) {
         y[k] = m->x(k, t);
-        y[2 * n_nodes + k] = f[k] = m->v(k, t);
-        f[2 * n_nodes + k] = m->a(k, t);
+        y[n + k] = f[k] = m->v(k, t);
+        f[n + k] = m->a(k, t);
     }
 }
 
-static void make_step(step *s, const ode_problem *m, double t0, double t1)
+static void make_step(step *s, int dim, const ode_problem *m, double t0, double t1)
 {
-    sample(m, t0, s->y0, s->f0);
-    sample(m, t1, s->y1, s->f1);
-    s->path = (dense_output){layout, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
+    sample(m, dim * n_nodes, t0, s->y0, s->f0);
+    sample(m, dim * n_nodes, t1, s->y1, s->f1);
+    s->path = (dense_output){
+        {.dim = dim, .n_nodes = n_nodes, .n_rows = n_nodes}, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
 }
 
 /* Polynomials of degree 5 in t, other ones for each coordinate. */
@@ -76,28 +75,46 @@ static const ode_problem swing = {swing_x, swing_v, swing_a};
 
 /* ---- tests ---- */
 
+/* Position and velocity of a node. */
+typedef struct motion {
+    double x[STATE_DIM_MOST], v[STATE_DIM_MOST];
+} motion;
+
+static motion motion_at(const dense_output *p, double t, dem_index i)
+{
+    motion m;
+    dense_output_position(p, t, i, m.x);
+    dense_output_velocity(p, t, i, m.v);
+    return m;
+}
+
+/* That a node's motion is that in a state to the bit. */
+static void same_motion(const motion *m, const dense_output *p, const double *y, dem_index i)
+{
+    const size_t size = (size_t)p->layout.dim * sizeof *y;
+    assert_memory_equal(m->x, state_x(&p->layout, y, i), size);
+    assert_memory_equal(m->v, state_v(&p->layout, y, i), size);
+}
+
 /* Ends that no interpolation would reproduce: positions and velocities have nothing to do with each other. */
 static void the_ends_are_the_states_to_the_bit(void **state)
 {
     (void)state;
-    for (int q = 1; q <= 10; q++) {
+    for (int q = 1; q <= 20; q++) {
         step s;
         double y[n_state];
-        make_step(&s, &swing, 0.1 * q, 0.1 * q + 1.0 / (2.0 + q));
-        for (int k = 0; k < n_state; k++) s.y1[k] += 1.0 / (3.0 + k);
+        const int dim = 2 + q % 2;
+        const size_t size = 2 * (size_t)(dim * n_nodes) * sizeof *y;
+        make_step(&s, dim, &swing, 0.1 * q, 0.1 * q + 1.0 / (2.0 + q));
+        for (int k = 0; k < 2 * dim * n_nodes; k++) s.y1[k] += 1.0 / (3.0 + k);
         dense_output_state(&s.path, s.path.t0, y);
-        assert_memory_equal(y, s.y0, sizeof y);
+        assert_memory_equal(y, s.y0, size);
         dense_output_state(&s.path, s.path.t1, y);
-        assert_memory_equal(y, s.y1, sizeof y);
+        assert_memory_equal(y, s.y1, size);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 x0 = dense_output_position(&s.path, s.path.t0, i),
-                       x1 = dense_output_position(&s.path, s.path.t1, i);
-            const vec2 v0 = dense_output_velocity(&s.path, s.path.t0, i),
-                       v1 = dense_output_velocity(&s.path, s.path.t1, i);
-            assert_memory_equal(&x0, &s.y0[2 * i], sizeof x0);
-            assert_memory_equal(&x1, &s.y1[2 * i], sizeof x1);
-            assert_memory_equal(&v0, &s.y0[2 * (n_nodes + i)], sizeof v0);
-            assert_memory_equal(&v1, &s.y1[2 * (n_nodes + i)], sizeof v1);
+            const motion first = motion_at(&s.path, s.path.t0, i), last = motion_at(&s.path, s.path.t1, i);
+            same_motion(&first, &s.path, s.y0, i);
+            same_motion(&last, &s.path, s.y1, i);
         }
     }
 }
@@ -107,17 +124,41 @@ static void motions_of_degree_5_are_exact_with_their_velocities(void **state)
 {
     const double starts[3] = {0.0, -0.7, 0.9}, lengths[3] = {1.0, 1.3, 0.25};
     (void)state;
-    for (int q = 0; q < 3; q++) {
+    for (int q = 0; q < 6; q++) {
         step s;
-        make_step(&s, &quintic, starts[q], starts[q] + lengths[q]);
+        const int dim = 2 + q / 3;
+        make_step(&s, dim, &quintic, starts[q % 3], starts[q % 3] + lengths[q % 3]);
         for (double share = 0.05; share < 1.0; share += 0.1) {
-            const double t = starts[q] + share * lengths[q];
-            for (int i = 0; i < n_nodes; i++) {
-                const vec2 x = dense_output_position(&s.path, t, i), v = dense_output_velocity(&s.path, t, i);
-                assert_close(x.x, quintic_x(2 * i, t), 1e-14);
-                assert_close(x.y, quintic_x(2 * i + 1, t), 1e-14);
-                assert_close(v.x, quintic_v(2 * i, t), 1e-13);
-                assert_close(v.y, quintic_v(2 * i + 1, t), 1e-13);
+            const double t = starts[q % 3] + share * lengths[q % 3];
+            for (int k = 0; k < dim * n_nodes; k++) {
+                const motion m = motion_at(&s.path, t, k / dim);
+                assert_close(m.x[k % dim], quintic_x(k, t), 2e-14);
+                assert_close(m.v[k % dim], quintic_v(k, t), 2e-13);
+            }
+        }
+    }
+}
+
+/* In powers of s, from the start on: rounding of six terms of order 10. */
+static void the_motion_of_a_node_is_the_same_as_a_polynomial(void **state)
+{
+    (void)state;
+    for (int q = 0; q < 4; q++) {
+        step s;
+        motion_polynomial m;
+        const int dim = 2 + q / 2;
+        make_step(&s, dim, &swing, 0.5, 1.75);
+        s.path.parabolic = q % 2 == 1;
+        dense_output_motion(&s.path, 1, &m);
+        assert_int_equal(m.dim, dim);
+        assert_close(m.from, 0.5, 0.0);
+        for (double share = 0.05; share < 1.0; share += 0.1) {
+            const motion expected = motion_at(&s.path, 0.5 + 1.25 * share, 1);
+            motion found;
+            motion_polynomial_at(&m, share, found.x, found.v);
+            for (int d = 0; d < dim; d++) {
+                assert_close(found.x[d], expected.x[d], 2e-14);
+                assert_close(found.v[d], expected.v[d], 1e-13);
             }
         }
     }
@@ -127,12 +168,15 @@ static void motions_of_degree_5_are_exact_with_their_velocities(void **state)
 static void errors_of_swing(double h, double *position, double *velocity)
 {
     step s;
-    make_step(&s, &swing, 0.4, 0.4 + h);
+    make_step(&s, 3, &swing, 0.4, 0.4 + h);
     *position = *velocity = 0.0;
     for (double share = 0.01; share < 1.0; share += 0.01) {
         const double t = 0.4 + share * h;
-        *position = fmax(*position, fabs(dense_output_position(&s.path, t, 1).y - swing_x(3, t)));
-        *velocity = fmax(*velocity, fabs(dense_output_velocity(&s.path, t, 1).y - swing_v(3, t)));
+        const motion m = motion_at(&s.path, t, 0);
+        for (int d = 0; d < 3; d++) {
+            *position = fmax(*position, fabs(m.x[d] - swing_x(d, t)));
+            *velocity = fmax(*velocity, fabs(m.v[d] - swing_v(d, t)));
+        }
     }
 }
 
@@ -153,13 +197,15 @@ static void the_whole_state_is_made_of_the_same_numbers_to_the_bit(void **state)
     step s;
     double y[n_state];
     (void)state;
-    make_step(&s, &swing, 1.0, 1.37);
-    for (double t = 1.01; t < 1.37; t += 0.1) {
-        dense_output_state(&s.path, t, y);
-        for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 x = dense_output_position(&s.path, t, i), v = dense_output_velocity(&s.path, t, i);
-            assert_memory_equal(&x, &y[2 * i], sizeof x);
-            assert_memory_equal(&v, &y[2 * (n_nodes + i)], sizeof v);
+    for (int q = 0; q < 4; q++) {
+        make_step(&s, 2 + q / 2, &swing, 1.0, 1.37);
+        s.path.parabolic = q % 2 == 1;
+        for (double t = 1.01; t < 1.37; t += 0.1) {
+            dense_output_state(&s.path, t, y);
+            for (dem_index i = 0; i < n_nodes; i++) {
+                const motion m = motion_at(&s.path, t, i);
+                same_motion(&m, &s.path, y, i);
+            }
         }
     }
 }
@@ -169,15 +215,16 @@ static void it_is_continuous_at_its_ends(void **state)
 {
     step s;
     (void)state;
-    make_step(&s, &swing, 1.0, 1.5);
+    make_step(&s, 3, &swing, 1.0, 1.5);
     const double first = nextafter(1.0, 2.0), last = nextafter(1.5, 1.0);
-    for (int i = 0; i < n_nodes; i++) {
-        const vec2 x0 = dense_output_position(&s.path, first, i), x1 = dense_output_position(&s.path, last, i);
-        const vec2 v0 = dense_output_velocity(&s.path, first, i), v1 = dense_output_velocity(&s.path, last, i);
-        assert_close(x0.x, s.y0[2 * i], 2e-15);
-        assert_close(x1.x, s.y1[2 * i], 2e-15);
-        assert_close(v0.y, s.y0[2 * (n_nodes + i) + 1], 2e-15);
-        assert_close(v1.y, s.y1[2 * (n_nodes + i) + 1], 2e-15);
+    for (dem_index i = 0; i < n_nodes; i++) {
+        const motion m0 = motion_at(&s.path, first, i), m1 = motion_at(&s.path, last, i);
+        for (int d = 0; d < 3; d++) {
+            assert_close(m0.x[d], state_x(&s.path.layout, s.y0, i)[d], 3e-15);
+            assert_close(m1.x[d], state_x(&s.path.layout, s.y1, i)[d], 3e-15);
+            assert_close(m0.v[d], state_v(&s.path.layout, s.y0, i)[d], 3e-15);
+            assert_close(m1.v[d], state_v(&s.path.layout, s.y1, i)[d], 3e-15);
+        }
     }
 }
 
@@ -188,12 +235,12 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
     (void)state;
     for (double h = 1e-15; h < 1e-8; h *= 10.0) {
         step s;
-        make_step(&s, &swing, 0.7, 0.7 + h);
+        make_step(&s, 2, &swing, 0.7, 0.7 + h);
         for (double share = 0.1; share < 1.0; share += 0.2)
             for (int i = 0; i < n_nodes; i++) {
                 const double t = 0.7 + share * h;
-                assert_close(dense_output_velocity(&s.path, t, i).x, swing_v(2 * i, 0.7), 4.0 * h + 1e-15);
-                assert_close(dense_output_position(&s.path, t, i).x, swing_x(2 * i, 0.7), 4.0 * h + 1e-15);
+                assert_close(motion_at(&s.path, t, i).v[0], swing_v(2 * i, 0.7), 4.0 * h + 1e-15);
+                assert_close(motion_at(&s.path, t, i).x[0], swing_x(2 * i, 0.7), 4.0 * h + 1e-15);
             }
     }
 }
@@ -204,10 +251,10 @@ static void a_displacement_beyond_rounding_is_followed(void **state)
     double y0[4] = {1.0, 2.0, 0.0, 0.0}, y1[4] = {1.1, 2.0, 0.0, 0.0}, f[4] = {0.0, 0.0, 0.0, 0.0};
     const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
     (void)state;
-    assert_close(dense_output_position(&p, 1.0, 0).x, 1.05, 1e-15);
-    assert_close(dense_output_velocity(&p, 1.0, 0).x, 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
-    assert_close(dense_output_position(&p, 1.0, 0).y, 2.0, 0.0);
-    assert_close(dense_output_velocity(&p, 1.0, 0).y, 0.0, 0.0);
+    assert_close(motion_at(&p, 1.0, 0).x[0], 1.05, 1e-15);
+    assert_close(motion_at(&p, 1.0, 0).v[0], 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
+    assert_close(motion_at(&p, 1.0, 0).x[1], 2.0, 0.0);
+    assert_close(motion_at(&p, 1.0, 0).v[1], 0.0, 0.0);
 }
 
 /* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: accelerations at the end do not count. */
@@ -217,17 +264,17 @@ static void a_parabolic_path_matches_what_a_method_of_order_2_knows(void **state
     double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
     const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
     (void)state;
-    assert_close(dense_output_position(&p, 1.0, 0).x, 1.0 + 3.0 - 1.25, 1e-15);
-    assert_close(dense_output_velocity(&p, 1.0, 0).x, 3.0 + 4.0 - 1.5, 1e-15);
-    assert_close((dense_output_position(&p, 1e-6, 0).x - 1.0) / 1e-6, 3.0, 1e-5);
-    assert_close((dense_output_velocity(&p, 1e-6, 0).x - 3.0) / 1e-6, 4.0, 1e-5);
+    assert_close(motion_at(&p, 1.0, 0).x[0], 1.0 + 3.0 - 1.25, 1e-15);
+    assert_close(motion_at(&p, 1.0, 0).v[0], 3.0 + 4.0 - 1.5, 1e-15);
+    assert_close((motion_at(&p, 1e-6, 0).x[0] - 1.0) / 1e-6, 3.0, 1e-5);
+    assert_close((motion_at(&p, 1e-6, 0).v[0] - 3.0) / 1e-6, 4.0, 1e-5);
     for (int end = 0; end < 2; end++) {
         dense_output_state(&p, 2.0 * end, y);
         assert_memory_equal(y, end ? y1 : y0, sizeof y);
     }
     dense_output_state(&p, 0.5, y);
-    assert_close(y[0], dense_output_position(&p, 0.5, 0).x, 0.0);
-    assert_close(y[2], dense_output_velocity(&p, 0.5, 0).x, 0.0);
+    assert_close(y[0], motion_at(&p, 0.5, 0).x[0], 0.0);
+    assert_close(y[2], motion_at(&p, 0.5, 0).v[0], 0.0);
 }
 
 int main(void)
@@ -235,6 +282,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_ends_are_the_states_to_the_bit),
         cmocka_unit_test(motions_of_degree_5_are_exact_with_their_velocities),
+        cmocka_unit_test(the_motion_of_a_node_is_the_same_as_a_polynomial),
         cmocka_unit_test(other_motions_are_interpolated_to_sixth_order),
         cmocka_unit_test(the_whole_state_is_made_of_the_same_numbers_to_the_bit),
         cmocka_unit_test(it_is_continuous_at_its_ends),

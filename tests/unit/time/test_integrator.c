@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* integrator.c: whichever method takes the steps, a ball bounces at the times of free fall, in which all are exact. */
+/* integrator.c: whichever method takes the steps, a ball bounces at the times of free fall, in which all are exact;
+ * and it takes them alike in two and in three dimensions. */
 #include "verification/support.h"
 
 #include "time/integrator.h"
@@ -122,6 +123,66 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
     }
 }
 
+/* ---- three dimensions ---- */
+
+/* x'' = -x of every number, the one behind the nodes too. */
+static int oscillate(double t, const double *y, double *u, double *a, void *context)
+{
+    const state_layout *l = context;
+    const dem_index n = state_velocities(l);
+    (void)t;
+    for (dem_index k = 0; k < n; k++) {
+        if (u != NULL) u[k] = y[n + k];
+        a[k] = -y[k];
+    }
+    return 0;
+}
+
+enum { rows = 3, most_numbers = 2 * STATE_DIM_MOST * rows };
+
+/* Two nodes and a row of quadratures from different places; the third component starts as the first. The state in the
+ * middle of the last of some steps. */
+static void swing(dem_method method, state_layout l, double y[most_numbers])
+{
+    const ode_problem problem = {.layout = l,
+                                 .ops = &array_ops_portable,
+                                 .n_threads = 1,
+                                 .derivative = oscillate,
+                                 .context = &l,
+                                 .method = method,
+                                 .position_error = 1.0,
+                                 .velocity_error = 1.0,
+                                 .max_step = 0.05,
+                                 .fixed_step = 0.05};
+    integrator e;
+    dense_output p = {0};
+    bool rooted;
+    for (dem_index k = 0; k < state_size(&l); k++) y[k] = 1.0 / (double)(1 + k / l.dim + k % l.dim % 2);
+    assert_ok(integrator_create(&e, &problem, 0.0, y));
+    for (int step = 0; step < 20; step++) assert_ok(integrator_step(&e, &p, &rooted));
+    dense_output_state(&p, 0.5 * (p.t0 + p.t1), y);
+    integrator_destroy(&e);
+}
+
+static void a_third_component_goes_as_the_others_do_to_the_bit(void **state)
+{
+    (void)state;
+    for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
+        const state_layout plane = {.dim = 2, .n_nodes = 2, .n_rows = rows},
+                           space = {.dim = 3, .n_nodes = 2, .n_rows = rows};
+        double y[most_numbers], z[most_numbers];
+        dem_method_traits traits;
+        if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
+        swing((dem_method)method, plane, y);
+        swing((dem_method)method, space, z);
+        for (dem_index row = 0; row < 2 * rows; row++) { /* of positions, then of velocities */
+            assert_memory_equal(&z[3 * row], &y[2 * row], 2 * sizeof *y);
+            assert_memory_equal(&z[3 * row + 2], &y[2 * row], sizeof *y);
+        }
+        assert_close(y[0], cos(0.975) + sin(0.975) / 4.0, 1e-3); /* velocity of row 0; h^2/6 of methods of order 2 */
+    }
+}
+
 static void what_cannot_be_made_is_told(void **state)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
@@ -142,6 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_finds_the_bounces_of_a_ball),
         cmocka_unit_test(steps_are_settled_and_states_changed_where_they_are),
+        cmocka_unit_test(a_third_component_goes_as_the_others_do_to_the_bit),
         cmocka_unit_test(what_cannot_be_made_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
