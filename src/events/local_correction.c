@@ -154,7 +154,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, scene_s
     const contact_forces *r = &c->forces;
     const state_layout *l = scene_layout(&c->scene);
     const int rings = reach(p, stage);
-    vec2 totals[2] = {{0.0, 0.0}, {0.0, 0.0}};
+    double totals[STATE_TOTALS] = {0.0};
     for (dem_index g = 0; g < p->near.n_groups; g++) {
         if (p->near.groups[g].ring > rings) continue;
         for (dem_index m = contact_forces_first(r, p->near.groups[g].group); m >= 0; m = r->next[m])
@@ -162,16 +162,17 @@ static dem_status add_rates(local_correction *p, int stage, double sign, scene_s
                 const contact_contribution of = contact_set_contribution(c, m, q, state);
                 TRY(add_rate(p, state_impulse(l, of.obstacle), stage, sign, of.force));
                 TRY(add_rate(p, state_friction_impulse(l, of.obstacle), stage, sign, of.friction));
-                totals[0].x += of.power;
+                totals[STATE_FRICTION] += of.power;
             }
     }
     if (has_powers(p))
         for (dem_index j = 0; j < p->near.end[rings]; j++) {
             const vec2 powers = node_powers(p, j, state.x, state.v);
-            totals[0].y += powers.x;
-            totals[1].x += powers.y;
+            totals[STATE_DAMPING] += powers.x;
+            totals[STATE_WORK] += powers.y;
         }
-    for (int k = 0; k < 2; k++) TRY(add_rate(p, state_total_rows(l) + k, stage, sign, totals[k]));
+    for (dem_index k = 0; k < state_n_total_rows(l); k++)
+        TRY(add_rate(p, state_total_rows(l) + k, stage, sign, vec2_at(totals, k)));
     return DEM_OK;
 }
 

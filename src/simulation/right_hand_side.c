@@ -7,12 +7,14 @@
 
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
-    const double *v = y + state_velocities(&s->layout);
-    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++)
-        if (!isfinite(v[2 * i]) || !isfinite(v[2 * i + 1]) || !isfinite(a[2 * i]) || !isfinite(a[2 * i + 1]))
-            return status_fail(DEM_ERROR_INTEGRATOR,
-                               "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i,
-                               y[2 * i], y[2 * i + 1], t);
+    const state_layout *l = &s->layout;
+    const double *v = y + state_velocities(l);
+    for (dem_index k = 0; k < state_row(l, l->n_nodes); k++) {
+        const dem_index i = k / l->dim;
+        const double *x = state_x(l, y, i);
+        CHECK(isfinite(v[k]) && isfinite(a[k]), DEM_ERROR_INTEGRATOR,
+              "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i, x[0], x[1], t);
+    }
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
