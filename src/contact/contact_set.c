@@ -52,6 +52,22 @@ void contact_set_destroy(contact_set *c)
     *c = (contact_set){0};
 }
 
+dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity)
+{
+    const contact_candidate *candidate = &c->list[k];
+    const surface *s = &c->scene.model->surface;
+    const dem_index own[2] = {candidate->node, candidate->other};
+    dem_index n = 0;
+    for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
+        if (n < capacity) nodes[n] = own[e];
+        n++;
+        for (dem_index p = s->row[own[e]]; p < s->row[own[e] + 1] && c->n > c->scene.model->n_contact_nodes; p++)
+            for (int end = 0; end < 2; end++, n++)
+                if (n < capacity) nodes[n] = s->ends[2 * s->at[p] + end];
+    }
+    return n;
+}
+
 /* Whether an edge at the node, other than site k, has closed contacts. */
 static bool edge_closed(const contact_set *c, dem_index node, dem_index k)
 {

@@ -45,6 +45,10 @@ static inline dem_index contact_set_of_edge(const contact_set *c, dem_index edge
     return c->scene.model->n_contact_nodes + edge;
 }
 
+/** The nodes that an event of a site may change at once: its own, and where obstacles have vertices those of the edges
+ *  at them; some come more than once.  \return how many there are, of which up to `capacity` are in `nodes` */
+dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity);
+
 /** Whether other closed contacts share a node with the site. */
 bool contact_set_coupled(const contact_set *c, dem_index k);
 

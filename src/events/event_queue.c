@@ -49,6 +49,7 @@ void event_queue_destroy(event_queue *q)
     free(q->kept);
     free(q->saved);
     free(q->before);
+    free(q->seeds);
     free(q->events);
     *q = (event_queue){0};
 }
@@ -216,16 +217,29 @@ static void calm(event_queue *q)
         impact_group_stop(c, q->correction.near.groups[g].group, &now);
 }
 
+/* The nodes that an event may change at once, into `seeds`; there are *n. */
+static dem_status find_seeds(event_queue *q, dem_index k, dem_index *n)
+{
+    *n = contact_set_seeds(&q->automaton->set, k, q->seeds, q->seed_capacity);
+    if (*n <= q->seed_capacity) return DEM_OK;
+    CHECK(grow_array((void **)&q->seeds, &q->seed_capacity, *n, sizeof *q->seeds), DEM_ERROR_MEMORY,
+          "out of memory for what is near a contact");
+    *n = contact_set_seeds(&q->automaton->set, k, q->seeds, q->seed_capacity);
+    return DEM_OK;
+}
+
 /* What is due at a site, and what follows from it. */
 static dem_status take(event_queue *q, dem_index k)
 {
     const event_listener listener = {hear, q};
     automaton *c = q->automaton;
+    dem_index n_seeds;
     double error;
     if (q->n_stops == 0) copy_books(&c->set.ledger, &q->ledger, c->set.scene.model->obstacles.n);
     q->n_stops += q->n_stops == 0 || q->heap.due[k] > q->now;
     q->now = q->heap.due[k];
-    TRY(local_correction_open(&q->correction, q->step, k, q->now, q->state));
+    TRY(find_seeds(q, k, &n_seeds));
+    TRY(local_correction_open(&q->correction, q->step, q->seeds, n_seeds, q->now, q->state));
     each_site(q, keep_site);
     calm(q);
     TRY(automaton_resolve_near(c, k, q->now, q->state, &listener));

@@ -29,6 +29,8 @@ typedef struct event_queue {
     contact_candidate *before; /* [n_saved] as they were before the step */
     contact_ledger ledger;     /* before the step */
     dem_index idle;
+    dem_index seed_capacity;
+    dem_index *seeds; /* [seed_capacity] nodes that an event changes at once */
     dem_index n_events, capacity;
     dem_event *events; /* [n_events] */
     dem_index n_stops; /* times at which something happened */

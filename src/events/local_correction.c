@@ -257,14 +257,14 @@ static void find_motion(const local_correction *p, const dense_output *step, dem
     motion_polynomial_restart(out, p->t, step->t1);
 }
 
-dem_status local_correction_open(local_correction *p, const dense_output *step, dem_index candidate, double t,
-                                 double *state)
+dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
+                                 dem_index n_seeds, double t, double *state)
 {
     p->t = t;
     p->h = step->t1 - t;
     p->parabolic = step->parabolic;
     p->n_quadratures = 0;
-    TRY(neighbourhood_gather(&p->near, candidate));
+    TRY(neighbourhood_gather(&p->near, seeds, n_seeds));
     TRY(reserve(p, p->near.n, 0));
     for (dem_index j = 0; j < p->near.n; j++) find_motion(p, step, p->near.nodes[j].i, &p->motions[j]);
     TRY(open_end(p, step));

@@ -44,10 +44,11 @@ typedef struct local_correction {
 dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 
-/** Before an event at a site: gathers the patch and what moves it, and puts the state of its nodes at t into `state`
- *  [4 n]. The forces of the closed contacts are to be those at the end of the step. */
-dem_status local_correction_open(local_correction *p, const dense_output *step, dem_index candidate, double t,
-                                 double *state);
+/** Before an event that may change some nodes at once: gathers the patch round them and what moves it, and puts the
+ *  state of its nodes at t into `state` [4 n]. The forces of the closed contacts are to be those at the end of the
+ *  step. */
+dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
+                                 dem_index n_seeds, double t, double *state);
 
 /** After the event has changed `state` and the contacts: integrates the change and makes it one of the step.
  *  \param[out] error  squared, of all unknowns of the bodies together, in units of the tolerance */

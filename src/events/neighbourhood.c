@@ -91,20 +91,6 @@ static dem_status close_ring(neighbourhood *b, int ring)
     return DEM_OK;
 }
 
-static dem_status add_seeds(neighbourhood *b, dem_index k)
-{
-    const contact_set *c = b->set;
-    const contact_candidate *candidate = &c->list[k];
-    const surface *s = &c->scene.model->surface;
-    const dem_index nodes[2] = {candidate->node, candidate_is_edge(candidate) ? candidate->other : candidate->node};
-    for (int e = 0; e < 2; e++) {
-        TRY(add_node(b, nodes[e]));
-        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_contact_nodes; p++)
-            for (int end = 0; end < 2; end++) TRY(add_node(b, s->ends[2 * s->at[p] + end]));
-    }
-    return close_ring(b, 0);
-}
-
 /* ---- springs ---- */
 
 static dem_status reserve_bonds(neighbourhood *b, dem_index n)
@@ -157,11 +143,12 @@ static dem_status list_bonds(neighbourhood *b)
     return DEM_OK;
 }
 
-dem_status neighbourhood_gather(neighbourhood *b, dem_index candidate)
+dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds)
 {
     for (dem_index j = 0; j < b->n; j++) b->number[b->nodes[j].i] = -1;
     b->n = b->n_groups = 0;
-    TRY(add_seeds(b, candidate));
+    for (dem_index j = 0; j < n_seeds; j++) TRY(add_node(b, seeds[j]));
+    TRY(close_ring(b, 0));
     for (int ring = 1; ring <= b->n_rings; ring++) {
         const dem_index first = ring > 1 ? b->end[ring - 2] : 0, last = b->end[ring - 1];
         for (dem_index j = first; j < last; j++) TRY(add_neighbours(b, b->nodes[j].i));

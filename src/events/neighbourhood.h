@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nodes round a contact site, ring by ring of neighbours, with numbers of their own, and what accelerates them.
+/* The nodes round an event, ring by ring of neighbours, with numbers of their own, and what accelerates them.
  * Nodes whose closed contacts are coupled are in one ring: they move at once. */
 #ifndef DEM_EVENTS_NEIGHBOURHOOD_H
 #define DEM_EVENTS_NEIGHBOURHOOD_H
@@ -45,9 +45,8 @@ typedef struct neighbourhood {
 dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_rings);
 void neighbourhood_destroy(neighbourhood *b);
 
-/** Gathers the nodes round a site. Ring 0 is what an event there may change at once: its nodes, and where obstacles
- *  have vertices those of the edges at them. */
-dem_status neighbourhood_gather(neighbourhood *b, dem_index candidate);
+/** Gathers the nodes round some, which are ring 0: what an event may change at once. */
+dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds);
 
 /** Finds the groups again, after contacts have opened or closed. */
 dem_status neighbourhood_regroup(neighbourhood *b);

@@ -306,10 +306,19 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
     return n_last;
 }
 
+/* Before an event of a site. */
+static dem_status open_at(local_correction *p, const dense_output *path, dem_index candidate, double t, double *state)
+{
+    dem_index seeds[16];
+    const dem_index n = contact_set_seeds(p->near.set, candidate, seeds, 16);
+    assert_true(n <= 16);
+    return local_correction_open(p, path, seeds, n, t, state);
+}
+
 /* A velocity jumps at node i at a share of the step, and contacts are what the caller made them meanwhile. */
 static void begin(step *s, dem_index candidate, double share)
 {
-    assert_ok(local_correction_open(&s->correction, &s->path, candidate, start + share * s->h, s->state));
+    assert_ok(open_at(&s->correction, &s->path, candidate, start + share * s->h, s->state));
 }
 
 static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
@@ -598,7 +607,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     y1[0] = v * h, y1[1] = y0[1] - 0.5 * g * h * h, y1[10] = v, y1[11] = -g * h;
     const dense_output p = {rule.layout, 0.0, h, h, y0, f0, y1, f1, false, &tr};
     changed_motion_start(&tr, h, y1, f1);
-    assert_ok(local_correction_open(&near, &p, 0, at, y));
+    assert_ok(open_at(&near, &p, 0, at, y));
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[11], -g * at, 1e-15);
     y[11] = 0.0;
@@ -657,7 +666,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     s.path = (dense_output){rule.layout, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
     changed_motion_start(&s.changed, h, s.y1, s.f1);
     const dem_index struck = node_near(&s, 0.0, 0.0);
-    assert_ok(local_correction_open(&s.correction, &s.path, s.c.set.of_node[struck], at, s.state));
+    assert_ok(open_at(&s.correction, &s.path, s.c.set.of_node[struck], at, s.state));
     s.state[2 * (s.n + struck) + 1] += 5.0;
     assert_ok(local_correction_close(&s.correction, &s.path, &s.changed, s.state, &error));
     triplets_reach(&l, at, s.first);

@@ -55,6 +55,15 @@ static void close_rig(rig *r)
     free(r->x);
 }
 
+/* Round what an event of a site changes at once. */
+static dem_status gather(rig *r, dem_index candidate)
+{
+    dem_index seeds[16];
+    const dem_index n = contact_set_seeds(&r->c.set, candidate, seeds, 16);
+    assert_true(n <= 16);
+    return neighbourhood_gather(&r->b, seeds, n);
+}
+
 static dem_index bottom_site(const rig *r)
 {
     dem_index lowest = 0;
@@ -94,7 +103,7 @@ static void rings_are_distances(void **state)
     const dem_index candidate = bottom_site(&r);
     for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
         int *d = distances(&r, r.model->contact_nodes[candidate + turn]);
-        assert_ok(neighbourhood_gather(&r.b, candidate + turn));
+        assert_ok(gather(&r, candidate + turn));
         for (dem_index i = 0; i < r.n; i++) {
             assert_int_equal(r.b.number[i] >= 0, d[i] <= 4);
             for (int ring = 0; ring <= 4; ring++) assert_int_equal(neighbourhood_has(&r.b, i, ring), d[i] <= ring);
@@ -133,7 +142,7 @@ static void accelerations_are_the_models(void **state)
         rig r;
         open_rig(&r, area ? 0.2 : 1.0 / 3.0, 4);
         assert_int_equal(r.b.plain, !area);
-        assert_ok(neighbourhood_gather(&r.b, bottom_site(&r)));
+        assert_ok(gather(&r, bottom_site(&r)));
         check_accelerations(&r);
         close_rig(&r);
     }
@@ -145,7 +154,7 @@ static void a_closed_contact_holds_its_node(void **state)
     (void)state;
     open_rig(&r, 1.0 / 3.0, 4);
     const dem_index candidate = bottom_site(&r);
-    assert_ok(neighbourhood_gather(&r.b, candidate));
+    assert_ok(gather(&r, candidate));
     assert_int_equal(r.b.n_groups, 0);
     assert_ok(contact_set_close(&r.c.set, candidate + 1, (contact_point){.feature = 0, .slide = 1}));
     assert_ok(contact_set_close(&r.c.set, candidate, (contact_point){.feature = 0, .slide = 0}));
