@@ -3,52 +3,38 @@
 #include "events/event_queue.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/grow.h"
 #include "base/status.h"
-#include "base/threads.h"
-#include "contact/automaton_step.h"
 #include "contact/impact_group.h"
 
 /* ---- set-up ---- */
 
-static dem_status allocate(event_queue *q, const dem_model *model)
-{
-    const size_t n = (size_t)q->automaton->set.n + 1;
-    q->crossing = malloc(n * sizeof *q->crossing);
-    q->kept = calloc(n, sizeof *q->kept);
-    q->saved = malloc(n * sizeof *q->saved);
-    q->before = malloc(n * sizeof *q->before);
-    CHECK(q->crossing && q->kept && q->saved && q->before, DEM_ERROR_MEMORY, "out of memory for %lld contact sites",
-          (long long)q->automaton->set.n);
-    TRY(event_heap_create(&q->heap, q->automaton->set.n));
-    TRY(changed_motion_create(&q->changed, scene_layout(&q->automaton->set.scene)));
-    return ledger_create(&q->ledger, model->obstacles.n);
-}
-
 dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled)
 {
-    event_queue q = {.automaton = c, .most = controlled ? 1.0 : (double)INFINITY};
-    dem_status status = allocate(&q, c->set.scene.model);
-    if (status == DEM_OK) status = local_correction_create(&q.correction, &c->set, rule);
-    if (status == DEM_OK)
-        *out = q;
-    else
-        event_queue_destroy(&q);
+    *out = (event_queue){.automaton = c, .most = controlled ? 1.0 : (double)INFINITY};
+    dem_status status = contact_source_create(&out->contact, c);
+    if (status == DEM_OK) status = changed_motion_create(&out->changed, scene_layout(&c->set.scene));
+    if (status == DEM_OK) status = local_correction_create(&out->correction, &c->set, rule);
+    if (status == DEM_OK) status = event_queue_add_source(out, contact_source_events(&out->contact));
+    if (status != DEM_OK) event_queue_destroy(out);
     return status;
+}
+
+dem_status event_queue_add_source(event_queue *q, event_source source)
+{
+    CHECK(grow_array((void **)&q->sources, &q->source_capacity, q->n_sources + 1, sizeof *q->sources), DEM_ERROR_MEMORY,
+          "out of memory for a source of events");
+    q->sources[q->n_sources++] = source;
+    return DEM_OK;
 }
 
 void event_queue_destroy(event_queue *q)
 {
     local_correction_destroy(&q->correction);
     changed_motion_destroy(&q->changed);
-    ledger_destroy(&q->ledger);
-    event_heap_destroy(&q->heap);
-    free(q->crossing);
-    free(q->kept);
-    free(q->saved);
-    free(q->before);
+    contact_source_destroy(&q->contact);
+    free(q->sources);
     free(q->seeds);
     free(q->events);
     *q = (event_queue){0};
@@ -56,116 +42,49 @@ void event_queue_destroy(event_queue *q)
 
 /* ---- who is next ---- */
 
-enum { least_share = 32 }; /* free sites for which a thread is worth its while */
+/* What is due next: of sources at the same time the first. */
+typedef struct due_event {
+    const event_source *source; /* NULL: nothing is */
+    double t;                   /* s */
+    dem_index key;
+} due_event;
 
-static bool is_free(const event_queue *q, dem_index k)
+static due_event next_of(const event_queue *q)
 {
-    return q->automaton->set.list[k].n_closed == 0;
-}
-
-/* When the free ones of a share of the sites touch. */
-static void look_at_free(event_queue *q, int n_shares, int share)
-{
-    automaton *c = q->automaton;
-    const dem_index n = automaton_n_active(c), end = threads_share(n, n_shares, share + 1);
-    for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
-        const dem_index k = automaton_active_candidate(c, a);
-        if (is_free(q, k)) q->crossing[k] = automaton_crossing(c, q->step, k, q->step->t0);
+    due_event first = {.t = (double)INFINITY};
+    for (dem_index kind = 0; kind < q->n_sources; kind++) {
+        due_event due = {.source = &q->sources[kind]};
+        due.t = due.source->next(due.source->self, &due.key);
+        if (due.t < first.t) first = due;
     }
+    return first;
 }
 
 static void look_ahead(event_queue *q)
 {
-    automaton *c = q->automaton;
-    const dense_output *step = q->step;
-    event_heap_clear(&q->heap);
-    q->now = step->t0;
+    q->now = q->step->t0;
     q->error = q->ahead = 0.0;
     q->settled = false;
-    automaton_begin_step(c, step, q->state);
-    const int most = c->set.scene.rule.n_threads,
-              n_threads = automaton_n_active(c) >= least_share * most && most > 1 ? most : 1;
-    THREADS_RUN(n_threads, t, look_at_free(q, n_threads, t));
-    const dem_index *behind = &c->set.ledger.counts.behind, were_behind = *behind;
-    for (dem_index a = 0; a < automaton_n_active(c); a++) {
-        const dem_index k = automaton_active_candidate(c, a);
-        const bool known =
-            is_free(q, k) && q->crossing[k] > step->t0 && *behind == were_behind; /* else others may know more */
-        event_heap_set(&q->heap, k, known ? q->crossing[k] : automaton_next_change(c, step, k, step->t0, q->state));
-    }
+    for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].begin(q->sources[k].self, q->step, q->state);
 }
 
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
-    for (dem_index s = 0; s < q->n_saved; s++) q->kept[q->saved[s]] = false;
-    q->n_saved = q->n_events = q->n_stops = 0;
+    q->n_events = q->n_stops = 0;
     changed_motion_start(&q->changed, step->t1, y1, f1);
     step->changed = &q->changed;
     q->step = step;
     q->state = state;
-    q->idle = q->automaton->idle;
     q->quiet = false;
     look_ahead(q);
 }
 
-/* ---- what has changed ---- */
-
-static void copy_books(const contact_ledger *from, contact_ledger *to, dem_index n_obstacles)
-{
-    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
-    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
-    *to = *from;
-    to->impulse = impulse;
-    to->friction_impulse = friction_impulse;
-}
-
-static void keep_site(event_queue *q, dem_index k)
-{
-    if (q->kept[k]) return;
-    q->kept[k] = true;
-    q->saved[q->n_saved] = k;
-    q->before[q->n_saved++] = q->automaton->set.list[k];
-}
-
-static dem_index n_moving(const event_queue *q)
-{
-    return q->correction.near.end[q->correction.near.n_rings - 1];
-}
-
-static bool moves(const event_queue *q, dem_index node)
-{
-    return neighbourhood_has(&q->correction.near, node, q->correction.near.n_rings - 1);
-}
-
-/* Does something to every site that has a node in the patch which moves. */
-static void each_site(event_queue *q, void (*act)(event_queue *q, dem_index k))
-{
-    const contact_set *c = &q->automaton->set;
-    const surface *s = &c->scene.model->surface;
-    for (dem_index j = 0; j < n_moving(q); j++) {
-        const dem_index i = q->correction.near.nodes[j].i;
-        if (c->of_node[i] >= 0) act(q, c->of_node[i]);
-        for (dem_index p = s->row[i]; p < s->row[i + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
-            const dem_index k = contact_set_of_edge(c, s->at[p]);
-            if (c->list[k].node == i || !moves(q, c->list[k].node)) act(q, k); /* once */
-        }
-    }
-}
-
 void event_queue_undo(event_queue *q)
 {
-    automaton *c = q->automaton;
     if (q->n_stops == 0) return;
-    for (dem_index s = 0; s < q->n_saved; s++) {
-        c->set.list[q->saved[s]] = q->before[s];
-        q->kept[q->saved[s]] = false;
-    }
-    copy_books(&q->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
-    (void)contact_set_regroup_some(&c->set, q->saved, q->n_saved); /* groups that there were have room */
+    for (dem_index k = q->n_sources - 1; k >= 0; k--) q->sources[k].undo(q->sources[k].self);
     changed_motion_undo(&q->changed);
-    c->idle = q->idle;
-    c->solved = NAN;
-    q->n_saved = q->n_events = q->n_stops = 0;
+    q->n_events = q->n_stops = 0;
 }
 
 /* ---- events ---- */
@@ -179,25 +98,6 @@ static dem_status hear(void *context, const dem_event *event)
     return DEM_OK;
 }
 
-static void look_again(event_queue *q, dem_index k)
-{
-    event_heap_set(&q->heap, k, automaton_next_change(q->automaton, q->step, k, q->now, q->state));
-}
-
-/* How far sites may go: some are faster now. */
-static double furthest(const event_queue *q)
-{
-    const dense_output *step = q->step;
-    const double *v1 = step->y1 + state_velocities(&step->layout);
-    double way = q->automaton->way;
-    for (dem_index j = 0; j < n_moving(q); j++) {
-        const dem_index i = q->correction.near.nodes[j].i;
-        if (q->automaton->set.of_node[i] < 0) continue;
-        way = fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(v1, i)));
-    }
-    return way;
-}
-
 /* By what the square of a velocity's error grows in a step that is longer by the ratio. A step that begins a time tau
  * after a jump estimates h^5 K^3 v (tau (1/104 - 1/120) - h/2080) for it, which vanishes for tau = 0.375 h; for
  * tau < h/4 it is a sixth of the error or more. */
@@ -207,52 +107,43 @@ static double growth(double ratio)
     return ratio < 4.0 ? third * third * third * third : 0.0;
 }
 
-/* What errors have left closed contacts near the event of velocities that they do not allow goes first: it would be
- * taken for sliding or for an approach. */
-static void calm(event_queue *q)
-{
-    contact_set *c = &q->automaton->set;
-    contact_instant now = {q->now, q->state, q->state + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
-    for (dem_index g = 0; g < q->correction.near.n_groups; g++)
-        impact_group_stop(c, q->correction.near.groups[g].group, &now);
-}
-
 /* The nodes that an event may change at once, into `seeds`; there are *n. */
-static dem_status find_seeds(event_queue *q, dem_index k, dem_index *n)
+static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
 {
-    *n = contact_set_seeds(&q->automaton->set, k, q->seeds, q->seed_capacity);
+    const event_source *source = due->source;
+    *n = source->seeds(source->self, due->key, q->seeds, q->seed_capacity);
     if (*n <= q->seed_capacity) return DEM_OK;
     CHECK(grow_array((void **)&q->seeds, &q->seed_capacity, *n, sizeof *q->seeds), DEM_ERROR_MEMORY,
           "out of memory for what is near a contact");
-    *n = contact_set_seeds(&q->automaton->set, k, q->seeds, q->seed_capacity);
+    *n = source->seeds(source->self, due->key, q->seeds, q->seed_capacity);
     return DEM_OK;
 }
 
-/* What is due at a site, and what follows from it. */
-static dem_status take(event_queue *q, dem_index k)
+/* The event itself, where all sources know that it comes. */
+static dem_status resolve(event_queue *q, const due_event *due, const event_place *at)
 {
     const event_listener listener = {hear, q};
-    automaton *c = q->automaton;
+    for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].prepare(q->sources[k].self, at);
+    return due->source->resolve(due->source->self, due->key, at, &listener);
+}
+
+/* What is due, and what follows from it. */
+static dem_status take(event_queue *q, const due_event *due)
+{
+    const event_place at = {q->step, due->t, &q->correction.near, q->state};
     dem_index n_seeds;
     double error;
-    if (q->n_stops == 0) copy_books(&c->set.ledger, &q->ledger, c->set.scene.model->obstacles.n);
-    q->n_stops += q->n_stops == 0 || q->heap.due[k] > q->now;
-    q->now = q->heap.due[k];
-    TRY(find_seeds(q, k, &n_seeds));
+    q->n_stops += q->n_stops == 0 || due->t > q->now;
+    q->now = due->t;
+    TRY(find_seeds(q, due, &n_seeds));
     TRY(local_correction_open(&q->correction, q->step, q->seeds, n_seeds, q->now, q->state));
-    each_site(q, keep_site);
-    calm(q);
-    TRY(automaton_resolve_near(c, k, q->now, q->state, &listener));
+    TRY(resolve(q, due, &at));
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));
-    CHECK(isfinite(error), DEM_ERROR_INTEGRATOR,
-          "the motion near node %lld after a contact event at t = %.9g s overflows", (long long)c->set.list[k].node,
-          q->now);
+    CHECK(isfinite(error), DEM_ERROR_INTEGRATOR, "the motion near node %lld after a %s event at t = %.9g s overflows",
+          (long long)q->correction.near.nodes[0].i, due->source->name, q->now);
     q->error += error;
     q->ahead += error * growth((q->step->t1 - q->step->t0) / q->correction.h);
-    c->way = furthest(q);
-    for (dem_index g = 0; g < q->correction.near.n_groups; g++)
-        automaton_solve_group(c, q->step, q->correction.near.groups[g].group, q->state);
-    each_site(q, look_again);
+    for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].follow(q->sources[k].self, &at);
     return DEM_OK;
 }
 
@@ -358,8 +249,8 @@ dem_status event_queue_show(event_queue *q, double t)
         event_queue_undo(q);
         look_ahead(q);
     }
-    for (dem_index k; (k = event_heap_first(&q->heap)) >= 0 && q->heap.due[k] <= t && q->error <= q->most;)
-        TRY(take(q, k));
+    due_event due;
+    while ((due = next_of(q)).source != NULL && due.t <= t && q->error <= q->most) TRY(take(q, &due));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
     q->quiet = q->n_stops == 0;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contact events inside one accepted step, in the order of time. Each is taken where and when it happens, and what
- * follows from it for the rest of the step is corrected on a patch, which may bring further events: the whole body is
- * never stopped. Everything can be taken back. */
+/* The events of contact and other sources inside one accepted step, in the order of time. Each is taken where and when
+ * it happens, and what follows from it for the rest of the step is corrected on a patch, which may bring further
+ * events: the whole body is never stopped. Everything can be taken back. */
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
 #include "contact/automaton.h"
-#include "events/event_heap.h"
+#include "events/contact_source.h"
+#include "events/event_source.h"
 #include "events/local_correction.h"
 
 typedef struct event_queue {
@@ -21,14 +22,9 @@ typedef struct event_queue {
     double error;             /* of all patches, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of it; beyond it the step is to be rejected, and nothing more is done */
-    event_heap heap;          /* sites, and when something happens at them */
-    double *crossing;         /* [n sites] s, when a free site touches, for look_ahead() */
-    bool *kept;               /* [n sites] whether a site is among `saved` */
-    dem_index n_saved;
-    dem_index *saved;          /* [n_saved] those that may have changed */
-    contact_candidate *before; /* [n_saved] as they were before the step */
-    contact_ledger ledger;     /* before the step */
-    dem_index idle;
+    contact_source contact;   /* the first source */
+    dem_index n_sources, source_capacity;
+    event_source *sources; /* [n_sources] by their kind */
     dem_index seed_capacity;
     dem_index *seeds; /* [seed_capacity] nodes that an event changes at once */
     dem_index n_events, capacity;
@@ -36,10 +32,14 @@ typedef struct event_queue {
     dem_index n_stops; /* times at which something happened */
 } event_queue;
 
-/** Borrows the contact, and what the rule points at. `controlled`: a step is rejected for an error above 1. Free with
- *  event_queue_destroy(). */
+/** Borrows the contact, and what the rule points at. `controlled`: a step is rejected for an error above 1. Must stay
+ *  where it is. Free with event_queue_destroy(). */
 dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled);
 void event_queue_destroy(event_queue *q);
+
+/** Another source of events, before the first step: of events at the same time its come after those of the sources
+ *  that are there. Borrows what the source works on.  \return DEM_ERROR_MEMORY */
+dem_status event_queue_add_source(event_queue *q, event_source source);
 
 /** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given
  *  the trail; it must stay where it is.  \param state  [4 n] scratch */

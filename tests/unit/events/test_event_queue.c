@@ -180,9 +180,9 @@ static void events_at_the_same_time_come_in_the_order_of_sites(void **state)
     (void)state;
     open_masses(&r, 6, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
-    for (dem_index k = 0; k < 6; k++) due[k] = r.q.heap.due[k];
-    event_heap_clear(&r.q.heap);
-    for (dem_index k = 5; k >= 0; k--) event_heap_set(&r.q.heap, k, due[k]);
+    for (dem_index k = 0; k < 6; k++) due[k] = r.q.contact.heap.due[k];
+    event_heap_clear(&r.q.contact.heap);
+    for (dem_index k = 5; k >= 0; k--) event_heap_set(&r.q.contact.heap, k, due[k]);
     show(&r, 0.1);
     assert_int_equal(r.q.n_events, 6);
     for (int k = 0; k < 6; k++) {
@@ -209,6 +209,128 @@ static void a_node_may_bounce_many_times_in_a_step(void **state)
         due += 2.0 * up / g;
     }
     assert_true(due > 0.18);
+    close_rig(&r);
+}
+
+/* ---- several sources ---- */
+
+enum { n_kicks = 3 };
+
+/* Lets the velocity of a node jump upwards at given times; its keys are their numbers. */
+typedef struct kicks {
+    dem_index node, n_all;
+    double t[n_kicks], speed; /* s, m/s */
+    bool done[n_kicks];
+} kicks;
+
+static void kicks_undo(void *self)
+{
+    kicks *s = self;
+    for (int k = 0; k < n_kicks; k++) s->done[k] = false;
+}
+
+static void kicks_begin(void *self, const dense_output *step, double *state)
+{
+    (void)step;
+    (void)state;
+    kicks_undo(self);
+}
+
+static double kicks_next(const void *self, dem_index *key)
+{
+    const kicks *s = self;
+    double first = (double)INFINITY;
+    for (int k = 0; k < n_kicks; k++) {
+        if (s->done[k] || s->t[k] >= first) continue;
+        first = s->t[k];
+        *key = k;
+    }
+    return first;
+}
+
+static dem_index kicks_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
+{
+    (void)key;
+    if (capacity > 0) nodes[0] = ((const kicks *)self)->node;
+    return 1;
+}
+
+static void kicks_see(void *self, const event_place *at)
+{
+    (void)self;
+    (void)at;
+}
+
+static dem_status kicks_resolve(void *self, dem_index key, const event_place *at, const event_listener *listener)
+{
+    kicks *s = self;
+    const dem_event event = {.t = at->t, .kind = DEM_EVENT_PASS, .node = s->node, .segment = key};
+    at->state[2 * (s->n_all + s->node) + 1] += s->speed;
+    s->done[key] = true;
+    return listener->event(listener->context, &event);
+}
+
+static event_source kicks_events(kicks *s)
+{
+    return (event_source){"kick",        s,         kicks_begin, kicks_next, kicks_seeds, kicks_see,
+                          kicks_resolve, kicks_see, kicks_undo};
+}
+
+/* Masses 0 and 1 strike the floor. Mass 2 is kicked between both impacts, by the last key, and twice at the time of the
+ * second: after the impact, for contact is the first source, and in the order of keys. */
+static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **state)
+{
+    const double heights[3] = {0.02, 0.03, 0.05}, h = 0.1, between = 0.07;
+    const dem_index nodes[5] = {0, 2, 1, 2, 2}, keys[5] = {0, 2, 0, 0, 1};
+    kicks jumps = {.node = 2, .speed = 0.25};
+    rig r;
+    (void)state;
+    open_masses(&r, 3, heights, 0.5, 0.0);
+    jumps.n_all = r.n_all;
+    assert_ok(event_queue_add_source(&r.q, kicks_events(&jumps)));
+    fall(&r, 0.0, h);
+    const double second = r.q.contact.heap.due[1];
+    jumps.t[0] = jumps.t[1] = second;
+    jumps.t[2] = between;
+    show(&r, h);
+    assert_int_equal(r.q.n_events, 5);
+    assert_int_equal(r.q.n_stops, 3);
+    for (int k = 0; k < 5; k++) {
+        assert_int_equal(r.q.events[k].node, nodes[k]);
+        assert_int_equal(r.q.events[k].kind, nodes[k] == 2 ? DEM_EVENT_PASS : DEM_EVENT_IMPACT);
+        if (nodes[k] == 2) assert_int_equal(r.q.events[k].segment, keys[k]);
+    }
+    const double way = jumps.speed * ((h - between) + 2.0 * (h - second));
+    assert_close(r.y1[2 * (r.n_all + 2) + 1], 3.0 * jumps.speed - g * h, 1e-14); /* rounding of velocities of order 1 */
+    assert_close(r.y1[2 * 2 + 1], heights[2] + way - 0.5 * g * h * h, 1e-15);    /* and of lengths of order 0.1 */
+    close_rig(&r);
+}
+
+/* The kick keeps mass 1 off the floor: contact looks at it anew, and back in time finds the impact of before. */
+static void sources_are_undone_and_redone_to_the_bit(void **state)
+{
+    const double heights[2] = {0.02, 0.03}, h = 0.1;
+    kicks jumps = {.node = 1, .t = {0.07, (double)INFINITY, (double)INFINITY}, .speed = 1.0};
+    rig r;
+    (void)state;
+    open_masses(&r, 2, heights, 0.5, 0.0);
+    jumps.n_all = r.n_all;
+    assert_ok(event_queue_add_source(&r.q, kicks_events(&jumps)));
+    fall(&r, 0.0, h);
+    const double alone = r.q.contact.heap.due[1];
+    const snapshot before = take_snapshot(&r, h);
+    show(&r, h);
+    assert_int_equal(r.q.n_events, 2);
+    assert_int_equal(r.q.n_stops, 2);
+    const snapshot once = take_snapshot(&r, h);
+    event_queue_undo(&r.q);
+    const snapshot undone = take_snapshot(&r, h);
+    assert_same(&undone, &before);
+    show(&r, 0.0);
+    assert_close(r.q.contact.heap.due[1], alone, 0.0);
+    show(&r, h);
+    const snapshot again = take_snapshot(&r, h);
+    assert_same(&again, &once);
     close_rig(&r);
 }
 
@@ -419,7 +541,7 @@ static void the_neighbours_events_are_looked_for_anew(void **state)
     (void)state;
     open_pair(&r, &lattice, NULL);
     swing(&r, &lattice, h);
-    const double alone = r.q.heap.due[1];
+    const double alone = r.q.contact.heap.due[1];
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
     triplets_start(&lattice, y);
@@ -561,6 +683,8 @@ int main(void)
         cmocka_unit_test(events_come_in_the_order_of_time),
         cmocka_unit_test(events_at_the_same_time_come_in_the_order_of_sites),
         cmocka_unit_test(a_node_may_bounce_many_times_in_a_step),
+        cmocka_unit_test(events_of_sources_come_in_the_order_of_time_kind_and_key),
+        cmocka_unit_test(sources_are_undone_and_redone_to_the_bit),
         cmocka_unit_test(a_step_without_events_is_left_as_it_is),
         cmocka_unit_test(a_step_shown_at_a_time_is_what_it_is_then),
         cmocka_unit_test(any_way_to_a_time_gives_the_same_bits),

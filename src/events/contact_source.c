@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Contact as a source of events: when candidates change, and what has changed of them. */
+#include "events/contact_source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "base/threads.h"
+#include "contact/automaton_step.h"
+#include "contact/impact_group.h"
+
+/* ---- set-up ---- */
+
+static dem_status allocate(contact_source *s)
+{
+    const contact_set *c = &s->automaton->set;
+    const size_t n = (size_t)c->n + 1;
+    s->crossing = malloc(n * sizeof *s->crossing);
+    s->kept = calloc(n, sizeof *s->kept);
+    s->saved = malloc(n * sizeof *s->saved);
+    s->before = malloc(n * sizeof *s->before);
+    CHECK(s->crossing && s->kept && s->saved && s->before, DEM_ERROR_MEMORY, "out of memory for %lld contact sites",
+          (long long)c->n);
+    TRY(event_heap_create(&s->heap, c->n));
+    return ledger_create(&s->ledger, c->scene.model->obstacles.n);
+}
+
+dem_status contact_source_create(contact_source *out, automaton *c)
+{
+    *out = (contact_source){.automaton = c};
+    const dem_status status = allocate(out);
+    if (status != DEM_OK) contact_source_destroy(out);
+    return status;
+}
+
+void contact_source_destroy(contact_source *s)
+{
+    ledger_destroy(&s->ledger);
+    event_heap_destroy(&s->heap);
+    free(s->crossing);
+    free(s->kept);
+    free(s->saved);
+    free(s->before);
+    *s = (contact_source){0};
+}
+
+/* ---- what is next ---- */
+
+enum { least_share = 32 }; /* free sites for which a thread is worth its while */
+
+static bool is_free(const contact_source *s, dem_index k)
+{
+    return s->automaton->set.list[k].n_closed == 0;
+}
+
+/* When the free ones of a share of the sites touch. */
+static void look_at_free(contact_source *s, int n_shares, int share)
+{
+    automaton *c = s->automaton;
+    const dem_index n = automaton_n_active(c), end = threads_share(n, n_shares, share + 1);
+    for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
+        const dem_index k = automaton_active_candidate(c, a);
+        if (is_free(s, k)) s->crossing[k] = automaton_crossing(c, s->step, k, s->step->t0);
+    }
+}
+
+static void look_ahead(contact_source *s)
+{
+    automaton *c = s->automaton;
+    const dense_output *step = s->step;
+    event_heap_clear(&s->heap);
+    automaton_begin_step(c, step, s->state);
+    const int most = c->set.scene.rule.n_threads,
+              n_threads = automaton_n_active(c) >= least_share * most && most > 1 ? most : 1;
+    THREADS_RUN(n_threads, t, look_at_free(s, n_threads, t));
+    const dem_index *behind = &c->set.ledger.counts.behind, were_behind = *behind;
+    for (dem_index a = 0; a < automaton_n_active(c); a++) {
+        const dem_index k = automaton_active_candidate(c, a);
+        const bool known =
+            is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind; /* else others may know more */
+        event_heap_set(&s->heap, k, known ? s->crossing[k] : automaton_next_change(c, step, k, step->t0, s->state));
+    }
+}
+
+/* Nothing of a step has changed yet. */
+static void forget_saved(contact_source *s)
+{
+    for (dem_index m = 0; m < s->n_saved; m++) s->kept[s->saved[m]] = false;
+    s->n_saved = 0;
+    s->has_ledger = false;
+}
+
+static void contact_source_begin(void *self, const dense_output *step, double *state)
+{
+    contact_source *s = self;
+    forget_saved(s);
+    s->step = step;
+    s->state = state;
+    s->idle = s->automaton->idle;
+    look_ahead(s);
+}
+
+static double contact_source_next(const void *self, dem_index *key)
+{
+    const contact_source *s = self;
+    *key = event_heap_first(&s->heap);
+    return *key >= 0 ? s->heap.due[*key] : (double)INFINITY;
+}
+
+static dem_index contact_source_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
+{
+    const contact_source *s = self;
+    return contact_set_seeds(&s->automaton->set, key, nodes, capacity);
+}
+
+/* ---- sites near an event ---- */
+
+static dem_index n_moving(const event_place *at)
+{
+    return at->near->end[at->near->n_rings - 1];
+}
+
+/* Does something to every site that has a node in the patch which moves. */
+static void each_site(contact_source *s, const event_place *at,
+                      void (*act)(contact_source *s, const event_place *at, dem_index k))
+{
+    const contact_set *c = &s->automaton->set;
+    const surface *edges = &c->scene.model->surface;
+    for (dem_index j = 0; j < n_moving(at); j++) {
+        const dem_index i = at->near->nodes[j].i;
+        if (c->of_node[i] >= 0) act(s, at, c->of_node[i]);
+        for (dem_index p = edges->row[i]; p < edges->row[i + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+            const dem_index k = contact_set_of_edge(c, edges->at[p]);
+            const bool first =
+                c->list[k].node == i || !neighbourhood_has(at->near, c->list[k].node, at->near->n_rings - 1); /* once */
+            if (first) act(s, at, k);
+        }
+    }
+}
+
+static void copy_ledger(const contact_ledger *from, contact_ledger *to, dem_index n_obstacles)
+{
+    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
+    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
+    *to = *from;
+    to->impulse = impulse;
+    to->friction_impulse = friction_impulse;
+}
+
+static void keep_site(contact_source *s, const event_place *at, dem_index k)
+{
+    (void)at;
+    if (s->kept[k]) return;
+    s->kept[k] = true;
+    s->saved[s->n_saved] = k;
+    s->before[s->n_saved++] = s->automaton->set.list[k];
+}
+
+/* What errors have left closed contacts near the event of velocities that they do not allow goes first: it would be
+ * taken for sliding or for an approach. */
+static void calm(contact_source *s, const event_place *at)
+{
+    contact_set *c = &s->automaton->set;
+    contact_instant now = {at->t, at->state, at->state + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
+    for (dem_index g = 0; g < at->near->n_groups; g++) impact_group_stop(c, at->near->groups[g].group, &now);
+}
+
+static void contact_source_prepare(void *self, const event_place *at)
+{
+    contact_source *s = self;
+    automaton *c = s->automaton;
+    if (!s->has_ledger) copy_ledger(&c->set.ledger, &s->ledger, c->set.scene.model->obstacles.n);
+    s->has_ledger = true;
+    c->solved = NAN;
+    each_site(s, at, keep_site);
+    calm(s, at);
+}
+
+static dem_status contact_source_resolve(void *self, dem_index key, const event_place *at,
+                                         const event_listener *listener)
+{
+    contact_source *s = self;
+    return automaton_resolve_near(s->automaton, key, at->t, at->state, listener);
+}
+
+static void look_again(contact_source *s, const event_place *at, dem_index k)
+{
+    event_heap_set(&s->heap, k, automaton_next_change(s->automaton, at->step, k, at->t, at->state));
+}
+
+/* How far sites may go: some are faster now. */
+static double furthest(const contact_source *s, const event_place *at)
+{
+    const dense_output *step = at->step;
+    double way = s->automaton->way;
+    for (dem_index j = 0; j < n_moving(at); j++) {
+        const dem_index i = at->near->nodes[j].i;
+        if (s->automaton->set.of_node[i] < 0) continue;
+        way =
+            fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1 + state_velocities(&step->layout), i)));
+    }
+    return way;
+}
+
+static void contact_source_follow(void *self, const event_place *at)
+{
+    contact_source *s = self;
+    s->automaton->way = furthest(s, at);
+    for (dem_index g = 0; g < at->near->n_groups; g++)
+        automaton_solve_group(s->automaton, at->step, at->near->groups[g].group, at->state);
+    each_site(s, at, look_again);
+}
+
+static void contact_source_undo(void *self)
+{
+    contact_source *s = self;
+    automaton *c = s->automaton;
+    c->solved = NAN;
+    if (!s->has_ledger) return;
+    for (dem_index m = 0; m < s->n_saved; m++) c->set.list[s->saved[m]] = s->before[m];
+    copy_ledger(&s->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
+    (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved); /* groups that there were have room */
+    c->idle = s->idle;
+    forget_saved(s);
+}
+
+event_source contact_source_events(contact_source *s)
+{
+    return (event_source){.name = "contact",
+                          .self = s,
+                          .begin = contact_source_begin,
+                          .next = contact_source_next,
+                          .seeds = contact_source_seeds,
+                          .prepare = contact_source_prepare,
+                          .resolve = contact_source_resolve,
+                          .follow = contact_source_follow,
+                          .undo = contact_source_undo};
+}

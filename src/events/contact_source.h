@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Contact as a source of events: its keys are the numbers of the candidates. */
+#ifndef DEM_EVENTS_CONTACT_SOURCE_H
+#define DEM_EVENTS_CONTACT_SOURCE_H
+
+#include "contact/automaton.h"
+#include "events/event_heap.h"
+#include "events/event_source.h"
+
+typedef struct contact_source {
+    automaton *automaton;
+    const dense_output *step; /* in hand */
+    double *state;            /* [4 n] scratch, the queue's */
+    event_heap heap;          /* candidates, and when something happens at them */
+    double *crossing;         /* [n candidates] s, when a free one touches, while a step is begun */
+    bool *kept;               /* [n candidates] whether one is among `saved` */
+    dem_index n_saved;
+    dem_index *saved;          /* [n_saved] those that may have changed */
+    contact_candidate *before; /* [n_saved] as they were before the step */
+    bool has_ledger;           /* whether an event has come, so that there is a */
+    contact_ledger ledger;     /* from before the step */
+    dem_index idle;            /* and the automaton's count of events that changed nothing */
+} contact_source;
+
+/** Borrows the automaton. Free with contact_source_destroy().  \return DEM_ERROR_MEMORY */
+dem_status contact_source_create(contact_source *out, automaton *c);
+void contact_source_destroy(contact_source *s);
+
+/** `s` must stay where it is. */
+event_source contact_source_events(contact_source *s);
+
+#endif
