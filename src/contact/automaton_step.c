@@ -55,7 +55,7 @@ static bool come_round(contact_set *c, dem_index k, const candidate_positions *s
     const contact_candidate *candidate = &c->list[k];
     dem_index nearest;
     if (candidate_is_edge(candidate) || candidate->n_closed > 0 || candidate->behind[0] >= 0) return false;
-    if (!(candidate_moved(candidate, spot) < candidate->clear) ||
+    if (!(candidate_moved(candidate, spot) < candidate->clearance.distance) ||
         candidate_clearance(&c->scene, candidate, spot, &nearest) >= 0.0)
         return false;
     contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, nearest}));
@@ -66,7 +66,7 @@ double automaton_crossing(automaton *c, const dense_output *p, dem_index k, doub
 {
     contact_candidate *candidate = &c->set.list[k];
     if (!broad_phase_may_touch(&c->broad_phase, candidate, c->way)) return INFINITY;
-    candidate->inactive = false;
+    candidate->clearance.inactive = false;
     return candidate->n_closed < 2 ? event_location_crossing(&c->set.scene, candidate, p, from) : INFINITY;
 }
 

@@ -43,26 +43,27 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state sta
     const candidate_positions spot = candidate_place(candidate, state.t, state.x);
     dem_index nearest;
     double clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
-    const bool untouched = candidate->inactive ? candidate->active_from > w->travelled
-                                               : candidate_moved(candidate, &spot) < candidate->clear;
+    const bool untouched = candidate->clearance.inactive
+                               ? candidate->clearance.active_from > w->travelled
+                               : candidate_moved(candidate, &spot) < candidate->clearance.distance;
     if (clear < 0.0 && untouched && candidate->n_closed == 0 && !candidate_is_edge(candidate)) {
         contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, nearest}));
         clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
     }
     clear -= 2.0 * scene_margin(&c->scene);
-    candidate->inactive = clear > reach;
-    candidate->active_from = w->travelled + clear;
-    candidate->clear = fmax(0.0, clear);
-    candidate->clear_at[0] = spot.a;
-    candidate->clear_at[1] = spot.b;
+    candidate->clearance.inactive = clear > reach;
+    candidate->clearance.active_from = w->travelled + clear;
+    candidate->clearance.distance = fmax(0.0, clear);
+    candidate->clearance.at[0] = spot.a;
+    candidate->clearance.at[1] = spot.b;
 }
 
 /* What sleeps until it may wake, and what is awake until it has moved half as far as it was clear. */
 static bool worth_a_look(const broad_phase *w, const contact_candidate *candidate, scene_state state, double reach)
 {
-    if (candidate->inactive) return candidate->active_from <= w->travelled + reach;
+    if (candidate->clearance.inactive) return candidate->clearance.active_from <= w->travelled + reach;
     const candidate_positions spot = candidate_place(candidate, state.t, state.x);
-    return candidate_moved(candidate, &spot) >= 0.5 * candidate->clear;
+    return candidate_moved(candidate, &spot) >= 0.5 * candidate->clearance.distance;
 }
 
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
@@ -76,9 +77,9 @@ void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
     for (dem_index k = 0; k < c->n; k++) {
         const contact_candidate *candidate = &c->list[k];
         if (worth_a_look(w, candidate, state, reach)) look_at(w, c, k, state, reach);
-        if (candidate->n_closed > 0 || !candidate->inactive)
+        if (candidate->n_closed > 0 || !candidate->clearance.inactive)
             w->active[w->n++] = k;
         else
-            w->earliest = fmin(w->earliest, candidate->active_from);
+            w->earliest = fmin(w->earliest, candidate->clearance.active_from);
     }
 }

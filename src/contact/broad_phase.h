@@ -34,7 +34,7 @@ static inline bool broad_phase_covers_all(const broad_phase *w, double way)
 /** Whether a site may have touched something after `way` (m) more. */
 static inline bool broad_phase_may_touch(const broad_phase *w, const contact_candidate *candidate, double way)
 {
-    return !candidate->inactive || candidate->active_from <= w->travelled + way;
+    return !candidate->clearance.inactive || candidate->clearance.active_from <= w->travelled + way;
 }
 
 #endif

@@ -61,15 +61,16 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_candidate 
 
 double candidate_moved(const contact_candidate *candidate, const candidate_positions *spot)
 {
-    const double a = vec2_norm(vec2_sub(spot->a, candidate->clear_at[0]));
-    return candidate_is_edge(candidate) ? fmax(a, vec2_norm(vec2_sub(spot->b, candidate->clear_at[1]))) : a;
+    const double a = vec2_norm(vec2_sub(spot->a, candidate->clearance.at[0]));
+    return candidate_is_edge(candidate) ? fmax(a, vec2_norm(vec2_sub(spot->b, candidate->clearance.at[1]))) : a;
 }
 
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot)
 {
-    if (candidate->n_closed == 2 || candidate->inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
-    const double left = candidate->clear > 0.0 ? candidate->clear - candidate_moved(candidate, spot) : 0.0;
+    if (candidate->n_closed == 2 || candidate->clearance.inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
+    const double left =
+        candidate->clearance.distance > 0.0 ? candidate->clearance.distance - candidate_moved(candidate, spot) : 0.0;
     if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
     return candidate_is_edge(candidate) ? edge_gap(scene, candidate, spot)
                                         : node_gap(scene, candidate, (surface_query){spot->t, spot->a});

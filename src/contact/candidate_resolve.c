@@ -197,15 +197,15 @@ dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, 
 {
     bool here = false;
     contact_candidate *candidate = &c->list[k];
-    if (candidate->inactive && candidate->n_closed == 0) return DEM_OK;
+    if (candidate->clearance.inactive && candidate->n_closed == 0) return DEM_OK;
     TRY(candidate->n_closed == 0 ? settle_free(c, k, now, &here) : settle_closed(c, k, now, &here));
     if (!here) return DEM_OK;
     *changed = true;
-    if (now->t - candidate->storm_start > c->scene.rule.storm_time) {
-        candidate->storm_start = now->t;
-        candidate->storm = 0;
+    if (now->t - candidate->storm.start > c->scene.rule.storm_time) {
+        candidate->storm.start = now->t;
+        candidate->storm.n = 0;
     }
-    CHECK(++candidate->storm <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
+    CHECK(++candidate->storm.n <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s",
           candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node,
           now->x[2 * candidate->node], now->x[2 * candidate->node + 1], (long long)c->scene.rule.max_impacts,

@@ -13,17 +13,21 @@ typedef struct contact_point {
     bool held;              /* one of two that hold a node at rest in a corner; there is no friction then */
     double place;           /* of a vertex on the edge where it sticks or may come to: 0 at its start, 1 at its end */
     double force, friction; /* N, along normal and tangent, at the last accepted step */
-    /* of the impact under way: */
-    bool fresh;    /* the contact was not closed before */
-    bool opens;    /* and will not be after */
-    bool struck;   /* it approached */
-    bool rests;    /* what it gets away is no more than a hop that counts as rest */
-    bool plastic;  /* it does not rebound, for it will last */
-    vec2 before;   /* m/s, of the point of the body */
-    vec2 impulse;  /* N s, given to the body */
-    vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
-    double energy; /* J, taken by it */
 } contact_point;
+
+/** How far a site is known to be from all that it could touch besides its closed contacts. */
+typedef struct contact_clearance {
+    bool inactive;      /* it is so far, */
+    double active_from; /* m, until the bodies may have gone this far since the start */
+    vec2 at[2];         /* m, where its nodes were when it was */
+    double distance;    /* m, this far away */
+} contact_clearance;
+
+/** Changes of a site in a short time. */
+typedef struct contact_storm {
+    double start; /* s */
+    dem_index n;  /* changes since then */
+} contact_storm;
 
 /** A node, or an edge from node to other, that may touch. */
 typedef struct contact_candidate {
@@ -31,14 +35,9 @@ typedef struct contact_candidate {
     dem_index previous, next; /* of an edge, the nodes before and after it on the boundary, or -1 */
     dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
     int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
-    bool inactive;            /* it is far from all that it could touch besides, */
-    double active_from;       /* m, until the bodies may have gone this far since the start */
-    vec2 clear_at[2];         /* m, where its nodes were when all that it could touch besides */
-    double clear;             /* m, was this far away */
     contact_point closed[2];
-    int n_involved;     /* contacts in the impact under way: behind the closed ones are those that have opened */
-    double storm_start; /* s */
-    dem_index storm;    /* changes of this site since then */
+    contact_clearance clearance;
+    contact_storm storm;
 } contact_candidate;
 
 /** A closed contact in a state: the point of the body that touches, and how it moves. */

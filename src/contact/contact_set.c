@@ -25,7 +25,8 @@ dem_status contact_set_create(contact_set *c, const dem_model *model, const cont
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
     c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
     c->involved = malloc(((size_t)c->n + 1) * sizeof *c->involved);
-    if (c->list == NULL || c->of_node == NULL || c->involved == NULL) {
+    c->impacts = calloc((size_t)c->n + 1, sizeof *c->impacts);
+    if (c->list == NULL || c->of_node == NULL || c->involved == NULL || c->impacts == NULL) {
         contact_set_destroy(c);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)c->n);
     }
@@ -47,6 +48,7 @@ void contact_set_destroy(contact_set *c)
     free(c->list);
     free(c->of_node);
     free(c->involved);
+    free(c->impacts);
     ledger_destroy(&c->ledger);
     contact_forces_destroy(&c->forces);
     *c = (contact_set){0};
@@ -222,13 +224,14 @@ double contact_set_stop(contact_set *c, dem_index group, const contact_instant *
     double energy = 0.0;
     for (int after = 0; after < 2; after++) { /* impulses at points take -J.(v + v')/2 */
         for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
-            contact_candidate *candidate = &c->list[k];
+            const contact_candidate *candidate = &c->list[k];
             for (int q = 0; q < candidate->n_closed; q++) {
+                vec2 *stop = &c->impacts[k].of[q].stop;
                 const contact_frame f = contact_frame_at(&c->scene, candidate, q, state);
                 const contact_force got = r->force[k][q];
                 const vec2 impulse = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
-                if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(candidate->closed[q].stop, f.velocity));
-                candidate->closed[q].stop = after ? impulse : f.velocity;
+                if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(*stop, f.velocity));
+                *stop = after ? impulse : f.velocity;
             }
         }
         if (!after) contact_forces_stop(r, group, state, now->v);

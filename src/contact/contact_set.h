@@ -6,6 +6,25 @@
 #include "contact/candidate.h"
 #include "contact/ledger.h"
 
+/** What the impact under way does to a contact. */
+typedef struct contact_impact {
+    bool fresh;    /* the contact was not closed before */
+    bool opens;    /* and will not be after */
+    bool struck;   /* it approached */
+    bool rests;    /* what it gets away is no more than a hop that counts as rest */
+    bool plastic;  /* it does not rebound, for it will last */
+    vec2 before;   /* m/s, of the point of the body */
+    vec2 impulse;  /* N s, given to the body */
+    vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
+    double energy; /* J, taken by it */
+} contact_impact;
+
+/** And to those of a site: all zero when no impact is under way, but for `stop`. */
+typedef struct candidate_impact {
+    int n; /* contacts that take part: behind the closed ones are those that have opened */
+    contact_impact of[2];
+} candidate_impact;
+
 typedef struct contact_set {
     contact_scene scene;
     dem_index n;
@@ -14,8 +33,9 @@ typedef struct contact_set {
     contact_ledger ledger;
     dem_index *of_node; /* [n_nodes] site of a node, or -1 */
     dem_index n_involved;
-    dem_index *involved; /* [n_involved] sites that take part in the impact under way; room for all */
-    double straightened; /* m, the furthest that nodes were moved after a step to put closed contacts back */
+    dem_index *involved;       /* [n_involved] sites that take part in the impact under way; room for all */
+    candidate_impact *impacts; /* [n] scratch of the impact under way */
+    double straightened;       /* m, the furthest that nodes were moved after a step to put closed contacts back */
 } contact_set;
 
 /** `c` must stay where it is. */
@@ -35,8 +55,8 @@ static inline contact_candidate candidate_reset(const contact_candidate *candida
 /** What was known of a site's distance to other things holds no more. */
 static inline void candidate_forget_clearance(contact_candidate *candidate)
 {
-    candidate->inactive = false;
-    candidate->clear = 0.0;
+    candidate->clearance.inactive = false;
+    candidate->clearance.distance = 0.0;
 }
 
 /** The site of the k-th edge of the surface. */

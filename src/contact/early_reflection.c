@@ -30,7 +30,7 @@ static bool may_arrive(const contact_set *c, const contact_candidate *candidate,
                        const candidate_positions *v)
 {
     const double way = c->scene.rule.window * fmax(vec2_norm(v->a), vec2_norm(v->b));
-    return candidate->clear - candidate_moved(candidate, x) < way;
+    return candidate->clearance.distance - candidate_moved(candidate, x) < way;
 }
 
 /* Whether a site comes to touch within the window if it goes on straight: near a vertex it may pass by. */

@@ -152,7 +152,7 @@ static bool edge_is_clear(const contact_scene *scene, const contact_candidate *c
 static bool stays_clear(const contact_candidate *candidate, const dense_output *p, double reach)
 {
     const candidate_positions spot = candidate_place_at(candidate, p, p->end);
-    return candidate_moved(candidate, &spot) + reach < candidate->clear;
+    return candidate_moved(candidate, &spot) + reach < candidate->clearance.distance;
 }
 
 /* The first crossing of a site whose gap is the true one. */
@@ -188,7 +188,7 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
         2.0 * h * fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)); /* no site goes further */
     if (stays_clear(candidate, p, reach)) return INFINITY;
     contact_candidate near = *candidate;
-    near.clear = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
+    near.clearance.distance = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
     return crossing_within(scene, &near, p, from, reach);
 }
 

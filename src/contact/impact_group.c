@@ -38,14 +38,12 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         contact_candidate *candidate = &c->list[m];
         c->involved[c->n_involved++] = m;
-        candidate->n_involved = candidate->n_closed;
+        c->impacts[m].n = candidate->n_closed;
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
-            contact_point *point = &candidate->closed[q];
-            point->before = f.velocity;
-            point->impulse = (vec2){0.0, 0.0};
-            point->energy = 0.0;
-            point->opens = point->held = point->struck = point->plastic = false;
+            contact_impact *impact = &c->impacts[m].of[q];
+            *impact = (contact_impact){.fresh = impact->fresh, .before = f.velocity};
+            candidate->closed[q].held = false;
             scale = fmax(scale, vec2_norm(f.velocity));
         }
     }
@@ -55,18 +53,18 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
 /* One contact of the group by itself: whether it strikes. */
 static bool strike(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
 {
-    contact_point *point = &c->list[k].closed[q];
+    contact_impact *impact = &c->impacts[k].of[q];
     const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
     vec2 kick;
     if (vec2_dot(f.velocity, f.normal) >= -tolerance) return false;
-    impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
-    if (plastic || point->plastic) wall.restitution = 0.0;
+    impact_surface wall = impact_rest_surface(c, k, c->list[k].closed[q].feature, f.normal);
+    if (plastic || impact->plastic) wall.restitution = 0.0;
     const vec2 after = impact_law_rebound(&wall, 1, f.velocity, &kick);
     const vec2 impulse = vec2_scale(1.0 / f.mobility, kick);
     contact_set_push(c, &f, impulse, now->v);
-    point->struck = true;
-    point->impulse = vec2_add(point->impulse, impulse);
-    point->energy -= 0.5 * vec2_dot(impulse, vec2_add(f.velocity, after));
+    impact->struck = true;
+    impact->impulse = vec2_add(impact->impulse, impulse);
+    impact->energy -= 0.5 * vec2_dot(impulse, vec2_add(f.velocity, after));
     return true;
 }
 
@@ -94,6 +92,7 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
         for (int q = 0; q < c->list[k].n_closed; q++) {
             contact_point *point = &c->list[k].closed[q];
+            contact_impact *impact = &c->impacts[k].of[q];
             const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
             const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
             double back = f.turning;
@@ -102,10 +101,10 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
                                                                              f.node[e], now->x, now->v));
             const impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
             const double rest = impact_rest_speed(c, vec2_at(now->x, f.node[0]), back, &wall, shared);
-            point->opens = away > (point->fresh ? rest : fmax(rest, tolerance));
-            point->rests = rest > 0.0 && away <= rest;
+            impact->opens = away > (impact->fresh ? rest : fmax(rest, tolerance));
+            impact->rests = rest > 0.0 && away <= rest;
             const int sign = impact_rest_slide(c, k, point->feature, fabs(speed) <= tolerance ? 0.0 : speed);
-            if (point->fresh || point->slide != 0) point->place = fmin(fmax(f.place, 0.0), 1.0);
+            if (impact->fresh || point->slide != 0) point->place = fmin(fmax(f.place, 0.0), 1.0);
             point->slide = sign;
         }
     }
@@ -119,18 +118,18 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
     bool any = false;
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
-            contact_point *point = &c->list[m].closed[q];
-            point->plastic = point->struck && point->rests;
-            any |= point->plastic;
+            contact_impact *impact = &c->impacts[m].of[q];
+            impact->plastic = impact->struck && impact->rests;
+            any |= impact->plastic;
         }
     for (dem_index m = contact_forces_first(r, group); m >= 0 && any; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
-            contact_point *point = &c->list[m].closed[q];
+            contact_impact *impact = &c->impacts[m].of[q];
             const contact_frame f = contact_frame_at(&c->scene, &c->list[m], q, instant_state(now));
-            contact_set_push(c, &f, vec2_scale(-1.0, point->impulse), now->v);
-            point->impulse = (vec2){0.0, 0.0};
-            point->energy = 0.0;
-            point->struck = false;
+            contact_set_push(c, &f, vec2_scale(-1.0, impact->impulse), now->v);
+            impact->impulse = (vec2){0.0, 0.0};
+            impact->energy = 0.0;
+            impact->struck = false;
         }
     return any;
 }
@@ -142,19 +141,22 @@ static void keep_struck(contact_set *c, dem_index group)
     const contact_forces *r = &c->forces;
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++)
-            if (c->list[m].closed[q].struck) c->list[m].closed[q].opens = false;
+            if (c->impacts[m].of[q].struck) c->impacts[m].of[q].opens = false;
 }
 
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
-static void part(contact_candidate *candidate)
+static void part(contact_candidate *candidate, candidate_impact *impact)
 {
     candidate_forget_clearance(candidate);
-    if (candidate->n_closed == 2 && candidate->closed[0].opens && !candidate->closed[1].opens) {
+    if (candidate->n_closed == 2 && impact->of[0].opens && !impact->of[1].opens) {
         const contact_point first = candidate->closed[0];
+        const contact_impact its = impact->of[0];
         candidate->closed[0] = candidate->closed[1];
         candidate->closed[1] = first;
+        impact->of[0] = impact->of[1];
+        impact->of[1] = its;
     }
-    while (candidate->n_closed > 0 && candidate->closed[candidate->n_closed - 1].opens) candidate->n_closed--;
+    while (candidate->n_closed > 0 && impact->of[candidate->n_closed - 1].opens) candidate->n_closed--;
 }
 
 void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
@@ -166,7 +168,7 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
             const surface_feature on = contact_point_feature(candidate, candidate->closed[q].feature);
-            contact_set_add_impulse(c, surface_obstacle(&c->scene, on), candidate->closed[q].stop, f.normal);
+            contact_set_add_impulse(c, surface_obstacle(&c->scene, on), c->impacts[m].of[q].stop, f.normal);
         }
     }
 }
@@ -196,9 +198,9 @@ static void settle_velocities(contact_set *c, contact_instant *now)
         if (group < 0 || contact_forces_first(r, group) != k) continue;
         c->ledger.impact += contact_set_stop(c, group, now);
         for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
-            contact_candidate *candidate = &c->list[m];
-            for (int q = 0; q < candidate->n_closed; q++)
-                candidate->closed[q].impulse = vec2_add(candidate->closed[q].impulse, candidate->closed[q].stop);
+            contact_impact *impact = c->impacts[m].of;
+            for (int q = 0; q < c->list[m].n_closed; q++)
+                impact[q].impulse = vec2_add(impact[q].impulse, impact[q].stop);
         }
     }
 }
@@ -206,35 +208,37 @@ static void settle_velocities(contact_set *c, contact_instant *now)
 /* Books and tells what the contacts of a site got. */
 static void tell_party(contact_set *c, dem_index k, contact_instant *now)
 {
-    contact_candidate *candidate = &c->list[k];
-    for (int q = 0; q < candidate->n_involved; q++) {
-        const contact_point *point = &candidate->closed[q];
+    const contact_candidate *candidate = &c->list[k];
+    for (int q = 0; q < c->impacts[k].n; q++) {
+        const contact_impact *impact = &c->impacts[k].of[q];
+        const dem_index feature = candidate->closed[q].feature;
         const bool kept = q < candidate->n_closed;
-        dem_event event = contact_set_event(c, k, point->feature, DEM_EVENT_IMPACT, now);
-        c->ledger.counts.closings += point->fresh && kept;
-        contact_set_add_impulse(c, event.obstacle, point->impulse, vec2_at(event.normal, 0));
-        if (point->struck) {
-            event.before[0] = point->before.x;
-            event.before[1] = point->before.y;
-            contact_set_enter_impact(c, &event, point->energy, point->impulse, now);
+        dem_event event = contact_set_event(c, k, feature, DEM_EVENT_IMPACT, now);
+        c->ledger.counts.closings += impact->fresh && kept;
+        contact_set_add_impulse(c, event.obstacle, impact->impulse, vec2_at(event.normal, 0));
+        if (impact->struck) {
+            event.before[0] = impact->before.x;
+            event.before[1] = impact->before.y;
+            contact_set_enter_impact(c, &event, impact->energy, impact->impulse, now);
         }
-        if (kept == !point->fresh || (point->struck && kept)) continue;
-        event = contact_set_event(c, k, point->feature, kept ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
+        if (kept == !impact->fresh || (impact->struck && kept)) continue;
+        event = contact_set_event(c, k, feature, kept ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
         ledger_enter(&c->ledger, &event, now);
     }
-    for (int q = 0; q < candidate->n_closed; q++) candidate->closed[q].fresh = false;
-    candidate->n_involved = 0;
+    c->impacts[k] = (candidate_impact){0};
 }
 
 /* Takes up the hit among the closed contacts of the site, in place of those it does not go with. */
 static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
 {
     contact_candidate *candidate = &c->list[k];
-    for (int q = 0; q < candidate->n_closed; q++) candidate->closed[q].fresh = false;
+    c->impacts[k] = (candidate_impact){0};
     if (!candidate_is_edge(candidate) && candidate->n_closed == 1 && hit.n == 1) candidate->n_closed = 0;
     for (int h = 0; h < hit.n && candidate->n_closed < 2; h++) {
         const bool known = candidate->n_closed == 1 && candidate->closed[0].feature == hit.feature[h];
-        if (!known) TRY(contact_set_close(c, k, (contact_point){.feature = hit.feature[h], .slide = 1, .fresh = true}));
+        if (known) continue;
+        c->impacts[k].of[candidate->n_closed].fresh = true;
+        TRY(contact_set_close(c, k, (contact_point){.feature = hit.feature[h], .slide = 1}));
     }
     return DEM_OK;
 }
@@ -259,7 +263,7 @@ dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, co
         judge(c, group, tolerance, now);
     }
     if (!done) keep_struck(c, group);
-    for (dem_index p = 0; p < c->n_involved; p++) part(&c->list[c->involved[p]]);
+    for (dem_index p = 0; p < c->n_involved; p++) part(&c->list[c->involved[p]], &c->impacts[c->involved[p]]);
     TRY(contact_set_regroup_some(c, c->involved, c->n_involved));
     settle_velocities(c, now);
     qsort(c->involved, (size_t)c->n_involved, sizeof *c->involved, by_number);

@@ -46,7 +46,7 @@ static sizes sizes_of(const dem_simulation *s)
 
 static bool remembers(const contact_candidate *candidate)
 {
-    return candidate->n_closed > 0 || candidate->behind[0] >= 0 || candidate->behind[1] >= 0 || candidate->storm > 0;
+    return candidate->n_closed > 0 || candidate->behind[0] >= 0 || candidate->behind[1] >= 0 || candidate->storm.n > 0;
 }
 
 static site_entry describe(const contact_candidate *candidate, dem_index k)
@@ -54,8 +54,8 @@ static site_entry describe(const contact_candidate *candidate, dem_index k)
     site_entry e = {k,
                     candidate->n_closed,
                     {candidate->behind[0], candidate->behind[1]},
-                    candidate->storm,
-                    candidate->storm_start,
+                    candidate->storm.n,
+                    candidate->storm.start,
                     {{0}}};
     for (int q = 0; q < candidate->n_closed; q++) {
         const contact_point *point = &candidate->closed[q];
@@ -110,8 +110,8 @@ static void forget(contact_candidate *candidate)
 static void restore(contact_candidate *candidate, const site_entry *e)
 {
     candidate->n_closed = (int)e->n_closed;
-    candidate->storm = e->storm;
-    candidate->storm_start = e->storm_start;
+    candidate->storm.n = e->storm;
+    candidate->storm.start = e->storm_start;
     for (int q = 0; q < 2; q++) candidate->behind[q] = e->behind[q];
     for (int q = 0; q < candidate->n_closed; q++) {
         const touch_entry *point = &e->closed[q];

@@ -93,7 +93,7 @@ static inline void scene_put(scene *s, dem_index i, double x, double y, double u
 {
     vec2_put(s->y, i, (vec2){x, y});
     vec2_put(scene_v(s), i, (vec2){u, v});
-    for (dem_index k = 0; k < s->c.set.n; k++) s->c.set.list[k].inactive = false;
+    for (dem_index k = 0; k < s->c.set.n; k++) s->c.set.list[k].clearance.inactive = false;
 }
 
 static inline void scene_check(scene *s, dem_index i, double x, double y, double u, double v)

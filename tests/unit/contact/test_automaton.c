@@ -579,7 +579,8 @@ static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
     scene_put(&s, 1, 3.5, 0.0, 0.0, 0.0);
     scene_put(&s, 2, 1.0, 0.75, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
-    for (int k = 0; k < 3; k++) s.c.set.list[k].clear = 0.0; /* else a lower bound would do for their gaps */
+    for (int k = 0; k < 3; k++)
+        s.c.set.list[k].clearance.distance = 0.0; /* else a lower bound would do for their gaps */
     automaton_root_functions(&s.c, 0.2, s.y, guards);
     const double expected[3 * CANDIDATE_ROOTS] = {0.25 + penetration_tolerance,
                                                   1.0,

@@ -183,7 +183,7 @@ static void what_goes_round_a_free_end_at_a_distance_is_behind_it(void **state)
     scene_open(&s, 1, x, &m, 0, NULL, &wall, 1);
     scene_put(&s, 0, x[0], x[1], 0.01, -0.06);
     assert_ok(scene_take_up(&s));
-    s.c.set.list[0].inactive = false;
+    s.c.set.list[0].clearance.inactive = false;
     for (int k = 0; k < 2; k++) {
         scene_fly(&s, (vec2){0.0, 0.0}, 0.01 * k, 0.01, &f);
         automaton_begin_step(&s.c, &f.path, f.scratch);

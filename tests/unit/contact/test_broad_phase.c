@@ -55,8 +55,8 @@ static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **
     assert_int_equal(s.c.broad_phase.n, 1);
     assert_int_equal(s.c.broad_phase.active[0], 0);
     for (dem_index k = 0; k < 3; k++) {
-        assert_int_equal(s.c.set.list[k].inactive, k > 0);
-        assert_close(s.c.set.list[k].active_from, x[2 * k + 1] - 20.0 * penetration_tolerance, 1e-15);
+        assert_int_equal(s.c.set.list[k].clearance.inactive, k > 0);
+        assert_close(s.c.set.list[k].clearance.active_from, x[2 * k + 1] - 20.0 * penetration_tolerance, 1e-15);
     }
     scene_close(&s);
 }
@@ -82,21 +82,21 @@ static void a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough(void **stat
     open_nodes(&s, 2, x);
     look(&s, 1.0);
     const contact_candidate *candidate = &s.c.set.list[0];
-    assert_true(candidate->inactive);
+    assert_true(candidate->clearance.inactive);
     s.c.broad_phase.travelled = 2.9;
     s.y[1] = 0.5;
     look(&s, 1.0);
-    assert_close(candidate->active_from, 3.0 - 20.0 * penetration_tolerance, 1e-15); /* not looked at */
+    assert_close(candidate->clearance.active_from, 3.0 - 20.0 * penetration_tolerance, 1e-15); /* not looked at */
     assert_true(broad_phase_may_touch(&s.c.broad_phase, candidate, 0.1));
     assert_false(broad_phase_may_touch(&s.c.broad_phase, candidate, 0.09));
     s.c.broad_phase.travelled = 2.99;
     look(&s, 1.0);
-    assert_true(candidate->inactive);
-    assert_close(candidate->active_from, 2.99 + 0.5 - 20.0 * penetration_tolerance, 1e-15);
+    assert_true(candidate->clearance.inactive);
+    assert_close(candidate->clearance.active_from, 2.99 + 0.5 - 20.0 * penetration_tolerance, 1e-15);
     s.c.broad_phase.travelled = 3.49;
     s.y[1] = 0.01;
     look(&s, 1.0);
-    assert_false(candidate->inactive);
+    assert_false(candidate->clearance.inactive);
     assert_int_equal(s.c.broad_phase.n, 1);
     scene_close(&s);
 }
@@ -175,11 +175,11 @@ static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void
         s.y[1] = -0.5;
         s.c.broad_phase.travelled = travelled[k];
         if (k == 2) candidate_forget_clearance(&s.c.set.list[0]);
-        if (k == 3) s.c.set.list[0].inactive = false;
+        if (k == 3) s.c.set.list[0].clearance.inactive = false;
         look(&s, 1.0);
         assert_int_equal(s.c.set.list[0].behind[0], comes_round ? 0 : -1);
         assert_int_equal(s.c.set.ledger.counts.behind, comes_round);
-        if (!comes_round) assert_false(s.c.set.list[0].inactive);
+        if (!comes_round) assert_false(s.c.set.list[0].clearance.inactive);
         s.y[1] = 0.5;
         look(&s, 1.0);
         assert_int_equal(s.c.set.list[0].behind[0], -1);

@@ -103,9 +103,9 @@ static void closing_appends_and_opening_keeps_the_other(void **state)
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     contact_candidate *edge = &s.c.set.list[k];
-    edge->inactive = true;
+    edge->clearance.inactive = true;
     close_contact(&s, k, 0, 1);
-    assert_false(edge->inactive);
+    assert_false(edge->clearance.inactive);
     close_contact(&s, k, 1, -1);
     assert_int_equal(edge->n_closed, 2);
     assert_int_equal(s.c.set.forces.n_groups, 1);
@@ -226,7 +226,7 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     open_square(&s, roofs, 2);
     contact_candidate *list = s.c.set.list;
     const dem_index before = scene_edge(&s, 0, 1), after = scene_edge(&s, 1, 2), far = scene_edge(&s, 2, 3);
-    for (dem_index k = 0; k < s.c.set.n; k++) list[k].inactive = true;
+    for (dem_index k = 0; k < s.c.set.n; k++) list[k].clearance.inactive = true;
     contact_set_pass_behind(&s.c.set, 1, 1);
     assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(list[1].behind[0], 1);
@@ -236,8 +236,8 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     assert_int_equal(list[after].behind[1], -1);
     assert_int_equal(list[far].behind[0], -1);
     assert_int_equal(list[far].behind[1], -1);
-    assert_false(list[1].inactive || list[before].inactive || list[after].inactive);
-    assert_true(list[far].inactive);
+    assert_false(list[1].clearance.inactive || list[before].clearance.inactive || list[after].clearance.inactive);
+    assert_true(list[far].clearance.inactive);
     contact_set_pass_behind(&s.c.set, 1, -1);
     assert_int_equal(s.c.set.ledger.counts.behind, 0);
     assert_int_equal(list[before].behind[1], -1);

@@ -126,8 +126,8 @@ static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **st
     scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
-    s.c.set.list[0].clear = 0.05;
-    s.c.set.list[0].clear_at[0] = vec2_at(at, 0);
+    s.c.set.list[0].clearance.distance = 0.05;
+    s.c.set.list[0].clearance.at[0] = vec2_at(at, 0);
     scene_fly(&s, nothing, 0.0, 1.0, &f);
     assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * penetration_tolerance, 1e-13);
     scene_close(&s);

@@ -145,6 +145,21 @@ static void what_closes_on_a_vertex_has_not_rebounded(void **state)
     scene_close(&s);
 }
 
+/* What was kept of one impact would make the contact of the next look new, or as if it had opened. */
+static void nothing_is_left_of_an_impact_for_the_next(void **state)
+{
+    const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
+    scene s;
+    (void)state;
+    const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
+    hit(&s, edge, 1, 0, 0);
+    assert_int_equal(s.c.set.list[edge].n_closed, 1);
+    const candidate_impact *left = &s.c.set.impacts[edge];
+    assert_int_equal(left->n, 0);
+    assert_false(left->of[0].fresh || left->of[0].opens || left->of[0].struck || left->of[0].plastic);
+    scene_close(&s);
+}
+
 /* Nothing presses but the edge's own turning: stopped at the ridge it turns with omega < 0, and sliding with v_t < 0
  * it would have to be accelerated by 2 omega v_t > 0 to keep its distance: it stays. The other way it leaves. */
 static void a_turning_edge_that_slides_towards_the_vertex_stays_on_it(void **state)
@@ -249,6 +264,7 @@ int main(void)
         cmocka_unit_test(the_papers_friction_on_a_vertex_leaves_its_share),
         cmocka_unit_test(a_plastic_impact_leaves_an_edge_closed_on_the_vertex),
         cmocka_unit_test(what_closes_on_a_vertex_has_not_rebounded),
+        cmocka_unit_test(nothing_is_left_of_an_impact_for_the_next),
         cmocka_unit_test(a_turning_edge_that_slides_towards_the_vertex_stays_on_it),
         cmocka_unit_test(a_plastic_group_stops_what_approaches),
         cmocka_unit_test(an_elastic_group_keeps_its_energy_and_leaves_no_approach),

@@ -45,8 +45,8 @@ static void close_pair(pair *p)
 static void same_site(const contact_candidate *a, const contact_candidate *b)
 {
     assert_int_equal(a->n_closed, b->n_closed);
-    assert_int_equal(a->storm, b->storm);
-    assert_close(a->storm_start, b->storm_start, 0.0);
+    assert_int_equal(a->storm.n, b->storm.n);
+    assert_close(a->storm.start, b->storm.start, 0.0);
     for (int q = 0; q < 2; q++) assert_int_equal(a->behind[q], b->behind[q]);
     for (int q = 0; q < a->n_closed; q++) {
         assert_int_equal(a->closed[q].feature, b->closed[q].feature);
@@ -92,8 +92,8 @@ static void everything_comes_back(void **state)
     p.from->automaton.idle = 3;
     p.from->unlooked = 5;
     p.from->overlap.found = (dem_overlap){1, 2, 0.25, 3, 4, {5.0, 6.0}};
-    c->list[0].storm = 7;
-    c->list[0].storm_start = 0.125;
+    c->list[0].storm.n = 7;
+    c->list[0].storm.start = 0.125;
     assert_ok(integrator_restart(&p.from->integrator, p.from->t, p.from->y));
     assert_ok(integrator_bound(&p.from->integrator, 1e-9));
     p.from->y = integrator_state(&p.from->integrator);
