@@ -7,7 +7,7 @@
 #include "commit.h"
 #include "estimate.h"
 #include "memory.h"
-#include "pace.h"
+#include "step_report.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
@@ -191,7 +191,7 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
 {
     const estimate e = estimate_run(d, simulation);
     (void)fprintf(out, "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output\n",
-                  e.steps, (int)pace_method(simulation).evaluations, e.frames, 1e-6 * e.output);
+                  e.steps, (int)step_report_method(simulation).evaluations, e.frames, 1e-6 * e.output);
 }
 
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */
@@ -243,7 +243,7 @@ void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, c
                   "tolerance %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.penetration_tolerance);
     warn_rest_speed(out, &o);
-    pace_print(out, d->t_end, simulation);
+    step_report_print(out, d->t_end, simulation);
     for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
     print_measured(out, d, model);
     print_estimates(out, d, simulation);

@@ -7,7 +7,7 @@
 
 #include "deck.h"
 
-/** Versions, sizes, bodies, rules of contact, scales, pace, constants and frequency as measured, estimates.
+/** Versions, sizes, bodies, rules of contact, scales, steps, constants and frequency as measured, estimates.
  *  `output`: the file that will be written, NULL: none. */
 void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);
 

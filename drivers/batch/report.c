@@ -148,7 +148,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     dem_simulation_state(simulation, &state);
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
-    pace_follow(&r->so_far.pace, simulation, &state);
+    step_report_follow(&r->so_far.step_report, simulation, &state);
     follow_contact(r, simulation, &state);
     watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
@@ -349,7 +349,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     print_boundaries(r->out, simulation);
     print_overlap(r->out, simulation);
     print_events(r->out, &c);
-    pace_print_largest(r->out, &r->so_far.pace);
+    step_report_print_largest(r->out, &r->so_far.step_report);
     (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
                   wall_clock() - r->wall_start);

@@ -7,23 +7,23 @@
 #include <stdio.h>
 
 #include "deck.h"
-#include "pace.h"
+#include "step_report.h"
 
 /** What the report of a run needs, and its records keep. */
-typedef struct report_memory {
+typedef struct report_progress {
     double energy_start; /* J, total at t = 0 */
     double energy_max;   /* J, largest kinetic + elastic + area + guard so far: what is compared */
     double elastic_share_max, elastic_share_t; /* of energy_max as it was then */
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max, inverted_max;
-    pace pace;
+    step_report step_report;
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
     dem_index contacts_before, impacts_before;
     bool touched; /* there was a contact */
     bool warned, overlapped;
-} report_memory;
+} report_progress;
 
 typedef struct report {
     FILE *out;
@@ -34,7 +34,7 @@ typedef struct report {
     double wall_start, wall_shown; /* s */
     double t_start, t_shown;       /* s */
     dem_index steps_start;         /* before this process */
-    report_memory so_far;
+    report_progress so_far;
     const dem_peaks *peaks; /* for the summary; to be set behind report_start(), NULL: none */
     dem_index most_stressed;
 } report;

@@ -194,8 +194,8 @@ static void write_run(json *j, const result *r)
     if (r->log->peaks != NULL) write_spring_peak(j, r->log);
     write_loads(j, r->simulation);
     write_overlap(j, r->simulation);
-    json_real(j, "formula_6", r->log->so_far.pace.largest);
-    json_real(j, "formula_6_t", r->log->so_far.pace.t);
+    json_real(j, "formula_6", r->log->so_far.step_report.largest);
+    json_real(j, "formula_6_t", r->log->so_far.step_report.t);
     if (r->read->residual > 0.0) json_real(j, "residual", r->rest->reached);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* pace.c: what it says of a pair of masses on a spring, whose highest frequency is known, and of a thrown node. */
-#include "pace.h"
+/* step_report.c: what it says of a pair of masses on a spring, whose highest frequency is known, and a thrown node. */
+#include "step_report.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +40,7 @@ static void print_plan(const dem_options *options)
     support_run run;
     FILE *file = open_log();
     open_pair(&run, options);
-    pace_print(file, 7.0, run.simulation);
+    step_report_print(file, 7.0, run.simulation);
     support_close(&run);
     read_log(file);
 }
@@ -108,7 +108,7 @@ static void without_springs_nothing_bounds_the_step(void **state)
     FILE *file = open_log();
     (void)state;
     support_point(&run, 1.0, x, v, (const double[4]){-1.0, 0.0, 1.0, 0.0}, 2, 0.5);
-    pace_print(file, 1.0, run.simulation);
+    step_report_print(file, 1.0, run.simulation);
     support_close(&run);
     read_log(file);
     assert_null(strstr(text, "stability"));
@@ -119,7 +119,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 {
     dem_state state;
     dem_simulation_state(simulation, &state);
-    pace_follow(context, simulation, &state);
+    step_report_follow(context, simulation, &state);
     return DEM_OK;
 }
 
@@ -130,7 +130,7 @@ static void the_largest_value_of_6_is_that_of_the_fastest_step(void **state)
     dem_options options = dem_options_default();
     dem_lattice lattice;
     support_run run;
-    pace p = {0};
+    step_report p = {0};
     const dem_observer observer = {.step = follow, .context = &p};
     (void)state;
     options.fixed_step = h, options.spacing = 0.5;
@@ -144,7 +144,7 @@ static void the_largest_value_of_6_is_that_of_the_fastest_step(void **state)
     assert_close(p.t, h, 1e-15);
     support_close(&run);
     FILE *file = open_log();
-    pace_print_largest(file, &p);
+    step_report_print_largest(file, &p);
     read_log(file);
     assert_string_equal(text, "formula 6  (|v_x| + |v_y|) h/spacing was 0.138 at most, at 1.0000e-02 s\n");
 }

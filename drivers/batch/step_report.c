@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* See pace.h. */
-#include "pace.h"
+/* What the log says of steps, before a run and after it. */
+#include "step_report.h"
 
 #include <math.h>
 
-dem_method_traits pace_method(const dem_simulation *simulation)
+dem_method_traits step_report_method(const dem_simulation *simulation)
 {
     dem_method_traits traits = {0};
     (void)dem_method_describe(&traits, dem_simulation_options(simulation).method);
@@ -36,10 +36,10 @@ static void print_stability(FILE *out, const dem_method_traits *method, const de
     (void)fprintf(out, "\n");
 }
 
-void pace_print(FILE *out, double t_end, const dem_simulation *simulation)
+void step_report_print(FILE *out, double t_end, const dem_simulation *simulation)
 {
     const dem_options o = dem_simulation_options(simulation);
-    const dem_method_traits method = pace_method(simulation);
+    const dem_method_traits method = step_report_method(simulation);
     (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
                   (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
     print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
@@ -49,7 +49,7 @@ void pace_print(FILE *out, double t_end, const dem_simulation *simulation)
                   o.v_scale * o.max_step / o.spacing);
 }
 
-void pace_follow(pace *p, const dem_simulation *simulation, const dem_state *state)
+void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
     double fastest = 0.0;
@@ -60,7 +60,7 @@ void pace_follow(pace *p, const dem_simulation *simulation, const dem_state *sta
     p->t = state->t;
 }
 
-void pace_print_largest(FILE *out, const pace *p)
+void step_report_print_largest(FILE *out, const step_report *p)
 {
     (void)fprintf(out, "formula 6  (|v_x| + |v_y|) h/spacing was %.3g at most, at %.4e s\n", p->largest, p->t);
 }
