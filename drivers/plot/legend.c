@@ -40,7 +40,7 @@ void legend_draw_scale(double pixels_per_metre, double x, double y, double room,
     draw_text(c, middle, y - 9.0, CANVAS_MIDDLE, text);
 }
 
-static void draw_arrows(const palette *colours, span range, box place, canvas *c)
+static void draw_arrows(const palette *colours, colour_range range, box place, canvas *c)
 {
     const double middle = 0.5 * (place.y0 + place.y1), tip = 0.8 * box_height(place);
     const double left[] = {place.x0, place.y0, place.x0, place.y1, place.x0 - tip, middle};
@@ -58,14 +58,14 @@ static ticks numbers_of(double lo, double hi, int most)
 }
 
 /* As many as have room, of the width of the longest that is to be expected. */
-static int most_numbers(span range, double factor, double room)
+static int most_numbers(colour_range range, double factor, double room)
 {
     char text[TICKS_TEXT];
     ticks_print(text, -fmax(fabs(range.lo), fabs(range.hi)) / factor, ticks_decimals(0.5 * range.hi / factor));
     return (int)fmin(fmax(room / (canvas_length(text, LEGEND_LETTERS) + 12.0), 2.0), 7.0);
 }
 
-static void draw_numbers(span range, double factor, box place, canvas *c)
+static void draw_numbers(colour_range range, double factor, box place, canvas *c)
 {
     const ticks at = numbers_of(range.lo / factor, range.hi / factor, most_numbers(range, factor, box_width(place)));
     for (int k = 0; k < at.n; k++) {
@@ -78,7 +78,7 @@ static void draw_numbers(span range, double factor, box place, canvas *c)
     }
 }
 
-void legend_draw_colours(const quantity *q, const palette *colours, span range, box place, canvas *c)
+void legend_draw_colours(const quantity *q, const palette *colours, colour_range range, box place, canvas *c)
 {
     uint32_t argb[PALETTE_SIZE];
     for (int k = 0; k < PALETTE_SIZE; k++) {

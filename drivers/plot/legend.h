@@ -5,7 +5,7 @@
 
 #include "canvas.h"
 #include "quantity.h"
-#include "span.h"
+#include "colour_range.h"
 
 enum { LEGEND_LETTERS = 15, LEGEND_UNIT = 40 }; /* pixels; bytes */
 
@@ -18,6 +18,6 @@ void legend_draw_scale(double pixels_per_metre, double x, double y, double room,
 
 /** A bar of the colours in `place`, its label above and its numbers below; the bar has arrows where values lie beyond
  *  its ends. */
-void legend_draw_colours(const quantity *q, const palette *colours, span range, box place, canvas *c);
+void legend_draw_colours(const quantity *q, const palette *colours, colour_range range, box place, canvas *c);
 
 #endif

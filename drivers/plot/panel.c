@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "ground.h"
+#include "obstacle_fill.h"
 #include "raster.h"
-#include "sheaf.h"
+#include "shape_batch.h"
 
 enum { FINE = 2 }; /* pixels of a raster to one of the picture */
 
@@ -46,10 +46,10 @@ static bool is_there(const snapshot *s, dem_index spring)
     return s->broken[spring] == 0.0;
 }
 
-static bool gather_springs(const panel *p, const snapshot *s, const panel_look *look, sheaf *h)
+static bool gather_springs(const panel *p, const snapshot *s, const panel_look *look, shape_batch *h)
 {
     const dem_lattice *l = s->lattice;
-    if (!sheaf_create(h, (size_t)l->n_springs, 2)) return false;
+    if (!shape_batch_create(h, (size_t)l->n_springs, 2)) return false;
     for (dem_index k = 0; k < l->n_springs; k++) {
         if (!is_there(s, k) || !place_all(p, s, l->ends + 2 * k, 2, h->xy + 4 * h->n)) continue;
         h->shade[h->n++] = shade_of(look, snapshot_spring_value(s, k));
@@ -57,10 +57,10 @@ static bool gather_springs(const panel *p, const snapshot *s, const panel_look *
     return true;
 }
 
-static bool gather_triangles(const panel *p, const snapshot *s, const panel_look *look, sheaf *h)
+static bool gather_triangles(const panel *p, const snapshot *s, const panel_look *look, shape_batch *h)
 {
     const dem_lattice *l = s->lattice;
-    if (!sheaf_create(h, (size_t)l->n_triangles, 3)) return false;
+    if (!shape_batch_create(h, (size_t)l->n_triangles, 3)) return false;
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (!place_all(p, s, l->triangles + 3 * k, 3, h->xy + 6 * h->n)) continue;
         h->shade[h->n++] = shade_of(look, snapshot_triangle_value(s, k));
@@ -77,15 +77,15 @@ static bool fills_triangles(const snapshot *s)
 static bool draw_vectors(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
     const bool filled = fills_triangles(s);
-    sheaf h;
+    shape_batch h;
     char attributes[80];
     if (!(filled ? gather_triangles : gather_springs)(p, s, look, &h)) return false;
     (void)snprintf(attributes, sizeof attributes, "class=\"%s\" data-count=\"%zu\"", filled ? "triangles" : "springs",
                    h.n);
     c->begin(c, attributes, NULL);
-    const bool drawn = sheaf_draw(&h, look->colours, filled ? 0.0 : look->thick, c);
+    const bool drawn = shape_batch_draw(&h, look->colours, filled ? 0.0 : look->thick, c);
     c->end(c);
-    sheaf_free(&h);
+    shape_batch_free(&h);
     return drawn;
 }
 
@@ -136,8 +136,8 @@ static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
     dem_index n;
     const dem_obstacle *obstacles = dem_film_obstacles(s->film, &n);
     for (dem_index k = 0; k < n; k++) {
-        ground solid;
-        if (!ground_outline(&obstacles[k], p->view, &solid)) return false;
+        obstacle_fill solid;
+        if (!obstacle_fill_outline(&obstacles[k], p->view, &solid)) return false;
         for (size_t i = 0; i < solid.n; i++)
             place(p, (const double[]){solid.xy[2 * i], solid.xy[2 * i + 1]}, solid.xy + 2 * i);
         c->fills(c, canvas_dark, solid.n, 1, solid.xy);

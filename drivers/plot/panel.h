@@ -10,9 +10,9 @@
 /** How all panels of a picture are drawn. */
 typedef struct panel_look {
     const palette *colours;
-    span range;     /* of the colours */
-    double thick;   /* of springs, pixels */
-    bool is_binned; /* to pixels */
+    colour_range range; /* of the colours */
+    double thick;       /* of springs, pixels */
+    bool is_binned;     /* to pixels */
 } panel_look;
 
 enum { PANEL_BINNED_FROM = 50000 }; /* springs */

@@ -11,7 +11,7 @@
 #include "legend.h"
 #include "frame_list.h"
 #include "picture.h"
-#include "stamp.h"
+#include "time_label.h"
 #include "strip.h"
 
 /* Two passes over the frames: what all of them have in common is known before the first is drawn. */
@@ -23,7 +23,7 @@ typedef struct show {
     snapshot now;
     palette colours;
     panel_look look;
-    stamp times;
+    time_label times;
     double letters; /* height of the times, pixels */
     box bodies;     /* in all frames */
     uint64_t hash;
@@ -88,30 +88,30 @@ static bool set_times(show *s, outcome *o)
     double *t = malloc(s->chosen.n * sizeof *t);
     if (t == NULL) return fail_memory(o);
     for (size_t k = 0; k < s->chosen.n; k++) t[k] = all[s->chosen.frame[k]];
-    s->times = stamp_for(s->chosen.n, t);
+    s->times = time_label_for(s->chosen.n, t);
     free(t);
     return true;
 }
 
 /* ---- what they have in common ---- */
 
-static span range_of(const show *s, span_reach reach)
+static colour_range range_of(const show *s, colour_range_extent reach)
 {
     const request *asked = s->asked;
     const bool both_sides = s->shown.scale == PALETTE_DIVERGING;
-    if (!asked->has_range) return span_around(reach, both_sides);
+    if (!asked->has_range) return colour_range_around(reach, both_sides);
     const double lo = isinf(asked->lo) ? (both_sides ? -asked->hi : 0.0) : asked->lo;
-    return span_given(lo, asked->hi, reach);
+    return colour_range_given(lo, asked->hi, reach);
 }
 
 static bool survey(show *s, outcome *o)
 {
-    span_reach reach = span_reach_none();
+    colour_range_extent reach = colour_range_extent_none();
     s->bodies = box_empty();
     for (size_t k = 0; k < s->chosen.n; k++) {
         if (!snapshot_load(&s->now, s->chosen.frame[k], o)) return false;
         s->bodies = box_join(s->bodies, s->now.bounds);
-        reach = span_reach_join(reach, s->now.reach);
+        reach = colour_range_extent_join(reach, s->now.reach);
         s->hash = snapshot_hash(&s->now, s->hash);
     }
     s->look.range = range_of(s, reach);
@@ -142,8 +142,8 @@ static double letters_for(const show *s, double room)
     const double *t = dem_film_times(s->film, &n);
     double longest = 0.0;
     for (size_t k = 0; k < s->chosen.n; k++) {
-        char text[STAMP_TEXT];
-        stamp_print(&s->times, t[s->chosen.frame[k]], text);
+        char text[TIME_LABEL_TEXT];
+        time_label_print(&s->times, t[s->chosen.frame[k]], text);
         longest = fmax(longest, canvas_length(text, LEGEND_LETTERS));
     }
     return LEGEND_LETTERS * fmin(1.0, room / longest);
@@ -181,9 +181,9 @@ static void draw_legend(const show *s, const strip *planned, canvas *c)
 static bool draw_panel(show *s, const strip *planned, size_t k, dem_index frame, canvas *c, outcome *o)
 {
     const panel p = strip_panel(planned, k);
-    char text[STAMP_TEXT];
+    char text[TIME_LABEL_TEXT];
     if (s->now.frame != frame && !snapshot_load(&s->now, frame, o)) return false;
-    stamp_print(&s->times, s->now.t, text);
+    time_label_print(&s->times, s->now.t, text);
     const double middle = 0.5 * (p.place.x0 + p.place.x1);
     c->write(c, &(canvas_label){middle, p.place.y0 - 8.0, s->letters, CANVAS_MIDDLE, false, canvas_black, text});
     return panel_draw(&p, &s->now, &s->look, c) || fail_memory(o);

@@ -18,7 +18,7 @@ bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, o
     const dem_lattice *l = dem_film_lattice(film);
     const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, n = quantity_count(shown, l);
     const size_t components = shown->source != NULL ? (size_t)shown->source->components : 0;
-    *s = (snapshot){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = span_reach_none()};
+    *s = (snapshot){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = colour_range_extent_none()};
     s->x = malloc(2 * nodes * sizeof *s->x);
     s->value = malloc((n + 1) * sizeof *s->value);
     s->work = malloc((n * components + 1) * sizeof *s->work);
@@ -63,7 +63,7 @@ bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
     s->frame = frame;
     s->t = dem_film_times(s->film, &n)[frame];
     s->bounds = box_around(s->lattice->n_nodes, s->x);
-    s->reach = span_reach_of(s->n_values, s->value, s->work);
+    s->reach = colour_range_extent_of(s->n_values, s->value, s->work);
     return true;
 }
 

@@ -10,7 +10,7 @@
 #include "box.h"
 #include "outcome.h"
 #include "quantity.h"
-#include "span.h"
+#include "colour_range.h"
 
 typedef struct snapshot {
     const dem_film *film;
@@ -24,9 +24,9 @@ typedef struct snapshot {
     double *broken;               /* [n_springs] not 0 where a spring is no more */
     unsigned char *is_bare;       /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
     dem_index frame;
-    double t;         /* s */
-    box bounds;       /* of the nodes, m */
-    span_reach reach; /* of the values */
+    double t;                  /* s */
+    box bounds;                /* of the nodes, m */
+    colour_range_extent reach; /* of the values */
 } snapshot;
 
 /** Without a frame yet; borrows film and quantity. False after a fault, which is reported. To be freed in any case. */

@@ -22,7 +22,7 @@ static void draw(view *v, const filmed *f, const char *name, bool is_binned)
     assert_true(snapshot_create(&v->s, f->film, &v->q, &o));
     assert_true(snapshot_load(&v->s, FILMED_FRAMES - 1, &o));
     v->p = palette_make(v->q.scale);
-    v->look = (panel_look){&v->p, span_around(v->s.reach, v->q.scale == PALETTE_DIVERGING), 1.0, is_binned};
+    v->look = (panel_look){&v->p, colour_range_around(v->s.reach, v->q.scale == PALETTE_DIVERGING), 1.0, is_binned};
     v->at = (panel){{-0.02, -0.02, 0.04, 0.04}, {10, 20, 130, 140}};
     v->paper = witness_new();
     assert_true(panel_draw(&v->at, &v->s, &v->look, &v->paper.face));

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The solid behind an obstacle's polyline, as a polygon to be filled. */
-#ifndef DEM_GROUND_H
-#define DEM_GROUND_H
+#ifndef DEM_OBSTACLE_FILL_H
+#define DEM_OBSTACLE_FILL_H
 
 #include <dem/dem.h>
 
 #include "box.h"
 
-typedef struct ground {
+typedef struct obstacle_fill {
     size_t n;
     double *xy; /* [n][2] m */
-} ground;
+} obstacle_fill;
 
 /** A closed polyline is its own outline. An open one is closed on its right side, beyond all of `view`. False without
  *  memory. Caller owns out->xy.
  *  \param view  what is looked at, m */
-bool ground_outline(const dem_obstacle *obstacle, box view, ground *out);
+bool obstacle_fill_outline(const dem_obstacle *obstacle, box view, obstacle_fill *out);
 
 #endif

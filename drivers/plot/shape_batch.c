@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "sheaf.h"
+#include "shape_batch.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-bool sheaf_create(sheaf *s, size_t most, size_t corners)
+bool shape_batch_create(shape_batch *s, size_t most, size_t corners)
 {
-    *s = (sheaf){0, corners, malloc((most + 1) * corners * 2 * sizeof *s->xy), malloc(most + 1)};
+    *s = (shape_batch){0, corners, malloc((most + 1) * corners * 2 * sizeof *s->xy), malloc(most + 1)};
     if (s->xy != NULL && s->shade != NULL) return true;
-    sheaf_free(s);
+    shape_batch_free(s);
     return false;
 }
 
-void sheaf_free(sheaf *s)
+void shape_batch_free(shape_batch *s)
 {
     free(s->xy);
     free(s->shade);
-    *s = (sheaf){0};
+    *s = (shape_batch){0};
 }
 
 /* From the middle of a diverging palette outwards, from the beginning of a sequential one upwards. */
@@ -28,7 +28,7 @@ static int shade_at(palette_kind kind, int rank)
 }
 
 /* A sort by counting. \param[out] begin  [PALETTE_SIZE + 1] where each shade begins in xy */
-static void sort(const sheaf *s, size_t *begin, double *xy)
+static void sort(const shape_batch *s, size_t *begin, double *xy)
 {
     const size_t wide = 2 * s->corners;
     size_t next[PALETTE_SIZE];
@@ -41,7 +41,7 @@ static void sort(const sheaf *s, size_t *begin, double *xy)
     for (size_t k = 0; k < s->n; k++) memcpy(xy + wide * next[s->shade[k]]++, s->xy + wide * k, wide * sizeof *xy);
 }
 
-bool sheaf_draw(const sheaf *s, const palette *colours, double width, canvas *c)
+bool shape_batch_draw(const shape_batch *s, const palette *colours, double width, canvas *c)
 {
     size_t begin[PALETTE_SIZE + 1];
     double *xy = malloc((s->n + 1) * 2 * s->corners * sizeof *xy);

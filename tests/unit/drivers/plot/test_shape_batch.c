@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* sheaf.c: every shape is drawn once, in its colour, the larger values last. */
+/* shape_batch.c: every shape is drawn once, in its colour, the larger values last. */
 #include "unit/witness.h"
 
-#include "sheaf.h"
+#include "shape_batch.h"
 
-static sheaf lines_of(size_t n, const unsigned char *shades)
+static shape_batch lines_of(size_t n, const unsigned char *shades)
 {
-    sheaf s;
-    assert_true(sheaf_create(&s, n, 2));
+    shape_batch s;
+    assert_true(shape_batch_create(&s, n, 2));
     for (; s.n < n; s.n++) {
         s.shade[s.n] = shades[s.n];
         for (int k = 0; k < 4; k++) s.xy[4 * s.n + (size_t)k] = (double)s.n;
@@ -15,10 +15,10 @@ static sheaf lines_of(size_t n, const unsigned char *shades)
     return s;
 }
 
-static void draw(const sheaf *s, const palette *p, double width, size_t n, const unsigned char *order)
+static void draw(const shape_batch *s, const palette *p, double width, size_t n, const unsigned char *order)
 {
     witness paper = witness_new();
-    assert_true(sheaf_draw(s, p, width, &paper.face));
+    assert_true(shape_batch_draw(s, p, width, &paper.face));
     assert_int_equal(width > 0.0 ? paper.strokes : paper.fills, s->n);
     assert_int_equal(paper.n_inks, n);
     for (size_t k = 0; k < n; k++) assert_memory_equal(&paper.inks[k], &p->of[order[k]], sizeof(colour));
@@ -29,9 +29,9 @@ static void the_ends_of_diverging_lie_on_top(void **state)
     (void)state;
     const palette p = palette_make(PALETTE_DIVERGING);
     const unsigned char shades[] = {254, 127, 0, 130, 127}, order[] = {127, 130, 0, 254};
-    sheaf s = lines_of(5, shades);
+    shape_batch s = lines_of(5, shades);
     draw(&s, &p, 1.0, 4, order);
-    sheaf_free(&s);
+    shape_batch_free(&s);
 }
 
 static void the_end_of_sequential_lies_on_top(void **state)
@@ -39,18 +39,18 @@ static void the_end_of_sequential_lies_on_top(void **state)
     (void)state;
     const palette p = palette_make(PALETTE_SEQUENTIAL);
     const unsigned char shades[] = {254, 127, 0}, order[] = {0, 127, 254};
-    sheaf s = lines_of(3, shades);
+    shape_batch s = lines_of(3, shades);
     draw(&s, &p, 0.0, 3, order);
-    sheaf_free(&s);
+    shape_batch_free(&s);
 }
 
 static void nothing_draws_nothing(void **state)
 {
     (void)state;
     const palette p = palette_make(PALETTE_SEQUENTIAL);
-    sheaf s = lines_of(0, NULL);
+    shape_batch s = lines_of(0, NULL);
     draw(&s, &p, 1.0, 0, NULL);
-    sheaf_free(&s);
+    shape_batch_free(&s);
 }
 
 int main(void)

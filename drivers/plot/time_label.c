@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "stamp.h"
+#include "time_label.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,11 +13,11 @@ static double tolerance(size_t n, const double *t, double largest)
     return 0.02 * least;
 }
 
-stamp stamp_for(size_t n, const double *t)
+time_label time_label_for(size_t n, const double *t)
 {
     double largest = 0.0;
     for (size_t k = 0; k < n; k++) largest = fmax(largest, fabs(t[k]));
-    stamp s = {.prefix = ticks_prefix_of(largest)};
+    time_label s = {.prefix = ticks_prefix_of(largest)};
     const double lost = tolerance(n, t, largest) / s.prefix.factor;
     for (size_t k = 0; k < n; k++) {
         const double x = t[k] / s.prefix.factor;
@@ -30,9 +30,9 @@ stamp stamp_for(size_t n, const double *t)
     return s;
 }
 
-void stamp_print(const stamp *s, double t, char text[STAMP_TEXT])
+void time_label_print(const time_label *s, double t, char text[TIME_LABEL_TEXT])
 {
     char digits[TICKS_TEXT];
     ticks_print(digits, t / s->prefix.factor, s->decimals);
-    (void)snprintf(text, STAMP_TEXT, "%s %ss", digits, s->prefix.name);
+    (void)snprintf(text, TIME_LABEL_TEXT, "%s %ss", digits, s->prefix.name);
 }

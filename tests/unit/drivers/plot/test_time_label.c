@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* stamp.c: times as texts. */
+/* time_label.c: times as texts. */
 #include "unit/close.h"
 
-#include "stamp.h"
+#include "time_label.h"
 
 static void expect(size_t n, const double *t, const char *const *texts)
 {
-    const stamp s = stamp_for(n, t);
+    const time_label s = time_label_for(n, t);
     for (size_t k = 0; k < n; k++) {
-        char text[STAMP_TEXT];
-        stamp_print(&s, t[k], text);
+        char text[TIME_LABEL_TEXT];
+        time_label_print(&s, t[k], text);
         assert_string_equal(text, texts[k]);
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "ground.h"
+#include "obstacle_fill.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static double turning(const dem_obstacle *obstacle)
     return sum;
 }
 
-static void put(ground *out, double x, double y)
+static void put(obstacle_fill *out, double x, double y)
 {
     out->xy[2 * out->n] = x;
     out->xy[2 * out->n + 1] = y;
@@ -40,7 +40,7 @@ static void put(ground *out, double x, double y)
 /* Rays to the right of both ends bound the solid, and far away an arc from one to the other, clockwise. Ends that face
  * each other, as of a roof, have rays that would cross: both go to the right of the line between the ends. What turns
  * back on itself is closed by that line. */
-static void put_behind(const dem_obstacle *obstacle, double far, ground *out)
+static void put_behind(const dem_obstacle *obstacle, double far, obstacle_fill *out)
 {
     const double right = -0.5 * acos(-1.0), turned = turning(obstacle);
     const double *first = obstacle->points, *last = first + 2 * (obstacle->n_points - 1);
@@ -55,7 +55,7 @@ static void put_behind(const dem_obstacle *obstacle, double far, ground *out)
 }
 
 /* A container, whose solid is all around it: from its beginning to a far square, round that clockwise and back. */
-static void put_around(const dem_obstacle *obstacle, double far, ground *out)
+static void put_around(const dem_obstacle *obstacle, double far, obstacle_fill *out)
 {
     static const double corners[][2] = {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
     const double x = obstacle->points[0], y = obstacle->points[1];
@@ -70,10 +70,10 @@ static double far_from(const dem_obstacle *obstacle, box view)
     return 4.0 * (box_width(all) + box_height(all));
 }
 
-bool ground_outline(const dem_obstacle *obstacle, box view, ground *out)
+bool obstacle_fill_outline(const dem_obstacle *obstacle, box view, obstacle_fill *out)
 {
     const size_t n = (size_t)obstacle->n_points;
-    *out = (ground){0, malloc((n + ARC + 2) * 2 * sizeof *out->xy)};
+    *out = (obstacle_fill){0, malloc((n + ARC + 2) * 2 * sizeof *out->xy)};
     if (out->xy == NULL) return false;
     memcpy(out->xy, obstacle->points, n * 2 * sizeof *out->xy);
     out->n = n;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "span.h"
+#include "colour_range.h"
 
 #include <math.h>
 
 #include "ticks.h"
 
-span_reach span_reach_none(void)
+colour_range_extent colour_range_extent_none(void)
 {
-    return (span_reach){(double)INFINITY, -(double)INFINITY, 0.0};
+    return (colour_range_extent){(double)INFINITY, -(double)INFINITY, 0.0};
 }
 
 static void swap(double *a, double *b)
@@ -18,7 +18,7 @@ static void swap(double *a, double *b)
 }
 
 /* Hoare's selection, about the median of three. */
-double span_kth(size_t n, double *value, size_t k)
+double colour_range_kth(size_t n, double *value, size_t k)
 {
     for (size_t lo = 0, hi = n - 1; lo < hi;) {
         double *first = &value[lo], *middle = &value[lo + (hi - lo) / 2], *last = &value[hi];
@@ -41,9 +41,9 @@ double span_kth(size_t n, double *value, size_t k)
     return value[k];
 }
 
-span_reach span_reach_of(size_t n, const double *value, double *size)
+colour_range_extent colour_range_extent_of(size_t n, const double *value, double *size)
 {
-    span_reach reach = span_reach_none();
+    colour_range_extent reach = colour_range_extent_none();
     size_t finite = 0;
     for (size_t k = 0; k < n; k++) {
         if (!isfinite(value[k])) continue;
@@ -51,23 +51,23 @@ span_reach span_reach_of(size_t n, const double *value, double *size)
         reach.most = fmax(reach.most, value[k]);
         size[finite++] = fabs(value[k]);
     }
-    if (finite > 0) reach.usual = span_kth(finite, size, (size_t)(0.995 * (double)(finite - 1)));
+    if (finite > 0) reach.usual = colour_range_kth(finite, size, (size_t)(0.995 * (double)(finite - 1)));
     return reach;
 }
 
-span_reach span_reach_join(span_reach a, span_reach b)
+colour_range_extent colour_range_extent_join(colour_range_extent a, colour_range_extent b)
 {
-    return (span_reach){fmin(a.least, b.least), fmax(a.most, b.most), fmax(a.usual, b.usual)};
+    return (colour_range_extent){fmin(a.least, b.least), fmax(a.most, b.most), fmax(a.usual, b.usual)};
 }
 
-span span_given(double lo, double hi, span_reach reach)
+colour_range colour_range_given(double lo, double hi, colour_range_extent reach)
 {
-    return (span){lo, hi, reach.least<lo, reach.most> hi};
+    return (colour_range){lo, hi, reach.least<lo, reach.most> hi};
 }
 
-span span_around(span_reach reach, bool both_sides)
+colour_range colour_range_around(colour_range_extent reach, bool both_sides)
 {
     const double most = fmax(fabs(reach.least), fabs(reach.most)), usual = fmax(reach.usual, 0.1 * most);
     const double limit = usual > 0.0 && isfinite(usual) ? ticks_above(usual) : 1.0;
-    return span_given(both_sides ? -limit : 0.0, limit, reach);
+    return colour_range_given(both_sides ? -limit : 0.0, limit, reach);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* span.c: limits of colours. */
+/* colour_range.c: limits of colours. */
 #include "unit/close.h"
 
 #include <stdlib.h>
 
-#include "span.h"
+#include "colour_range.h"
 
 enum { MANY = 1000 };
 
@@ -27,7 +27,7 @@ static void the_kth_is_that_of_a_sorted_array(void **state)
                 value[i] = sorted[i] = (double)(bits % 12);
             }
             qsort(sorted, n, sizeof *sorted, compare);
-            assert_close(span_kth(n, value, k), sorted[k], 0.0);
+            assert_close(colour_range_kth(n, value, k), sorted[k], 0.0);
         }
 }
 
@@ -37,11 +37,11 @@ static void a_few_extremes_do_not_matter(void **state)
     double value[MANY], size[MANY];
     for (int k = 0; k < MANY; k++) value[k] = (k % 2 == 0 ? 1e-3 : -1e-3) * k;
     value[7] = -5.0;
-    const span_reach reach = span_reach_of(MANY, value, size);
+    const colour_range_extent reach = colour_range_extent_of(MANY, value, size);
     assert_close(reach.least, -5.0, 0.0);
     assert_close(reach.most, 0.998, 1e-15);
     assert_close(reach.usual, 0.995, 1.1e-3);
-    const span s = span_around(reach, true);
+    const colour_range s = colour_range_around(reach, true);
     assert_close(s.hi, 1.0, 1e-15);
     assert_close(s.lo, -s.hi, 0.0);
     assert_true(s.below && !s.above);
@@ -53,7 +53,7 @@ static void a_tenth_of_the_largest_is_within(void **state)
     (void)state;
     double value[MANY] = {0}, size[MANY];
     value[3] = 0.12;
-    const span s = span_around(span_reach_of(MANY, value, size), true);
+    const colour_range s = colour_range_around(colour_range_extent_of(MANY, value, size), true);
     assert_close(s.hi, 0.015, 1e-15);
     assert_true(s.above && !s.below);
 }
@@ -61,19 +61,20 @@ static void a_tenth_of_the_largest_is_within(void **state)
 static void frames_are_joined_by_the_larger(void **state)
 {
     (void)state;
-    const span_reach a = {-1.0, 2.0, 1.5}, b = {-3.0, 1.0, 2.5}, both = span_reach_join(a, b);
+    const colour_range_extent a = {-1.0, 2.0, 1.5}, b = {-3.0, 1.0, 2.5}, both = colour_range_extent_join(a, b);
     assert_close(both.least, -3.0, 0.0);
     assert_close(both.most, 2.0, 0.0);
     assert_close(both.usual, 2.5, 0.0);
-    assert_close(span_around(both, false).lo, 0.0, 0.0);
-    assert_close(span_around(both, false).hi, 3.0, 1e-15);
+    assert_close(colour_range_around(both, false).lo, 0.0, 0.0);
+    assert_close(colour_range_around(both, false).hi, 3.0, 1e-15);
 }
 
 static void without_values_there_are_limits_all_the_same(void **state)
 {
     (void)state;
     double value[2] = {0.0, (double)NAN}, size[2];
-    const span none = span_around(span_reach_none(), true), zero = span_around(span_reach_of(2, value, size), true);
+    const colour_range none = colour_range_around(colour_range_extent_none(), true),
+                       zero = colour_range_around(colour_range_extent_of(2, value, size), true);
     assert_close(none.hi, 1.0, 0.0);
     assert_false(none.above || none.below);
     assert_close(zero.hi, 1.0, 0.0);
@@ -82,7 +83,7 @@ static void without_values_there_are_limits_all_the_same(void **state)
 static void given_limits_are_taken_as_they_are(void **state)
 {
     (void)state;
-    const span s = span_given(0.1, 0.7, (span_reach){0.2, 0.8, 0.7});
+    const colour_range s = colour_range_given(0.1, 0.7, (colour_range_extent){0.2, 0.8, 0.7});
     assert_close(s.lo, 0.1, 0.0);
     assert_close(s.hi, 0.7, 0.0);
     assert_true(s.above && !s.below);

@@ -1,38 +1,38 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From which value to which the colours go. */
-#ifndef DEM_SPAN_H
-#define DEM_SPAN_H
+#ifndef DEM_COLOUR_RANGE_H
+#define DEM_COLOUR_RANGE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-typedef struct span {
+typedef struct colour_range {
     double lo, hi;     /* lo < hi */
     bool below, above; /* values lie outside */
-} span;
+} colour_range;
 
 /** What is known of the values that are to be shown. */
-typedef struct span_reach {
+typedef struct colour_range_extent {
     double least, most; /* all lie between */
     double usual;       /* the largest of the frames: 99.5 % of the values of one are no larger in size */
-} span_reach;
+} colour_range_extent;
 
 /** Of no values. */
-span_reach span_reach_none(void);
+colour_range_extent colour_range_extent_none(void);
 
 /** Of the values of one frame. \param size  [n], to work in */
-span_reach span_reach_of(size_t n, const double *value, double *size);
+colour_range_extent colour_range_extent_of(size_t n, const double *value, double *size);
 
-span_reach span_reach_join(span_reach a, span_reach b);
+colour_range_extent colour_range_extent_join(colour_range_extent a, colour_range_extent b);
 
 /** Round limits that hold what is usual, and no less than a tenth of the largest, beside which the rest may be nothing:
  *  the same on both sides of 0, or from 0. */
-span span_around(span_reach reach, bool both_sides);
+colour_range colour_range_around(colour_range_extent reach, bool both_sides);
 
 /** Limits as given. */
-span span_given(double lo, double hi, span_reach reach);
+colour_range colour_range_given(double lo, double hi, colour_range_extent reach);
 
 /** The k-th smallest, from 0; reorders them. */
-double span_kth(size_t n, double *value, size_t k);
+double colour_range_kth(size_t n, double *value, size_t k);
 
 #endif

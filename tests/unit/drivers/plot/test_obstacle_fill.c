@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ground.c: the polygon holds what lies right of the segments, as far as one can see. */
+/* obstacle_fill.c: the polygon holds what lies right of the segments, as far as one can see. */
 #include "unit/close.h"
 
 #include <stdlib.h>
 
-#include "ground.h"
+#include "obstacle_fill.h"
 
 static const box view = {-1.0, -1.0, 3.0, 3.0};
 
 /* By the number of times that the outline winds round the point, as canvases fill it. */
-static bool is_solid(const ground *g, double x, double y)
+static bool is_solid(const obstacle_fill *g, double x, double y)
 {
     int winding = 0;
     for (size_t k = 0; k < g->n; k++) {
@@ -29,8 +29,8 @@ typedef struct probe {
 static void expect(dem_index n, const double *points, const probe *probes, size_t n_probes)
 {
     const dem_obstacle obstacle = {.n_points = n, .points = points};
-    ground g;
-    assert_true(ground_outline(&obstacle, view, &g));
+    obstacle_fill g;
+    assert_true(obstacle_fill_outline(&obstacle, view, &g));
     for (size_t k = 0; k < n_probes; k++)
         if (is_solid(&g, probes[k].x, probes[k].y) != probes[k].solid)
             fail_msg("(%g, %g) is%s solid", probes[k].x, probes[k].y, probes[k].solid ? " not" : "");
