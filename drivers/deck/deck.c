@@ -567,12 +567,6 @@ deck_status deck_build(deck *d, namelist_errors *errors)
     return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }
 
-deck_status deck_read(deck *out, const char *path, namelist_errors *errors)
-{
-    const deck_status status = deck_parse(out, path, NULL, 0, errors);
-    return status == DECK_OK ? deck_build(out, errors) : status;
-}
-
 void deck_free(deck *d)
 {
     for (dem_index k = 0; k < d->n_obstacles; k++) free((void *)d->obstacles[k].points);

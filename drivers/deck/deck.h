@@ -59,9 +59,6 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
  * called once. *d is empty unless DECK_OK is returned. */
 deck_status deck_build(deck *d, namelist_errors *errors);
 
-/* Both in turn, without settings. */
-deck_status deck_read(deck *out, const char *path, namelist_errors *errors);
-
 void deck_free(deck *d);
 
 #endif

@@ -17,9 +17,3 @@ void canvas_outline(canvas *c, canvas_pen pen, box b)
     const double corners[] = {b.x0, b.y0, b.x1, b.y0, b.x1, b.y1, b.x0, b.y1, b.x0, b.y0};
     c->strokes(c, pen, 5, 1, corners);
 }
-
-void canvas_fill(canvas *c, colour ink, box b)
-{
-    const double corners[] = {b.x0, b.y0, b.x1, b.y0, b.x1, b.y1, b.x0, b.y1};
-    c->fills(c, ink, 4, 1, corners);
-}

@@ -53,8 +53,7 @@ extern const colour canvas_black, canvas_grey, canvas_light, canvas_dark;
 /** About how long a text becomes, whatever the font. */
 double canvas_length(const char *text, double size);
 
-/** A rectangle drawn with a pen, and one filled. */
+/** A rectangle drawn with a pen. */
 void canvas_outline(canvas *c, canvas_pen pen, box b);
-void canvas_fill(canvas *c, colour ink, box b);
 
 #endif

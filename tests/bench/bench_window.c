@@ -8,8 +8,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "../../drivers/deck.h"
 #include "base/vec2.h"
+#include "unit/whole_deck.h"
 
 enum { path_size = 4096 };
 
@@ -47,7 +47,7 @@ static void read_deck(deck *d, const char *inputs, const char *name, double spac
     (void)snprintf(path, sizeof path, "window_%s_%ld.nml", name, (long)clock());
     file = fopen(path, "w");
     must(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0, path);
-    must(deck_read(d, path, &errors) == DECK_OK, path);
+    must(whole_deck_read(d, path, &errors) == DECK_OK, path);
     namelist_errors_free(&errors);
     (void)remove(path);
 }

@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include "../unit/close.h"
+#include "../unit/whole_deck.h"
 
 #include "allocations.h"
-#include "deck.h"
 
 static const char *const files[][2] = {
     {"fault.nml", "&run t_end = 1 /\n"
@@ -50,7 +50,7 @@ static deck_status read_once(char *told, size_t size)
 {
     namelist_errors errors = {0};
     deck d;
-    const deck_status status = deck_read(&d, files[0][0], &errors);
+    const deck_status status = whole_deck_read(&d, files[0][0], &errors);
     (void)snprintf(told, size, "%s", errors.n > 0 ? errors.list[0].text : "no message");
     namelist_errors_free(&errors);
     deck_free(&d);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Any bytes may come as a deck: it is refused with a fault that has a place, or makes a model and a simulation, and its
  * echo is a deck of the same run. Decks of large bodies are left out, and those that name files other than ours. */
-#include "deck.h"
+#include "unit/whole_deck.h"
 
 #include <math.h>
 
@@ -137,7 +137,8 @@ static void check_echo(const deck *d)
     namelist_errors errors = {0};
     deck again;
     scratch_write(path, d->echo, strlen(d->echo));
-    require(deck_read(&again, path, &errors) == DECK_OK && again.hash == d->hash && again.run_hash == d->run_hash);
+    require(whole_deck_read(&again, path, &errors) == DECK_OK && again.hash == d->hash &&
+            again.run_hash == d->run_hash);
     namelist_errors_free(&errors);
     deck_free(&again);
 }
@@ -162,7 +163,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     write_files();
     if (size == 0 || !may_be_built((const char *)data, size)) return 0;
     scratch_write(scratch_path("a.nml"), data, size);
-    const deck_status status = deck_read(&d, scratch_path("a.nml"), &errors);
+    const deck_status status = whole_deck_read(&d, scratch_path("a.nml"), &errors);
     require(status == DECK_OK || status == DECK_INVALID);
     if (status == DECK_OK) {
         check_echo(&d);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "support.h"
+#include "unit/whole_deck.h"
 
 void coarse_read(deck *d, const char *folder, const char *name, double spacing)
 {
@@ -26,7 +27,8 @@ void coarse_read(deck *d, const char *folder, const char *name, double spacing)
     (void)snprintf(path, sizeof path, "coarse_%s_%ld.nml", name, (long)getpid());
     file = fopen(path, "w");
     assert_true(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
-    if (deck_read(d, path, &errors) != DECK_OK) fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
+    if (whole_deck_read(d, path, &errors) != DECK_OK)
+        fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
     namelist_errors_free(&errors);
     (void)remove(path);
 }

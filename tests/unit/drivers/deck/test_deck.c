@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* deck.c and body.c: what decks mean, and the exact words for those that mean nothing. */
 #include "unit/close.h"
+#include "unit/whole_deck.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -49,7 +50,7 @@ static void write_file(const char *name, const char *bytes, size_t n)
 static deck_status read_deck(deck *d, const char *text, namelist_errors *errors)
 {
     write_file("a.nml", text, strlen(text));
-    const deck_status status = deck_read(d, path_of("a.nml"), errors);
+    const deck_status status = whole_deck_read(d, path_of("a.nml"), errors);
     assert_int_equal(unlink(path_of("a.nml")), 0);
     return status;
 }
@@ -861,7 +862,7 @@ static void the_echo_names_a_lattice_file_by_its_whole_path(void **state)
     const int file = mkstemp(echo);
     const size_t size = strlen(d.echo);
     assert_true(file >= 0 && write(file, d.echo, size) == (ssize_t)size && close(file) == 0);
-    assert_int_equal(deck_read(&again, echo, &errors), DECK_OK);
+    assert_int_equal(whole_deck_read(&again, echo, &errors), DECK_OK);
     assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
     assert_int_equal(unlink(echo), 0);
     assert_int_equal(unlink(path_of("a.h5")), 0);
@@ -901,7 +902,7 @@ static void expect_unreadable(const char *path, const char *expected)
 {
     namelist_errors errors = {0};
     deck d;
-    assert_int_equal(deck_read(&d, path, &errors), DECK_UNREADABLE);
+    assert_int_equal(whole_deck_read(&d, path, &errors), DECK_UNREADABLE);
     expect_text(&errors, expected);
     assert_null(d.path);
     namelist_errors_free(&errors);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* canvas.c: what all canvases share. */
+#include "unit/fill_box.h"
 #include "unit/witness.h"
 
 static void lengths_count_letters_not_bytes(void **state)
@@ -16,7 +17,7 @@ static void rectangles_have_their_corners(void **state)
     witness s = witness_new();
     const box b = {1, 2, 30, 40};
     canvas_outline(&s.face, (canvas_pen){canvas_black, 2.0}, b);
-    canvas_fill(&s.face, canvas_grey, b);
+    fill_box(&s.face, canvas_grey, b);
     assert_memory_equal(&s.stroked, &b, sizeof b);
     assert_memory_equal(&s.filled, &b, sizeof b);
     assert_int_equal(s.strokes, 1);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* paint.c: what is drawn comes out in the pixels. */
 #include "unit/close.h"
+#include "unit/fill_box.h"
 
 #include <cairo.h>
 #include <stdio.h>
@@ -47,9 +48,9 @@ static void shapes_lie_where_they_are_drawn(void **state)
     const box clip = {30, 0, WIDTH, HEIGHT};
     c->strokes(c, (canvas_pen){red, 3.0}, 2, 1, line);
     c->strokes(c, (canvas_pen){blue, 9.0}, 2, 1, dot);
-    canvas_fill(c, blue, (box){10, 20, 20, 30});
+    fill_box(c, blue, (box){10, 20, 20, 30});
     c->begin(c, "", &clip);
-    canvas_fill(c, red, (box){20, 32, 50, 38});
+    fill_box(c, red, (box){20, 32, 50, 38});
     c->end(c);
     cairo_surface_t *s = picture_of(c, file);
     assert_int_equal(pixel(s, 0, 0), 0xffffff);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* svg.c: what is drawn stands in the file. */
 #include "unit/close.h"
+#include "unit/fill_box.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,7 +73,7 @@ static void parts_have_their_names_and_clips(void **state)
     const box clip = {1, 2, 11, 22};
     c->begin(c, "id=\"a\"", &clip);
     c->begin(c, "id=\"b\"", NULL);
-    canvas_fill(c, (colour){0, 0, 0}, clip);
+    fill_box(c, (colour){0, 0, 0}, clip);
     c->end(c);
     c->end(c);
     const char *found = text_of(c, file);
