@@ -21,9 +21,9 @@ typedef struct ode_problem {
      *  u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or 2
      *  if nothing may. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
-    /** Does the step of the nodes; of what stands behind them the positions and velocities at its end are given, and it
-     *  fills the rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not
-     *  from this state. NULL: from none. */
+    /** Does the step of all nodes but the quadratures, whose positions and velocities at its end are given, and fills
+     *  their rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not from
+     *  this state. NULL: from none. */
     int (*fused_step)(const ode_fused_step *step, void *context);
     void (*root_functions)(double t, const double *y, double *g, void *context);
     /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */
@@ -48,7 +48,7 @@ typedef struct integrator_start {
  *  than about the rest shape. */
 static inline double ode_problem_fixed_step(const ode_problem *p, const double *y)
 {
-    enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are told */
+    enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are reported */
     double h = p->fixed_step;
     const double stiffening = p->stiffening != NULL ? p->stiffening(y, p->context) : 1.0;
     for (int k = 0; k < most_halvings && h * stiffening > p->fixed_step; k++) h *= 0.5;
