@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Putting one lattice behind another in one set of arrays. */
+#include "lattice/lattice.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "lattice/mesh_edges.h"
+
+/* n items of `a` and m of `b` one behind the other; zeros in place of NULL. */
+static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t size)
+{
+    unsigned char *joined = lattice_zeros(n + m, size);
+    if (joined != NULL && a != NULL) memcpy(joined, a, (size_t)n * size);
+    if (joined != NULL && b != NULL) memcpy(joined + (size_t)n * size, b, (size_t)m * size);
+    return joined;
+}
+
+/* The same of triangles' numbers that are 1 where they are NULL; NULL if both are. */
+static dem_status join_ones(double **out, const double *a, dem_index n, const double *b, dem_index m)
+{
+    if (a == NULL && b == NULL) return DEM_OK;
+    *out = join(a, n, b, m, sizeof **out);
+    CHECK_MEMORY(*out);
+    for (dem_index k = 0; k < n && a == NULL; k++) (*out)[k] = 1.0;
+    for (dem_index k = n; k < n + m && b == NULL; k++) (*out)[k] = 1.0;
+    return DEM_OK;
+}
+
+static dem_index count_bodies(const dem_lattice *lattice)
+{
+    int32_t last = 0;
+    for (dem_index i = 0; lattice->body != NULL && i < lattice->n_nodes; i++)
+        if (lattice->body[i] > last) last = lattice->body[i];
+    return lattice->n_nodes > 0 ? last + 1 : 0;
+}
+
+static dem_status copy_flags(unsigned char *flags, const dem_lattice *lattice)
+{
+    if (lattice->flags == NULL) return mesh_edges_contact_flags(flags, lattice);
+    memcpy(flags, lattice->flags, (size_t)lattice->n_nodes);
+    return DEM_OK;
+}
+
+static dem_status join_flags(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const bool same_rule = (a->n_triangles == 0) == (b->n_triangles == 0);
+    if (a->flags == NULL && b->flags == NULL && (same_rule || a->n_nodes == 0 || b->n_nodes == 0)) return DEM_OK;
+    out->flags = lattice_zeros(a->n_nodes + b->n_nodes, sizeof *out->flags);
+    CHECK_MEMORY(out->flags);
+    TRY(copy_flags(out->flags, a));
+    return copy_flags(out->flags + a->n_nodes, b);
+}
+
+static dem_status join_bodies(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_nodes, shift = count_bodies(a);
+    if (b->n_nodes == 0 && a->body == NULL) return DEM_OK;
+    if (n == 0 && b->body == NULL) return DEM_OK;
+    CHECK(shift + count_bodies(b) <= INT32_MAX, DEM_ERROR_MODEL, "more than %ld bodies", (long)INT32_MAX);
+    out->body = join(a->body, n, b->body, b->n_nodes, sizeof *out->body);
+    CHECK_MEMORY(out->body);
+    for (dem_index i = n; i < n + b->n_nodes; i++) out->body[i] += (int32_t)shift;
+    return DEM_OK;
+}
+
+static dem_status join_nodes(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_nodes, m = b->n_nodes;
+    const size_t scalar = sizeof(double), vector = 2 * sizeof(double);
+    out->n_nodes = n + m;
+    out->x = join(a->x, n, b->x, m, vector);
+    CHECK_MEMORY(out->x);
+    if (a->mass != NULL || b->mass != NULL) {
+        out->mass = join(a->mass, n, b->mass, m, scalar);
+        CHECK_MEMORY(out->mass);
+    }
+    if (a->position != NULL || b->position != NULL) {
+        out->position = join(a->position ? a->position : a->x, n, b->position ? b->position : b->x, m, vector);
+        CHECK_MEMORY(out->position);
+    }
+    if (a->velocity != NULL || b->velocity != NULL) {
+        out->velocity = join(a->velocity, n, b->velocity, m, vector);
+        CHECK_MEMORY(out->velocity);
+    }
+    return DEM_OK;
+}
+
+static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_springs, m = b->n_springs;
+    out->n_springs = n + m;
+    if (n + m == 0) return DEM_OK;
+    out->ends = join(a->ends, n, b->ends, m, 2 * sizeof *out->ends);
+    out->rest_length = join(a->rest_length, n, b->rest_length, m, sizeof *out->rest_length);
+    out->stiffness = join(a->stiffness, n, b->stiffness, m, sizeof *out->stiffness);
+    CHECK_MEMORY(out->ends);
+    CHECK_MEMORY(out->rest_length);
+    CHECK_MEMORY(out->stiffness);
+    for (dem_index k = 2 * n; k < 2 * (n + m); k++) out->ends[k] += a->n_nodes;
+    if (a->viscosity == NULL && b->viscosity == NULL) return DEM_OK;
+    out->viscosity = join(a->viscosity, n, b->viscosity, m, sizeof *out->viscosity);
+    CHECK_MEMORY(out->viscosity);
+    return DEM_OK;
+}
+
+static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_triangles, m = b->n_triangles;
+    out->n_triangles = n + m;
+    if (n + m == 0) return DEM_OK;
+    out->triangles = join(a->triangles, n, b->triangles, m, 3 * sizeof *out->triangles);
+    CHECK_MEMORY(out->triangles);
+    for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
+    TRY(join_ones(&out->thickness, a->thickness, n, b->thickness, m));
+    TRY(join_ones(&out->modulus, a->modulus, n, b->modulus, m));
+    if (a->guard != NULL || b->guard != NULL) {
+        out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
+        CHECK_MEMORY(out->guard);
+    }
+    if (a->area_stiffness != NULL || b->area_stiffness != NULL) {
+        out->area_stiffness = join(a->area_stiffness, n, b->area_stiffness, m, sizeof *out->area_stiffness);
+        CHECK_MEMORY(out->area_stiffness);
+    }
+    return DEM_OK;
+}
+
+static dem_status join_all(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    TRY(join_nodes(out, a, b));
+    TRY(join_flags(out, a, b));
+    TRY(join_bodies(out, a, b));
+    TRY(join_springs(out, a, b));
+    return join_triangles(out, a, b);
+}
+
+dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
+{
+    dem_lattice joined;
+    TRY(lattice_check(lattice));
+    TRY(lattice_check(other));
+    const bool both = lattice->n_nodes > 0 && other->n_nodes > 0;
+    CHECK(!both || (lattice->mass == NULL) == (other->mass == NULL), DEM_ERROR_MODEL,
+          "one lattice has masses, the other has none");
+    dem_lattice_init(&joined);
+    const dem_status status = join_all(&joined, lattice, other);
+    if (status == DEM_OK) {
+        dem_lattice_free(lattice);
+        *lattice = joined;
+    } else {
+        dem_lattice_free(&joined);
+    }
+    return status;
+}

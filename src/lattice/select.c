@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Keeping some nodes or triangles of a lattice: its arrays shrink in place. */
+#include "lattice/lattice.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+
+static void pack(void *array, size_t size, dem_index n, const unsigned char *keep)
+{
+    unsigned char *bytes = array;
+    dem_index kept = 0;
+    for (dem_index i = 0; array != NULL && i < n; i++)
+        if (keep[i]) memmove(bytes + size * (size_t)kept++, bytes + size * (size_t)i, size);
+}
+
+/* Drops tuples not wanted or without a node, renumbers the others. \param whole  [n] in: wanted, out: stayed */
+static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const dem_index *number, unsigned char *whole)
+{
+    dem_index kept = 0;
+    for (dem_index k = 0; k < n; k++) {
+        for (int c = 0; c < arity; c++) whole[k] = whole[k] && number[corner[arity * k + c]] >= 0;
+        if (!whole[k]) continue;
+        for (int c = 0; c < arity; c++) corner[arity * kept + c] = number[corner[arity * k + c]];
+        kept++;
+    }
+    return kept;
+}
+
+static void pack_nodes(dem_lattice *lattice, const unsigned char *keep)
+{
+    const dem_index n = lattice->n_nodes;
+    pack(lattice->x, 2 * sizeof *lattice->x, n, keep);
+    pack(lattice->mass, sizeof *lattice->mass, n, keep);
+    pack(lattice->flags, sizeof *lattice->flags, n, keep);
+    pack(lattice->body, sizeof *lattice->body, n, keep);
+    pack(lattice->position, 2 * sizeof *lattice->position, n, keep);
+    pack(lattice->velocity, 2 * sizeof *lattice->velocity, n, keep);
+}
+
+static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
+{
+    const dem_index n = lattice->n_springs;
+    lattice->n_springs = pack_corners(lattice->ends, 2, n, number, whole);
+    pack(lattice->rest_length, sizeof *lattice->rest_length, n, whole);
+    pack(lattice->stiffness, sizeof *lattice->stiffness, n, whole);
+    pack(lattice->viscosity, sizeof *lattice->viscosity, n, whole);
+}
+
+static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
+{
+    const dem_index n = lattice->n_triangles;
+    lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
+    pack(lattice->guard, sizeof *lattice->guard, n, whole);
+    pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
+    pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
+    pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
+}
+
+/* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. At least one node stays. */
+static dem_status select_both(dem_lattice *lattice, const unsigned char *keep, const unsigned char *wanted)
+{
+    const dem_index n_springs = lattice->n_springs, n_triangles = lattice->n_triangles;
+    dem_index *number = lattice_zeros(lattice->n_nodes, sizeof *number), n = 0;
+    unsigned char *whole = lattice_zeros(n_springs + n_triangles, sizeof *whole);
+    dem_status status = DEM_OK;
+    if (number == NULL || whole == NULL) {
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory");
+        goto out;
+    }
+    for (dem_index i = 0; i < lattice->n_nodes; i++) number[i] = keep[i] ? n++ : -1;
+    if (n == 0) {
+        status = status_fail(DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)lattice->n_nodes);
+        goto out;
+    }
+    memset(whole, 1, (size_t)(n_springs + n_triangles));
+    for (dem_index t = 0; wanted != NULL && t < n_triangles; t++) whole[n_springs + t] = wanted[t] != 0;
+    pack_springs(lattice, number, whole);
+    pack_triangles(lattice, number, whole + n_springs);
+    pack_nodes(lattice, keep);
+    lattice->n_nodes = n;
+out:
+    free(number);
+    free(whole);
+    return status;
+}
+
+dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep)
+{
+    TRY(lattice_check(lattice));
+    CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
+    return select_both(lattice, keep, NULL);
+}
+
+dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep)
+{
+    TRY(lattice_check(lattice));
+    CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
+    CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be trimmed: %lld springs",
+          (long long)lattice->n_springs);
+    unsigned char *used = lattice_zeros(lattice->n_nodes, sizeof *used);
+    CHECK_MEMORY(used);
+    for (dem_index k = 0; k < 3 * lattice->n_triangles; k++)
+        if (keep[k / 3]) used[lattice->triangles[k]] = 1;
+    const dem_status status = select_both(lattice, used, keep);
+    free(used);
+    return status;
+}
