@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* canvas.c: what all canvases share. */
 #include "unit/fill_box.h"
-#include "unit/witness.h"
+#include "unit/canvas_spy.h"
 
 static void lengths_count_letters_not_bytes(void **state)
 {
@@ -14,7 +14,7 @@ static void lengths_count_letters_not_bytes(void **state)
 static void rectangles_have_their_corners(void **state)
 {
     (void)state;
-    witness s = witness_new();
+    canvas_spy s = canvas_spy_new();
     const box b = {1, 2, 30, 40};
     canvas_outline(&s.face, (canvas_pen){canvas_black, 2.0}, b);
     fill_box(&s.face, canvas_grey, b);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* chart.c: plots over time. */
-#include "unit/witness.h"
+#include "unit/canvas_spy.h"
 
 #include <stdlib.h>
 
@@ -86,18 +86,18 @@ static void a_single_step_is_not_lost(void **state)
     free(r);
 }
 
-static witness draw(const chart *c, bool has_times)
+static canvas_spy draw(const chart *c, bool has_times)
 {
-    witness s = witness_new();
+    canvas_spy s = canvas_spy_new();
     assert_true(chart_draw(c, place, has_times, &s.face));
     assert_int_equal(s.depth, 0);
-    witness_expect_legible(&s, (box){0, 0, 1200, 300});
+    canvas_spy_expect_legible(&s, (box){0, 0, 1200, 300});
     assert_true(s.stroked.x0 >= place.x0 && s.stroked.x1 <= place.x1);
     assert_true(s.stroked.y0 >= place.y0 && s.stroked.y1 <= place.y1);
     return s;
 }
 
-static bool has_text(const witness *s, const char *text)
+static bool has_text(const canvas_spy *s, const char *text)
 {
     for (int k = 0; k < s->n_labels; k++)
         if (strcmp(s->text[k], text) == 0) return true;
@@ -109,7 +109,7 @@ static void axes_have_numbers_units_and_names(void **state)
     (void)state;
     rows *r = fill(wave);
     const chart c = make(r);
-    const witness with = draw(&c, true), without = draw(&c, false);
+    const canvas_spy with = draw(&c, true), without = draw(&c, false);
     assert_true(has_text(&with, "kinetic") && has_text(&with, "energy, J"));
     assert_true(has_text(&with, "time, s") && has_text(&with, "−0.5") && has_text(&with, "0.2"));
     assert_false(has_text(&without, "time, s"));
@@ -122,9 +122,9 @@ static void narrow_charts_are_legible(void **state)
     (void)state;
     rows *r = fill(wave);
     const chart c = make(r);
-    witness s = witness_new();
+    canvas_spy s = canvas_spy_new();
     assert_true(chart_draw(&c, (box){14, 14, 386, 150}, true, &s.face));
-    witness_expect_legible(&s, (box){0, 0, 400, 150});
+    canvas_spy_expect_legible(&s, (box){0, 0, 400, 150});
     free(r);
 }
 
@@ -139,7 +139,7 @@ static void decades_leave_out_what_has_no_logarithm(void **state)
     rows *r = fill(decay);
     chart c = make(r);
     c.by_decades = true, c.unit = "s", c.label = "step";
-    const witness s = draw(&c, true);
+    const canvas_spy s = draw(&c, true);
     assert_true(has_text(&s, "step, ms") || has_text(&s, "step, µs"));
     free(r);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* legend.c: bars of colours and of lengths. */
-#include "unit/witness.h"
+#include "unit/canvas_spy.h"
 
 #include "legend.h"
 
@@ -25,9 +25,9 @@ static void units_have_prefixes_and_ratios_powers(void **state)
     expect_unit(0.0, "1", 1.0, "");
 }
 
-static witness draw(const dem_film_array *source, palette_kind kind, colour_range range, double width)
+static canvas_spy draw(const dem_film_array *source, palette_kind kind, colour_range range, double width)
 {
-    witness paper = witness_new();
+    canvas_spy paper = canvas_spy_new();
     const palette p = palette_make(kind);
     const quantity q = {.name = source->name, .label = "label", .source = source, .scale = kind};
     legend_draw_colours(&q, &p, range, (box){40, 30, 40 + width, 43}, &paper.face);
@@ -41,7 +41,7 @@ static void both_sides_and_the_middle_are_numbered(void **state)
 {
     (void)state;
     static const char *const texts[] = {"−0.4", "−0.2", "0", "0.2", "0.4", "label"};
-    const witness s = draw(&strain, PALETTE_DIVERGING, (colour_range){-0.4, 0.4, false, false}, 400.0);
+    const canvas_spy s = draw(&strain, PALETTE_DIVERGING, (colour_range){-0.4, 0.4, false, false}, 400.0);
     assert_int_equal(s.n_labels, 6);
     for (int k = 0; k < 6; k++) assert_string_equal(s.text[k], texts[k]);
     assert_close(s.label[0].x, 40.0, 1e-9);
@@ -53,8 +53,8 @@ static void both_sides_and_the_middle_are_numbered(void **state)
 static void arrows_tell_of_values_beyond(void **state)
 {
     (void)state;
-    const witness both = draw(&strain, PALETTE_DIVERGING, (colour_range){-0.4, 0.4, true, true}, 400.0);
-    const witness upper = draw(&stress, PALETTE_SEQUENTIAL, (colour_range){0.0, 3e6, false, true}, 400.0);
+    const canvas_spy both = draw(&strain, PALETTE_DIVERGING, (colour_range){-0.4, 0.4, true, true}, 400.0);
+    const canvas_spy upper = draw(&stress, PALETTE_SEQUENTIAL, (colour_range){0.0, 3e6, false, true}, 400.0);
     assert_int_equal(both.fills, 2);
     assert_true(both.filled.x0 < 40.0 && both.filled.x1 > 440.0);
     assert_int_equal(upper.fills, 1);
@@ -67,18 +67,18 @@ static void numbers_do_not_meet(void **state)
     (void)state;
     for (double width = 90.0; width < 450.0; width += 10.0)
         for (double limit = 1e-14; limit < 1e6; limit *= 1.7) {
-            const witness s = draw(&strain, PALETTE_DIVERGING, (colour_range){-limit, limit, false, false}, width);
-            const witness t = draw(&stress, PALETTE_SEQUENTIAL, (colour_range){0.0, limit, false, false}, width);
+            const canvas_spy s = draw(&strain, PALETTE_DIVERGING, (colour_range){-limit, limit, false, false}, width);
+            const canvas_spy t = draw(&stress, PALETTE_SEQUENTIAL, (colour_range){0.0, limit, false, false}, width);
             const box picture = {-20, 0, 100 + width, 100};
-            witness_expect_legible(&s, picture);
-            witness_expect_legible(&t, picture);
+            canvas_spy_expect_legible(&s, picture);
+            canvas_spy_expect_legible(&t, picture);
         }
 }
 
 static void a_scale_bar_has_a_round_length(void **state)
 {
     (void)state;
-    witness s = witness_new();
+    canvas_spy s = canvas_spy_new();
     legend_draw_scale(1000.0, 10.0, 50.0, 70.0, &s.face); /* 70 mm of room */
     assert_string_equal(s.text[0], "50 mm");
     assert_close(s.stroked.x0, 10.0, 1e-9);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* panel.c: a frame in its place. */
-#include "unit/filmed.h"
-#include "unit/witness.h"
+#include "unit/trajectory_fixture.h"
+#include "unit/canvas_spy.h"
 
 #include "panel.h"
 
@@ -11,20 +11,20 @@ typedef struct view {
     palette p;
     panel_look look;
     panel at;
-    witness paper;
+    canvas_spy paper;
 } view;
 
 /* The last frame with 2 px to the mm, drawn. */
-static void draw(view *v, const filmed *f, const char *name, bool is_binned)
+static void draw(view *v, const trajectory_fixture *f, const char *name, bool is_binned)
 {
     outcome o = {0};
     assert_true(quantity_find(&v->q, f->film, name, &o));
     assert_true(snapshot_create(&v->s, f->film, &v->q, &o));
-    assert_true(snapshot_load(&v->s, FILMED_FRAMES - 1, &o));
+    assert_true(snapshot_load(&v->s, TRAJECTORY_FIXTURE_FRAMES - 1, &o));
     v->p = palette_make(v->q.scale);
     v->look = (panel_look){&v->p, colour_range_around(v->s.reach, v->q.scale == PALETTE_DIVERGING), 1.0, is_binned};
     v->at = (panel){{-0.02, -0.02, 0.04, 0.04}, {10, 20, 130, 140}};
-    v->paper = witness_new();
+    v->paper = canvas_spy_new();
     assert_true(panel_draw(&v->at, &v->s, &v->look, &v->paper.face));
     assert_int_equal(v->paper.depth, 0);
 }
@@ -40,7 +40,7 @@ static void scale_is_pixels_by_metres(void **state)
 /* All springs, the loose node, and the frame around. */
 static void springs_points_and_ground_are_drawn(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     view v;
     draw(&v, f, "strain", false);
     assert_int_equal(v.paper.strokes, v.s.lattice->n_springs + 2);
@@ -51,7 +51,7 @@ static void springs_points_and_ground_are_drawn(void **state)
 
 static void numbers_of_nodes_fill_triangles(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     view v;
     draw(&v, f, "speed", false);
     assert_int_equal(v.paper.fills, v.s.lattice->n_triangles + 1);
@@ -62,7 +62,7 @@ static void numbers_of_nodes_fill_triangles(void **state)
 /* Each pixel of the image stands for a quarter of one of the picture; 20 mm are 40 px. */
 static void binned_ones_are_an_image(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     view v;
     draw(&v, f, "speed", true);
     assert_int_equal(v.paper.images, 1);
@@ -78,11 +78,11 @@ static void binned_ones_are_an_image(void **state)
 
 static void what_is_out_of_view_is_left_out(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     view v;
     draw(&v, f, "strain", false);
     v.at.view = (box){1.0, 1.0, 1.06, 1.06};
-    v.paper = witness_new();
+    v.paper = canvas_spy_new();
     assert_true(panel_draw(&v.at, &v.s, &v.look, &v.paper.face));
     assert_int_equal(v.paper.strokes, 2);
     snapshot_free(&v.s);
@@ -94,5 +94,5 @@ int main(void)
         cmocka_unit_test(scale_is_pixels_by_metres), cmocka_unit_test(springs_points_and_ground_are_drawn),
         cmocka_unit_test(numbers_of_nodes_fill_triangles), cmocka_unit_test(binned_ones_are_an_image),
         cmocka_unit_test(what_is_out_of_view_is_left_out)};
-    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* quantity.c: which numbers give the colours. */
-#include "unit/filmed.h"
+#include "unit/trajectory_fixture.h"
 
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 static void the_default_is_the_strain(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     quantity q;
     outcome o = {0};
     assert_true(quantity_find(&q, f->film, NULL, &o));
@@ -19,7 +19,7 @@ static void the_default_is_the_strain(void **state)
 
 static void none_has_no_numbers(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     quantity q;
     outcome o = {0};
     assert_true(quantity_find(&q, f->film, "none", &o));
@@ -27,7 +27,7 @@ static void none_has_no_numbers(void **state)
     assert_int_equal(quantity_count(&q, dem_film_lattice(f->film)), 0);
 }
 
-static double *read_all(const filmed *f, const char *name)
+static double *read_all(const trajectory_fixture *f, const char *name)
 {
     quantity q;
     outcome o = {0};
@@ -36,7 +36,7 @@ static double *read_all(const filmed *f, const char *name)
     assert_non_null(value);
     double *rows = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * 6 * sizeof *rows);
     assert_non_null(rows);
-    filmed_ok(quantity_read(&q, f->film, 0, value, rows));
+    trajectory_fixture_ok(quantity_read(&q, f->film, 0, value, rows));
     free(rows);
     return value;
 }
@@ -44,7 +44,7 @@ static double *read_all(const filmed *f, const char *name)
 /* At the start all move alike: (0.5, -2) m/s, to the 24 bits of a float. */
 static void vectors_are_taken_by_length_and_component(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     double *speed = read_all(f, "speed"), *x = read_all(f, "velocity_x"), *y = read_all(f, "velocity_y");
     for (dem_index k = 0; k < dem_film_lattice(f->film)->n_nodes; k++) {
         assert_close(x[k], 0.5, 1e-7);
@@ -57,19 +57,19 @@ static void vectors_are_taken_by_length_and_component(void **state)
 /* xy stands fourth in a tensor of VTK. */
 static void components_of_stress_are_those_named(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     const dem_film_array *stress = dem_film_array_find(f->film, "stress");
     static const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
     static const int column[] = {0, 1, 3};
     const dem_index n = dem_film_lattice(f->film)->n_nodes;
     double *all = malloc((size_t)n * 6 * sizeof *all), *one = malloc((size_t)n * sizeof *one);
     double *rows = malloc((size_t)n * 6 * sizeof *rows);
-    filmed_ok(dem_film_read(f->film, stress, FILMED_FRAMES - 1, all));
+    trajectory_fixture_ok(dem_film_read(f->film, stress, TRAJECTORY_FIXTURE_FRAMES - 1, all));
     for (int c = 0; c < 3; c++) {
         quantity q;
         outcome o = {0};
         assert_true(quantity_find(&q, f->film, names[c], &o));
-        filmed_ok(quantity_read(&q, f->film, FILMED_FRAMES - 1, one, rows));
+        trajectory_fixture_ok(quantity_read(&q, f->film, TRAJECTORY_FIXTURE_FRAMES - 1, one, rows));
         for (dem_index k = 0; k < n; k++) assert_close(one[k], all[6 * k + column[c]], 0.0);
     }
     free(all), free(one), free(rows);
@@ -77,7 +77,7 @@ static void components_of_stress_are_those_named(void **state)
 
 static void what_the_file_lacks_is_refused(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     quantity q;
     outcome o = {0};
     assert_true(quantity_is_known("principal_1"));
@@ -93,5 +93,5 @@ int main(void)
         cmocka_unit_test(the_default_is_the_strain), cmocka_unit_test(none_has_no_numbers),
         cmocka_unit_test(vectors_are_taken_by_length_and_component),
         cmocka_unit_test(components_of_stress_are_those_named), cmocka_unit_test(what_the_file_lacks_is_refused)};
-    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
 }

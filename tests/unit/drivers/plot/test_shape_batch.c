@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* shape_batch.c: every shape is drawn once, in its colour, the larger values last. */
-#include "unit/witness.h"
+#include "unit/canvas_spy.h"
 
 #include "shape_batch.h"
 
@@ -17,7 +17,7 @@ static shape_batch lines_of(size_t n, const unsigned char *shades)
 
 static void draw(const shape_batch *s, const palette *p, double width, size_t n, const unsigned char *order)
 {
-    witness paper = witness_new();
+    canvas_spy paper = canvas_spy_new();
     assert_true(shape_batch_draw(s, p, width, &paper.face));
     assert_int_equal(width > 0.0 ? paper.strokes : paper.fills, s->n);
     assert_int_equal(paper.n_inks, n);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* show.c: frames of a film become files. */
-#include "unit/filmed.h"
+#include "unit/trajectory_fixture.h"
 
 #include <string.h>
 
@@ -26,8 +26,8 @@ static int count(const char *text, const char *word)
 }
 
 /* What is told of it begins with these words. */
-static void draw(bool (*how)(const dem_film *film, const request *asked, FILE *log, outcome *o), const filmed *f,
-                 const request *asked, const char *words)
+static void draw(bool (*how)(const dem_film *film, const request *asked, FILE *log, outcome *o),
+                 const trajectory_fixture *f, const request *asked, const char *words)
 {
     char told[256] = "";
     outcome o = {0};
@@ -40,18 +40,18 @@ static void draw(bool (*how)(const dem_film *film, const request *asked, FILE *l
     (void)fclose(log);
 }
 
-static request asking(const filmed *f, request_action action, const char *output)
+static request asking(const trajectory_fixture *f, request_action action, const char *output)
 {
     return (request){.action = action, .input = f->path, .output = output, .width = 800.0};
 }
 
 static void a_strip_has_all_frames_of_a_short_film(void **state)
 {
-    filmed *f = *state;
-    const request r = asking(f, REQUEST_STRIP, filmed_beside(f, "a.svg"));
+    trajectory_fixture *f = *state;
+    const request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
     draw(show_strip, f, &r, r.output);
     char *text = read_text(r.output);
-    assert_int_equal(count(text, "<g id=\"frame-"), FILMED_FRAMES);
+    assert_int_equal(count(text, "<g id=\"frame-"), TRAJECTORY_FIXTURE_FRAMES);
     assert_int_equal(count(text, "strain of springs"), 1);
     assert_int_equal(count(text, "<metadata>data "), 1);
     assert_non_null(strstr(text, ">0.2 ms<"));
@@ -60,9 +60,9 @@ static void a_strip_has_all_frames_of_a_short_film(void **state)
 
 static void frames_and_times_are_taken(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     outcome o = {0};
-    request r = asking(f, REQUEST_STRIP, filmed_beside(f, "a.svg"));
+    request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
     r.times = "0,9e-4";
     draw(show_strip, f, &r, r.output);
     char *text = read_text(r.output);
@@ -77,12 +77,12 @@ static void frames_and_times_are_taken(void **state)
 
 static void an_animation_has_a_file_for_each_frame(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     request r = asking(f, REQUEST_ANIMATION, NULL);
-    r.folder = filmed_beside(f, "film");
+    r.folder = trajectory_fixture_beside(f, "film");
     draw(show_animation, f, &r, r.folder);
     draw(show_animation, f, &r, r.folder); /* over an older one */
-    for (int k = 0; k < FILMED_FRAMES; k++) {
+    for (int k = 0; k < TRAJECTORY_FIXTURE_FRAMES; k++) {
         char path[160];
         (void)snprintf(path, sizeof path, "%s/frame_%05d.png", r.folder, k);
         assert_int_equal(remove(path), 0);
@@ -95,5 +95,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_strip_has_all_frames_of_a_short_film),
                                        cmocka_unit_test(frames_and_times_are_taken),
                                        cmocka_unit_test(an_animation_has_a_file_for_each_frame)};
-    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
 }

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* snapshot.c: a frame as it is drawn. */
-#include "unit/filmed.h"
+#include "unit/trajectory_fixture.h"
 
 #include "digest.h"
 #include "snapshot.h"
 
-static void load(snapshot *s, const filmed *f, const quantity *q, dem_index frame)
+static void load(snapshot *s, const trajectory_fixture *f, const quantity *q, dem_index frame)
 {
     outcome o = {0};
     assert_true(snapshot_create(s, f->film, q, &o));
     assert_true(snapshot_load(s, frame, &o));
 }
 
-static quantity find(const filmed *f, const char *name)
+static quantity find(const trajectory_fixture *f, const char *name)
 {
     quantity q;
     outcome o = {0};
@@ -22,13 +22,13 @@ static quantity find(const filmed *f, const char *name)
 
 static void places_and_bounds_are_those_of_the_frame(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     const quantity q = find(f, "strain");
     snapshot s;
     load(&s, f, &q, 3);
     const dem_index n = s.lattice->n_nodes;
     double *x = malloc(2 * (size_t)n * sizeof *x);
-    filmed_ok(dem_film_positions(f->film, 3, x));
+    trajectory_fixture_ok(dem_film_positions(f->film, 3, x));
     assert_memory_equal(s.x, x, 2 * (size_t)n * sizeof *x);
     assert_close(s.t, 6e-4, 1e-15);
     for (dem_index k = 0; k < n; k++) {
@@ -44,10 +44,10 @@ static void places_and_bounds_are_those_of_the_frame(void **state)
 /* A number of nodes gives springs and triangles their means. */
 static void nodes_lend_their_numbers(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     const quantity q = find(f, "von_mises"), none = find(f, "none");
     snapshot s;
-    load(&s, f, &q, FILMED_FRAMES - 1);
+    load(&s, f, &q, TRAJECTORY_FIXTURE_FRAMES - 1);
     const dem_index *ends = s.lattice->ends + 2 * 5, *corners = s.lattice->triangles + 3 * 4;
     assert_close(snapshot_spring_value(&s, 5), 0.5 * (s.value[ends[0]] + s.value[ends[1]]), 1e-9);
     const double sum = s.value[corners[0]] + s.value[corners[1]] + s.value[corners[2]];
@@ -59,7 +59,7 @@ static void nodes_lend_their_numbers(void **state)
     snapshot_free(&s);
 }
 
-static uint64_t hash_of(const filmed *f, const char *name, dem_index frame)
+static uint64_t hash_of(const trajectory_fixture *f, const char *name, dem_index frame)
 {
     const quantity q = find(f, name);
     snapshot s;
@@ -71,7 +71,7 @@ static uint64_t hash_of(const filmed *f, const char *name, dem_index frame)
 
 static void hashes_tell_frames_and_quantities(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     assert_true(hash_of(f, "strain", 2) == hash_of(f, "strain", 2));
     assert_true(hash_of(f, "strain", 2) != hash_of(f, "strain", 3));
     assert_true(hash_of(f, "strain", 2) != hash_of(f, "force", 2));
@@ -79,12 +79,12 @@ static void hashes_tell_frames_and_quantities(void **state)
 
 static void a_frame_that_is_not_there_is_refused(void **state)
 {
-    filmed *f = *state;
+    trajectory_fixture *f = *state;
     const quantity q = find(f, "strain");
     snapshot s;
     outcome o = {0};
     load(&s, f, &q, 0);
-    assert_false(snapshot_load(&s, FILMED_FRAMES, &o));
+    assert_false(snapshot_load(&s, TRAJECTORY_FIXTURE_FRAMES, &o));
     assert_int_equal(o.code, EXIT_INVALID);
     snapshot_free(&s);
 }
@@ -94,5 +94,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_and_bounds_are_those_of_the_frame), cmocka_unit_test(nodes_lend_their_numbers),
         cmocka_unit_test(hashes_tell_frames_and_quantities), cmocka_unit_test(a_frame_that_is_not_there_is_refused)};
-    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
 }

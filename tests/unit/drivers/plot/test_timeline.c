@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* timeline.c: a history becomes charts. */
-#include "unit/filmed.h"
+#include "unit/trajectory_fixture.h"
 
 #include <string.h>
 
@@ -9,10 +9,10 @@
 enum { MOST = 1 << 20 };
 
 /* The file drawn, as text. */
-static char *draw(const filmed *f)
+static char *draw(const trajectory_fixture *f)
 {
     const request asked = {
-        .action = REQUEST_HISTORY, .input = f->path, .output = filmed_beside(f, "h.svg"), .width = 800.0};
+        .action = REQUEST_HISTORY, .input = f->path, .output = trajectory_fixture_beside(f, "h.svg"), .width = 800.0};
     outcome o = {0};
     FILE *log = tmpfile(), *file;
     char *text = calloc(1, MOST);
@@ -63,5 +63,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(energies_reaction_contacts_and_steps_have_charts),
                                        cmocka_unit_test(what_never_is_has_no_line),
                                        cmocka_unit_test(the_same_film_has_the_same_hash)};
-    return cmocka_run_group_tests(tests, filmed_begin, filmed_end);
+    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
 }
