@@ -30,10 +30,10 @@ void automaton_constrain(automaton *c, double t, const double *y, double *a)
     contact_forces_hold(&c->set.forces, automaton_state(c, t, y), a);
 }
 
-dem_status automaton_create(automaton *out, const dem_model *model, const contact_rule *rule)
+dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule)
 {
     *out = (automaton){0};
-    TRY(contact_set_create(&out->set, model, rule));
+    TRY(contact_set_create(&out->set, acting, rule));
     const dem_status status = broad_phase_create(&out->broad_phase, out->set.n);
     if (status != DEM_OK) contact_set_destroy(&out->set);
     return status;

@@ -25,7 +25,7 @@ static inline scene_state automaton_state(const automaton *c, double t, const do
 }
 
 /** `out` must stay where it is. */
-dem_status automaton_create(automaton *out, const dem_model *model, const contact_rule *rule);
+dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule);
 void automaton_destroy(automaton *c);
 
 /** Whether no site without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL

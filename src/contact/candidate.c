@@ -142,8 +142,7 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
     for (int p = 0; p < f.n && rests; p++) /* then it heads where it is driven */
-        speed += f.weight[p] *
-                 vec2_dot(forces_acceleration(scene->model, &scene->rule.load, f.node[p], state.x, state.v), f.tangent);
+        speed += f.weight[p] * vec2_dot(forces_acceleration(scene->forces, f.node[p], state.x, state.v), f.tangent);
     const double heading =
         candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge against the body */
     return end * heading > 0.0 ? end : 0;

@@ -409,7 +409,7 @@ static void set_free(contact_forces *r, dem_index node, scene_state state)
 {
     if (r->first[node] == 0) return;
     r->first[node] = 0;
-    vec2_put(r->a, node, forces_acceleration(r->scene->model, &r->scene->rule.load, node, state.x, state.v));
+    vec2_put(r->a, node, forces_acceleration(r->scene->forces, node, state.x, state.v));
 }
 
 void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)

@@ -17,10 +17,11 @@ static void list_edges(contact_set *c)
     }
 }
 
-dem_status contact_set_create(contact_set *c, const dem_model *model, const contact_rule *rule)
+dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule)
 {
+    const dem_model *model = acting->model;
     const bool vertices = rule->vertices && model->obstacles.n_vertices > 0;
-    *c = (contact_set){.scene = {model, *rule}};
+    *c = (contact_set){.scene = {model, acting, *rule}};
     c->n = model->n_contact_nodes + (vertices ? model->surface.n_edges : 0);
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
     c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
@@ -182,10 +183,9 @@ dem_status contact_set_open(contact_set *c, dem_index k, int q)
 
 void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x)
 {
-    const double *gravity = c->scene.rule.load.gravity;
-    const double before = forces_node_energy(c->scene.model, gravity, i, x);
+    const double before = forces_node_energy(c->scene.forces, i, x);
     vec2_put(x, i, vec2_add(vec2_at(x, i), shift));
-    c->ledger.projection += forces_node_energy(c->scene.model, gravity, i, x) - before;
+    c->ledger.projection += forces_node_energy(c->scene.forces, i, x) - before;
 }
 
 void contact_set_store_forces(contact_set *c, dem_index k)
@@ -210,7 +210,7 @@ void contact_set_solve_all(contact_set *c, scene_state state)
 /* A force without what should come from outside is none: the last known stays. */
 void contact_set_store_all(contact_set *c)
 {
-    if (external_force_failed(c->scene.rule.load.external)) return;
+    if (external_force_failed(c->scene.forces->external)) return;
     const contact_forces *r = &c->forces;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])

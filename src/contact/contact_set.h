@@ -39,7 +39,7 @@ typedef struct contact_set {
 } contact_set;
 
 /** `c` must stay where it is. */
-dem_status contact_set_create(contact_set *c, const dem_model *model, const contact_rule *rule);
+dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule);
 void contact_set_destroy(contact_set *c);
 
 /** A site of the same nodes without contacts, of which nothing is known but behind what it is. */

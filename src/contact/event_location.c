@@ -223,7 +223,7 @@ void event_location_state(const contact_forces *r, dem_index group, const dense_
         if (candidate->previous >= 0) put_node(p, t, candidate->previous, state);
         if (candidate->next >= 0) put_node(p, t, candidate->next, state);
     }
-    if (forces_are_driven(&r->scene->rule.load)) put_node(p, t, state_time_row(&p->layout), state);
+    if (forces_are_driven(r->scene->forces)) put_node(p, t, state_time_row(&p->layout), state);
 }
 
 /* The state at t as far as the group's forces depend on it, and those. */

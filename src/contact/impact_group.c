@@ -97,8 +97,8 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
             const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
             double back = f.turning;
             for (int e = 0; e < f.n; e++)
-                back -= f.weight[e] * vec2_dot(f.normal, forces_acceleration(c->scene.model, &c->scene.rule.load,
-                                                                             f.node[e], now->x, now->v));
+                back -=
+                    f.weight[e] * vec2_dot(f.normal, forces_acceleration(c->scene.forces, f.node[e], now->x, now->v));
             const impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
             const double rest = impact_rest_speed(c, vec2_at(now->x, f.node[0]), back, &wall, shared);
             impact->opens = away > (impact->fresh ? rest : fmax(rest, tolerance));

@@ -31,7 +31,7 @@ static vec2 way_back(const contact_set *c, impact_target hit, double t, vec2 x)
 static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, vec2 v, const contact_instant *now)
 {
     const dem_index i = c->list[k].node;
-    const vec2 a = forces_acceleration(c->scene.model, &c->scene.rule.load, i, now->x, now->v), at = vec2_at(now->x, i);
+    const vec2 a = forces_acceleration(c->scene.forces, i, now->x, now->v), at = vec2_at(now->x, i);
     const double speed = vec2_norm(v);
     impact_surface wall[2];
     double push[2], away[2];

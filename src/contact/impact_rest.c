@@ -43,7 +43,7 @@ bool impact_rest_in_notch(const contact_set *c, dem_index edge, dem_index next, 
 {
     const contact_candidate *here = &c->list[edge], *there = &c->list[next];
     const dem_index node = here->node == there->other ? here->node : here->other, feature = here->closed[0].feature;
-    const vec2 a = forces_acceleration(c->scene.model, &c->scene.rule.load, node, now->x, now->v);
+    const vec2 a = forces_acceleration(c->scene.forces, node, now->x, now->v);
     const impact_surface sides[2] = {impact_rest_surface(c, edge, feature, edge_normal(here, now->x)),
                                      impact_rest_surface(c, edge, feature, edge_normal(there, now->x))};
     double push_on[2];

@@ -17,12 +17,12 @@ typedef struct contact_rule {
     bool vertices;                /* whether edges touch vertices */
     state_layout layout;          /* of the states */
     int n_threads;                /* that look at free sites at once; 0 counts as 1 */
-    forces load;
 } contact_rule;
 
 /** What does not change during a run. */
 typedef struct contact_scene {
     const dem_model *model;
+    const forces *forces; /* on the nodes of the model, but those of contact */
     contact_rule rule;
 } contact_scene;
 

@@ -163,8 +163,7 @@ static void renew(const event_queue *q, dem_index i, const double *y)
     const double *v = y + state_velocities(scene_layout(&c->scene));
     double *a = q->changed.f1 + state_velocities(scene_layout(&c->scene));
     const bool grouped = contact_set_group_at(c, i) >= 0;
-    const vec2 now =
-        grouped ? vec2_at(c->forces.a, i) : forces_acceleration(c->scene.model, &c->scene.rule.load, i, y, v);
+    const vec2 now = grouped ? vec2_at(c->forces.a, i) : forces_acceleration(c->scene.forces, i, y, v);
     if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
     if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
     if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));

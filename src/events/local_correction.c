@@ -117,9 +117,9 @@ static dem_status add_rate(local_correction *p, dem_index place, int stage, doub
 static bool has_powers(const local_correction *p)
 {
     const contact_scene *scene = &p->near.set->scene;
-    const forces *load = &scene->rule.load;
-    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || load->mass_damping > 0.0 ||
-           load->external != NULL;
+    const forces *f = scene->forces;
+    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || f->mass_damping > 0.0 ||
+           f->external != NULL;
 }
 
 /* What damping takes at node j of the ball, and what is put in from outside, W; of these what no event changes is left
@@ -129,18 +129,17 @@ static vec2 node_powers(const local_correction *p, dem_index j, const double *x,
     const dem_index i = p->near.nodes[j].i;
     const contact_scene *scene = &p->near.set->scene;
     const dem_model *model = scene->model;
-    const forces *load = &scene->rule.load;
+    const forces *f = scene->forces;
     const vec2 vi = vec2_at(v, i);
-    vec2 power = {model->inverse_mass[i] > 0.0 ? load->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi) : 0.0,
+    vec2 power = {model->inverse_mass[i] > 0.0 ? f->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi) : 0.0,
                   0.0};
     if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
-    if (load->boundaries != NULL)
-        power.y += vec2_dot(boundary_conditions_force(load->boundaries, i, v[load->clock]), vi);
-    const vec2 push = load->external != NULL ? vec2_at(load->external->value, j) : (vec2){0.0, 0.0};
-    if (load->external != NULL) power.y += vec2_dot(push, vi);
+    if (f->boundaries != NULL) power.y += vec2_dot(boundary_conditions_force(f->boundaries, i, v[f->clock]), vi);
+    const vec2 push = f->external != NULL ? vec2_at(f->external->value, j) : (vec2){0.0, 0.0};
+    if (f->external != NULL) power.y += vec2_dot(push, vi);
     const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
     if (held != 0) {
-        const vec2 a = vec2_along(forces_own_acceleration(model, load, i, x, v), model->inverse_mass[i], push);
+        const vec2 a = vec2_along(forces_own_acceleration(f, i, x, v), model->inverse_mass[i], push);
         if (held & DEM_COMPONENT_X) power.y -= model->lattice.mass[i] * a.x * vi.x;
         if (held & DEM_COMPONENT_Y) power.y -= model->lattice.mass[i] * a.y * vi.y;
     }
@@ -187,7 +186,7 @@ static double stage_time(const local_correction *p, const dense_output *step, in
 static void put_time(const local_correction *p, const dense_output *step, int stage, double *y)
 {
     const dem_index row = state_time_row(&step->layout);
-    if (!forces_are_driven(&p->near.set->scene.rule.load)) return;
+    if (!forces_are_driven(p->near.set->scene.forces)) return;
     dense_output_velocity(step, stage_time(p, step, stage), row,
                           y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }

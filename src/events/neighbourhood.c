@@ -15,8 +15,7 @@ dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_ring
     neighbourhood b = {.set = set, .n_rings = n_rings, .number = malloc((size_t)n * sizeof *b.number)};
     CHECK(b.number != NULL, DEM_ERROR_MEMORY, "out of memory for the neighbours of %lld nodes", (long long)n);
     for (dem_index i = 0; i < n; i++) b.number[i] = -1;
-    b.plain =
-        model->springs.viscosity == NULL && model->triangles.row[n] == 0 && set->scene.rule.load.boundaries == NULL;
+    b.plain = model->springs.viscosity == NULL && model->triangles.row[n] == 0 && set->scene.forces->boundaries == NULL;
     *out = b;
     return DEM_OK;
 }
@@ -206,19 +205,19 @@ static void pull(const neighbourhood *b, int rings, const double *x, double *f)
 static void accelerate_plain(const neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
     const contact_scene *scene = &b->set->scene;
-    const forces *load = &scene->rule.load;
+    const forces *f = scene->forces;
     pull(b, rings, s->x, a);
     for (dem_index j = 0; j < b->end[rings]; j++) {
         const double inverse_mass = scene->model->inverse_mass[b->nodes[j].i];
-        const vec2 weighed = vec2_along((vec2){load->gravity[0], load->gravity[1]}, inverse_mass, vec2_at(a, j));
-        const vec2 damped = vec2_along(weighed, -load->mass_damping, vec2_at(s->v, j));
+        const vec2 weighed = vec2_along((vec2){f->gravity[0], f->gravity[1]}, inverse_mass, vec2_at(a, j));
+        const vec2 damped = vec2_along(weighed, -f->mass_damping, vec2_at(s->v, j));
         vec2_put(a, j, inverse_mass > 0.0 ? damped : (vec2){0.0, 0.0});
     }
 }
 
 void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v)
 {
-    external_force *c = b->set->scene.rule.load.external;
+    external_force *c = b->set->scene.forces->external;
     if (c == NULL) return;
     for (dem_index j = 0; j < b->end[rings]; j++) c->some[j] = b->nodes[j].i;
     external_force_evaluate(c, &(dem_force_query){t, b->end[rings], c->some, x, v});
@@ -227,16 +226,15 @@ void neighbourhood_push(const neighbourhood *b, int rings, double t, const doubl
 void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
     const contact_scene *scene = &b->set->scene;
-    const forces *load = &scene->rule.load;
+    const forces *f = scene->forces;
     const double *v = s->y + state_velocities(scene_layout(scene));
     if (b->plain) accelerate_plain(b, rings, s, a);
     for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
-        vec2_put(a, j, forces_own_acceleration(scene->model, load, b->nodes[j].i, s->y, v));
-    neighbourhood_push(b, rings, v[load->clock], s->x, s->v);
-    for (dem_index j = 0; j < b->end[rings] && load->external != NULL; j++)
-        vec2_put(
-            a, j,
-            vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(load->external->value, j)));
+        vec2_put(a, j, forces_own_acceleration(f, b->nodes[j].i, s->y, v));
+    neighbourhood_push(b, rings, v[f->clock], s->x, s->v);
+    for (dem_index j = 0; j < b->end[rings] && f->external != NULL; j++)
+        vec2_put(a, j,
+                 vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(f->external->value, j)));
     for (dem_index g = 0; g < b->n_groups; g++)
         if (b->groups[g].ring <= rings)
             contact_forces_solve(&b->set->forces, b->groups[g].group, (scene_state){s->t, s->y, v});

@@ -2,11 +2,12 @@
 /* Energies, mean motions and strains of a state. */
 #include "forces/diagnostics.h"
 
-dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v)
+dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
+    const dem_model *model = f->model;
     dem_energy energy = {.elastic = springs_energy(&model->springs, x)};
     triangles_energy(&model->triangles, x, &energy.area, &energy.guard);
-    const vec2 g = {gravity[0], gravity[1]};
+    const vec2 g = {f->gravity[0], f->gravity[1]};
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const double m = model->lattice.mass[i];
         const vec2 vi = vec2_at(v, i);
@@ -16,14 +17,15 @@ dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], c
     return energy;
 }
 
-double diagnostics_damping_power(const dem_model *model, const forces *load, const double *x, const double *v)
+double diagnostics_damping_power(const forces *f, const double *x, const double *v)
 {
+    const dem_model *model = f->model;
     double twice_kinetic = 0.0; /* of the nodes that move */
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const vec2 vi = vec2_at(v, i);
         if (model->inverse_mass[i] > 0.0) twice_kinetic += model->lattice.mass[i] * vec2_dot(vi, vi);
     }
-    return springs_damping_power(&model->springs, x, v) + load->mass_damping * twice_kinetic;
+    return springs_damping_power(&model->springs, x, v) + f->mass_damping * twice_kinetic;
 }
 
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
@@ -58,9 +60,9 @@ static void measure_triangles(const dem_model *model, const double *x, dem_strai
     }
 }
 
-dem_strain diagnostics_strain(const dem_model *model, const double *x)
+dem_strain diagnostics_strain(const forces *f, const double *x)
 {
-    const springs *s = &model->springs;
+    const springs *s = &f->model->springs;
     dem_strain strain = {.spring_min = -1, .spring_max = -1, .area_min = 1.0};
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
@@ -75,7 +77,7 @@ dem_strain diagnostics_strain(const dem_model *model, const double *x)
                 strain.spring_max = s->spring[p];
             }
         }
-    measure_triangles(model, x, &strain);
+    measure_triangles(f->model, x, &strain);
     return strain;
 }
 
@@ -111,25 +113,23 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
 }
 
 /* What a prescribed component of a node's motion takes, N. */
-static vec2 held_force(const dem_model *model, const forces *load, const boundary_condition *b, dem_index i,
-                       const double *x, const double *v)
+static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i, const double *x, const double *v)
 {
-    const vec2 wanted = boundary_condition_acceleration(b, v[load->clock]);
-    const vec2 force = vec2_scale(model->lattice.mass[i], vec2_sub(wanted, forces_acceleration(model, load, i, x, v)));
+    const vec2 wanted = boundary_condition_acceleration(b, v[f->clock]);
+    const vec2 force = vec2_scale(f->model->lattice.mass[i], vec2_sub(wanted, forces_acceleration(f, i, x, v)));
     return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
 }
 
-dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary_condition *b,
-                                       const double *x, const double *v)
+dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *x, const double *v)
 {
     dem_boundary_load out;
     vec2 force = {0.0, 0.0}, way = {0.0, 0.0};
     for (dem_index k = 0; k < b->n_nodes; k++) {
         const dem_index i = b->nodes[k];
-        way = vec2_add(way, vec2_sub(vec2_at(x, i), vec2_at(model->lattice.position, i)));
+        way = vec2_add(way, vec2_sub(vec2_at(x, i), vec2_at(f->model->lattice.position, i)));
         force = b->kind == DEM_BOUNDARY_FORCE
-                    ? vec2_along(force, b->share[k] * boundary_condition_ramp(b, v[load->clock]), b->value)
-                    : vec2_add(force, held_force(model, load, b, i, x, v));
+                    ? vec2_along(force, b->share[k] * boundary_condition_ramp(b, v[f->clock]), b->value)
+                    : vec2_add(force, held_force(f, b, i, x, v));
     }
     vec2_put(out.force, 0, force);
     vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)b->n_nodes, way));
@@ -146,12 +146,12 @@ static double largest_force(const springs *s, const double *x)
     return largest;
 }
 
-double diagnostics_residual(const dem_model *model, double mass_damping, const double *x, const double *v,
-                            const double *a)
+double diagnostics_residual(const forces *f, const double *x, const double *v, const double *a)
 {
+    const dem_model *model = f->model;
     double largest = 0.0;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
-        const vec2 without_drag = vec2_along(vec2_at(a, i), mass_damping, vec2_at(v, i));
+        const vec2 without_drag = vec2_along(vec2_at(a, i), f->mass_damping, vec2_at(v, i));
         if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
     }
     const double scale = largest_force(&model->springs, x);

@@ -6,25 +6,23 @@
 #include "forces/forces.h"
 
 /** Kinetic, elastic, area, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
-dem_energy diagnostics_energy(const dem_model *model, const double gravity[2], const double *x, const double *v);
+dem_energy diagnostics_energy(const forces *f, const double *x, const double *v);
 
 /** Power that damping takes, of springs and masses, W, >= 0. */
-double diagnostics_damping_power(const dem_model *model, const forces *load, const double *x, const double *v);
+double diagnostics_damping_power(const forces *f, const double *x, const double *v);
 
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v);
 
-dem_strain diagnostics_strain(const dem_model *model, const double *x);
+dem_strain diagnostics_strain(const forces *f, const double *x);
 
 /** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle);
 
 /** What a boundary does to its nodes in a state. */
-dem_boundary_load diagnostics_boundary(const dem_model *model, const forces *load, const boundary_condition *b,
-                                       const double *x, const double *v);
+dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *x, const double *v);
 
 /** Largest force without drag on a node that may move, from accelerations a and velocities v at positions x, over the
  *  largest force of a spring. */
-double diagnostics_residual(const dem_model *model, double mass_damping, const double *x, const double *v,
-                            const double *a);
+double diagnostics_residual(const forces *f, const double *x, const double *v, const double *a);
 
 #endif

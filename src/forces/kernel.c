@@ -188,11 +188,11 @@ static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
 }
 
 /* One row by itself; what it adds to the sum. */
-static double accelerate_row(const kernel *k, const forces *load, const kernel_state *y, dem_index i)
+static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
 {
     const sweep_fused_step *p = y->fused_step;
     if (p != NULL) drift(k, p, i, i + 1);
-    const vec2 a = forces_own_acceleration(k->model, load, i, y->x, y->v);
+    const vec2 a = forces_own_acceleration(f, i, y->x, y->v);
     vec2_put(y->a, i, a);
     if (p != NULL) k->ops->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
     return a.x + a.y;
@@ -216,28 +216,28 @@ static dem_index next_guarded(const kernel *k, dem_index q)
 }
 
 /* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
-static double accelerate_rest(const kernel *k, const forces *load, const kernel_state *y)
+static double accelerate_rest(const kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     double sum = 0.0;
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
-        sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
+        sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
-        sum += accelerate_row(k, load, y, l->order != NULL ? l->order[q] : q);
-    for (dem_index p = 0; load->boundaries != NULL && p < load->boundaries->n; p++) {
-        const boundary_condition *push = &load->boundaries->list[p];
+        sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index p = 0; f->boundaries != NULL && p < f->boundaries->n; p++) {
+        const boundary_condition *push = &f->boundaries->list[p];
         for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
-            sum += accelerate_row(k, load, y, push->nodes[j]);
+            sum += accelerate_row(k, f, y, push->nodes[j]);
     }
     return sum;
 }
 
 /* What comes from outside is asked for all nodes at once. */
-static double push(const kernel *k, const forces *load, const kernel_state *y)
+static double push(const kernel *k, const forces *f, const kernel_state *y)
 {
-    external_force *c = load->external;
+    external_force *c = f->external;
     double sum = 0.0;
-    external_force_evaluate(c, &(dem_force_query){y->v[load->clock], c->n_nodes, c->all, y->x, y->v});
+    external_force_evaluate(c, &(dem_force_query){y->v[f->clock], c->n_nodes, c->all, y->x, y->v});
     for (dem_index i = 0; i < c->n_nodes; i++) {
         const vec2 a = vec2_along(vec2_at(y->a, i), k->model->inverse_mass[i], vec2_at(c->value, i));
         vec2_put(y->a, i, a);
@@ -246,19 +246,19 @@ static double push(const kernel *k, const forces *load, const kernel_state *y)
     return sum;
 }
 
-bool kernel_can_fuse(const kernel *k, const forces *load)
+bool kernel_can_fuse(const kernel *k, const forces *f)
 {
-    return k->packed == NULL && !k->model->layout.damped && load->mass_damping == 0.0 && !forces_are_driven(load);
+    return k->packed == NULL && !k->model->layout.damped && f->mass_damping == 0.0 && !forces_are_driven(f);
 }
 
-double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
+double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     const dem_index n = l->n_nodes;
     sweep s = {.layout = l,
                .inverse_mass = k->model->inverse_mass,
-               .gravity = {load->gravity[0], load->gravity[1]},
-               .mass_damping = load->mass_damping,
+               .gravity = {f->gravity[0], f->gravity[1]},
+               .mass_damping = f->mass_damping,
                .x = y->x,
                .v = y->v,
                .u = y->u,
@@ -268,7 +268,7 @@ double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
     if (y->fused_step != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->fused_step));
     if (k->packed != NULL) {
         pack(k, y->x, k->packed + n);
-        if (l->damped || load->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);
+        if (l->damped || f->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);
         s.inverse_mass = k->packed;
         s.x = k->packed + n;
         s.v = k->packed + 3 * n;
@@ -278,8 +278,8 @@ double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y)
     double sum = sweep_blocks(k, &s);
     if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
-    sum += accelerate_rest(k, load, y);
-    return load->external != NULL ? sum + push(k, load, y) : sum;
+    sum += accelerate_rest(k, f, y);
+    return f->external != NULL ? sum + push(k, f, y) : sum;
 }
 
 static double guard_bound(const kernel *k, const double *x, dem_index q)

@@ -38,11 +38,11 @@ typedef struct kernel_state {
 } kernel_state;
 
 /** Whether accelerations depend on nothing but positions, so that a fused step is possible. */
-bool kernel_can_fuse(const kernel *k, const forces *load);
+bool kernel_can_fuse(const kernel *k, const forces *f);
 
 /** Fills u and a, and takes the fused step, to the bits that drift and kick give before and after.
  *  \return a sum over them that is not finite if one of them is not */
-double kernel_accelerate(kernel *k, const forces *load, const kernel_state *y);
+double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 
 /** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
  *  >= 1: omega_max^2 and what the guard adds to it at most. */

@@ -25,6 +25,7 @@ struct dem_simulation {
     state_layout layout; /* of y */
     boundary_conditions boundaries;
     external_force *external; /* NULL: no force from outside */
+    forces forces;            /* on nodes, but those of contact */
     kernel kernel;
     overlap overlap;
     automaton automaton;
@@ -56,17 +57,6 @@ struct dem_simulation {
     dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
     observers observers;
 };
-
-/* What acts on nodes besides springs and triangles. */
-static inline forces run_load(const dem_simulation *s)
-{
-    const dem_options *o = &s->options;
-    return (forces){{o->gravity[0], o->gravity[1]},
-                    o->mass_damping,
-                    s->boundaries.first != NULL ? &s->boundaries : NULL,
-                    s->external,
-                    state_total_index(&s->layout, STATE_TIME)};
-}
 
 static inline bool run_is_local(const dem_simulation *s)
 {

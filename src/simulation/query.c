@@ -60,9 +60,7 @@ void dem_simulation_state(const dem_simulation *s, dem_state *state)
 dem_energy dem_simulation_energy(const dem_simulation *s)
 {
     run_measures *m = s->measures;
-    if (!m->has_energy)
-        m->energy =
-            diagnostics_energy(s->model, s->options.gravity, seen_of(s), s->seen + state_velocities(&s->layout));
+    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, seen_of(s), s->seen + state_velocities(&s->layout));
     m->has_energy = true;
     m->energy.impact = contact_of(s)->set.ledger.impact;
     m->energy.friction = state_total_of(&s->layout, seen_of(s), STATE_FRICTION);
@@ -75,7 +73,7 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
 dem_strain dem_simulation_strain(const dem_simulation *s)
 {
     run_measures *m = s->measures;
-    if (!m->has_strain) m->strain = diagnostics_strain(s->model, seen_of(s));
+    if (!m->has_strain) m->strain = diagnostics_strain(&s->forces, seen_of(s));
     m->has_strain = true;
     return m->strain;
 }
@@ -139,17 +137,14 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 
 dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
 {
-    const forces load = run_load(s);
-    return diagnostics_boundary(s->model, &load, &s->boundaries.list[k], seen_of(s),
-                                s->seen + state_velocities(&s->layout));
+    return diagnostics_boundary(&s->forces, &s->boundaries.list[k], seen_of(s), s->seen + state_velocities(&s->layout));
 }
 
 double dem_simulation_residual(const dem_simulation *s)
 {
     const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
     const dem_index v = state_velocities(&s->layout);
-    return known ? diagnostics_residual(s->model, s->options.mass_damping, s->path.y1, s->path.y1 + v, s->path.f1 + v)
-                 : (double)INFINITY;
+    return known ? diagnostics_residual(&s->forces, s->path.y1, s->path.y1 + v, s->path.f1 + v) : (double)INFINITY;
 }
 
 const dem_record *dem_simulation_record(const dem_simulation *s)

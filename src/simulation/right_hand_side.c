@@ -25,9 +25,7 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
     automaton_add_rates(&s->automaton, t, y, a);
-    if (s->damped)
-        a[state_total_index(l, STATE_DAMPING)] =
-            diagnostics_damping_power(s->model, &s->automaton.set.scene.rule.load, y, v);
+    if (s->damped) a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(&s->forces, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
@@ -40,7 +38,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const dem_index n = state_velocities(&s->layout), n_real = state_row(&s->layout, s->layout.n_nodes);
     const double *v = y + n;
     const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
-    const double sum = kernel_accelerate(&s->kernel, &s->automaton.set.scene.rule.load, &nodes);
+    const double sum = kernel_accelerate(&s->kernel, &s->forces, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, t, y, a);
     const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
@@ -55,13 +53,12 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
 static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;
-    const forces *load = &s->automaton.set.scene.rule.load;
     const dem_index n = state_velocities(&s->layout);
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
-    if (!kernel_can_fuse(&s->kernel, load) || s->automaton.set.forces.n_groups > 0) return -1;
-    const double sum = kernel_accelerate(&s->kernel, load, &y);
+    if (!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0) return -1;
+    const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
     fill_rates(s, step->t1, y.x, y.a, 0.0);
     if (isfinite(sum)) return 0;

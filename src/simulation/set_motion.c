@@ -29,7 +29,7 @@ static dem_status check(const dem_simulation *s, const char *what, const double 
 
 static double mechanical_energy(const dem_simulation *s, const double *y)
 {
-    const dem_energy e = diagnostics_energy(s->model, s->options.gravity, y, y + state_velocities(&s->layout));
+    const dem_energy e = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
     return dem_energy_motion(e) + e.gravity;
 }
 

@@ -36,8 +36,18 @@ static contact_rule rule_of(const dem_simulation *s)
                           .max_impacts = o->max_impacts,
                           .vertices = o->vertices != 0,
                           .layout = s->layout,
-                          .n_threads = o->threads,
-                          .load = run_load(s)};
+                          .n_threads = o->threads};
+}
+
+static forces forces_of(const dem_simulation *s)
+{
+    const dem_options *o = &s->options;
+    return (forces){.model = s->model,
+                    .gravity = {o->gravity[0], o->gravity[1]},
+                    .mass_damping = o->mass_damping,
+                    .boundaries = s->boundaries.first != NULL ? &s->boundaries : NULL,
+                    .external = s->external,
+                    .clock = state_total_index(&s->layout, STATE_TIME)};
 }
 
 static dem_status set_up(dem_simulation *s)
@@ -50,6 +60,7 @@ static dem_status set_up(dem_simulation *s)
     s->options.boundaries = NULL;
     TRY(external_force_create(&s->external, o, model->lattice.n_nodes));
     TRY(options_fill(&s->options, model, &s->boundaries));
+    s->forces = forces_of(s);
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
@@ -58,7 +69,7 @@ static dem_status set_up(dem_simulation *s)
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
     s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
-    TRY(automaton_create(&s->automaton, model, &rule));
+    TRY(automaton_create(&s->automaton, &s->forces, &rule));
     TRY(automaton_check_start(&s->automaton, 0.0, s->y));
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));

@@ -63,7 +63,7 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
 {
     const dem_index n = model->lattice.n_nodes;
     const long rounds = (long)(2e7 / (double)model->lattice.n_springs) + 1;
-    const forces load = {.gravity = {0.0, 0.0}};
+    const forces acting = {.model = model};
     double *state = aligned_zeros(2 * (size_t)n), *a = aligned_zeros(2 * (size_t)n), least = INFINITY;
     must(state != NULL && a != NULL, "out of memory");
     memcpy(state, model->lattice.position, 2 * (size_t)n * sizeof *state);
@@ -72,7 +72,7 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
     ask(kernel_create(&k, model, kind, 1));
     for (int turn = 0; turn < 7; turn++) {
         const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-        for (long r = 0; r < rounds; r++) must(isfinite(kernel_accelerate(&k, &load, &y)), "not finite");
+        for (long r = 0; r < rounds; r++) must(isfinite(kernel_accelerate(&k, &acting, &y)), "not finite");
         least = fmin(least, seconds(CLOCK_PROCESS_CPUTIME_ID) - start);
     }
     kernel_destroy(&k);

@@ -12,6 +12,7 @@ enum { BENCH_NODES = 12, BENCH_SITES = 24, BENCH_FEATURES = 2 * BENCH_SITES, BEN
 
 typedef struct bench {
     dem_model model;
+    forces acting;
     contact_scene scene;
     double mass[BENCH_NODES], inverse_mass[BENCH_NODES], x[2 * BENCH_NODES], v[2 * BENCH_NODES];
     dem_index none[BENCH_NODES + 1]; /* rows of no springs and no triangles */
@@ -42,7 +43,9 @@ static inline void bench_open(bench *b, dem_index n)
     b->model.triangles.row = b->none;
     b->model.obstacles = (obstacle_set){.n = BENCH_OBSTACLES, .list = b->list, .segments = b->segments};
     b->model.obstacles.vertices = b->vertices;
-    b->scene = (contact_scene){.model = &b->model, .rule = {.penetration_tolerance = 1e-6, .max_step = 1e100}};
+    b->acting = (forces){.model = &b->model};
+    b->scene = (contact_scene){
+        .model = &b->model, .forces = &b->acting, .rule = {.penetration_tolerance = 1e-6, .max_step = 1e100}};
     b->scene.rule.layout = (state_layout){.dim = 2, .n_nodes = n, .n_rows = n};
 }
 

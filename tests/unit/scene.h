@@ -16,6 +16,7 @@ static const double scene_penetration_tolerance = 1e-6, scene_gravity = 10.0;
 
 typedef struct scene {
     dem_model *model;
+    forces acting;
     automaton c;
     double y[4 * SCENE_NODES];
     dem_event events[SCENE_EVENTS], impacts[SCENE_EVENTS]; /* all, and the impacts among them */
@@ -40,11 +41,11 @@ static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_o
                                .storm_time = 0.5,
                                .max_impacts = 100,
                                .vertices = true,
-                               .layout = {.dim = 2, .n_nodes = lattice->n_nodes, .n_rows = lattice->n_nodes},
-                               .load = {.gravity = {0.0, -scene_gravity}}};
+                               .layout = {.dim = 2, .n_nodes = lattice->n_nodes, .n_rows = lattice->n_nodes}};
     *s = (scene){0};
     assert_ok(dem_model_create(&s->model, lattice, obstacles, n));
-    assert_ok(automaton_create(&s->c, s->model, &rule));
+    s->acting = (forces){.model = s->model, .gravity = {0.0, -scene_gravity}};
+    assert_ok(automaton_create(&s->c, &s->acting, &rule));
 }
 
 /* n masses, each a body of its own, with the triangles' sides for edges; nothing else holds them together. */

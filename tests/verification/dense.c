@@ -13,6 +13,7 @@
 gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step)
 {
     const size_t n = 2 * (size_t)model->lattice.n_nodes;
+    const forces acting = {.model = model};
     gsl_matrix *stiffness = gsl_matrix_alloc(n, n);
     double *at = malloc(n * sizeof *at), *still = calloc(n, sizeof *still);
     assert_true(stiffness != NULL && at != NULL && still != NULL);
@@ -20,9 +21,9 @@ gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step
     for (size_t q = 0; q < n; q++) {
         for (size_t i = 0; i < n / 2; i++) {
             at[q] = x[q] + step;
-            const vec2 above = forces_of_elements(model, (dem_index)i, at, still);
+            const vec2 above = forces_of_elements(&acting, (dem_index)i, at, still);
             at[q] = x[q] - step;
-            const vec2 below = forces_of_elements(model, (dem_index)i, at, still);
+            const vec2 below = forces_of_elements(&acting, (dem_index)i, at, still);
             gsl_matrix_set(stiffness, 2 * i, q, (below.x - above.x) / (2.0 * step));
             gsl_matrix_set(stiffness, 2 * i + 1, q, (below.y - above.y) / (2.0 * step));
         }

@@ -64,6 +64,7 @@ static void forget(record *r)
 
 typedef struct parts {
     dem_model *model;
+    forces acting;
     contact_rule rule;
     dem_options options;
     dem_index n, n_all;
@@ -76,8 +77,7 @@ static int derive(double t, const double y[], double f[], void *context)
     (void)t;
     memset(f, 0, 4 * (size_t)p->n_all * sizeof *f);
     memcpy(f, v, 2 * (size_t)p->n * sizeof *f);
-    for (dem_index i = 0; i < p->n; i++)
-        vec2_put(f, p->n_all + i, forces_acceleration(p->model, &p->rule.load, i, y, v));
+    for (dem_index i = 0; i < p->n; i++) vec2_put(f, p->n_all + i, forces_acceleration(&p->acting, i, y, v));
     return GSL_SUCCESS;
 }
 
@@ -116,7 +116,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     event_queue q;
     assert_true(arrays != NULL && gsl != NULL);
     spread(p, y, y0);
-    assert_ok(automaton_create(&c, p->model, &p->rule));
+    assert_ok(automaton_create(&c, &p->acting, &p->rule));
     assert_ok(automaton_start(&c, t, y0, &nobody));
     assert_ok(event_queue_create(&q, &c, &(local_correction_rule){5, one[0], one[1], NULL}, true));
     memcpy(y1, y0, size * sizeof *y1);
@@ -204,8 +204,8 @@ static void make_parts(parts *p, const support_run *run)
                              .max_step = o->max_step,
                              .storm_time = 1.0 / p->model->omega_max,
                              .max_impacts = o->max_impacts,
-                             .layout = {.dim = 2, .n_nodes = p->n, .n_obstacles = 1, .n_rows = p->n_all},
-                             .load = {.gravity = {o->gravity[0], o->gravity[1]}}};
+                             .layout = {.dim = 2, .n_nodes = p->n, .n_obstacles = 1, .n_rows = p->n_all}};
+    p->acting = (forces){.model = p->model, .gravity = {o->gravity[0], o->gravity[1]}};
 }
 
 /* The run, its steps told and kept. */

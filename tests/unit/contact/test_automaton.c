@@ -160,7 +160,7 @@ static void a_contact_does_not_last_where_nothing_presses(void **state)
     for (int k = 0; k < 4; k++) {
         scene s;
         open_scene(&s, 1, &plastic, 1);
-        s.c.set.scene.rule.load.gravity[1] = pull[k];
+        s.acting.gravity[1] = pull[k];
         s.c.set.scene.rule.rest_speed = rest_speed[k];
         scene_put(&s, 0, 0.25, -penetration_tolerance, 1.0, -1.0);
         assert_ok(scene_resolve(&s, 0.0));
@@ -296,15 +296,15 @@ static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
     assert_int_equal(s.c.set.list[0].n_closed, 2);
-    s.c.set.scene.rule.load.gravity[0] = 1.1 * g;
+    s.acting.gravity[0] = 1.1 * g;
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.list[0].n_closed, 1);
     assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
     assert_false(s.c.set.list[0].closed[0].held);
     assert_int_equal(s.c.set.list[0].closed[0].slide, 1);
     assert_int_equal(s.c.set.ledger.counts.releases, 1);
-    s.c.set.scene.rule.load.gravity[0] = 0.0;
-    s.c.set.scene.rule.load.gravity[1] = g;
+    s.acting.gravity[0] = 0.0;
+    s.acting.gravity[1] = g;
     assert_ok(scene_resolve(&s, 0.2));
     assert_int_equal(s.c.set.list[0].n_closed, 0);
     assert_int_equal(s.c.set.ledger.counts.releases, 2);

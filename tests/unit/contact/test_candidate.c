@@ -263,7 +263,7 @@ static void at_rest_the_force_tells_where_it_heads(void **state)
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    double *gravity = s.c.set.scene.rule.load.gravity;
+    double *gravity = s.acting.gravity;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 0);
     gravity[0] = 1.0;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 1);
@@ -494,7 +494,7 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
         assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, (scene_state){0.0, s.y, scene_v(&s)}),
                          passed[k]);
     }
-    s.c.set.scene.rule.load.gravity[0] = 1.0; /* at rest it heads where it is driven */
+    s.acting.gravity[0] = 1.0; /* at rest it heads where it is driven */
     for (int k = 0; k < 2; k++) {
         move_all(&s, k == 0 ? 1.01 * penetration_tolerance : -2.0 - 1.01 * penetration_tolerance, 0.0, 0.0);
         assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, (scene_state){0.0, s.y, scene_v(&s)}),

@@ -86,7 +86,7 @@ static void another_obstacle_stops_a_sliding_node(void **state)
 
 static void set_wind(scene *s, double a)
 {
-    s->c.set.scene.rule.load.gravity[0] = a;
+    s->acting.gravity[0] = a;
 }
 
 /* mu = 1/2 holds a wind of up to g/2. */
@@ -145,7 +145,7 @@ static void release_comes_before_stick_and_slip(void **state)
         scene s;
         rub(&s, k == 0 ? 0.5 : 0.0);
         set_wind(&s, 2.0 * g);
-        s.c.set.scene.rule.load.gravity[1] = 0.1;
+        s.acting.gravity[1] = 0.1;
         scene_put(&s, 0, 0.5, 0.0, k == 0 ? -0.25 : 0.0, 0.0);
         assert_ok(scene_resolve(&s, 0.2));
         assert_int_equal(s.n_events, 2);
@@ -206,7 +206,7 @@ static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
     assert_int_equal(s.n_events, 3);
     check_event(&s, 2, DEM_EVENT_SLIP, DEM_CONTACT_SLIP);
     assert_int_equal(point->slide, 1);
-    s.c.set.scene.rule.load.gravity[1] = 0.1;
+    s.acting.gravity[1] = 0.1;
     assert_ok(scene_resolve(&s, 0.4));
     check_event(&s, 3, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
     assert_int_equal(s.n_events, 4);
@@ -297,7 +297,7 @@ static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
     scene_check(&s, 1, 0.0, 0.0, 0.0, 0.0);
     assert_close(left->closed[0].force, 15.0 * L, 3e-5); /* a penetration tolerance in 1 m of slope, of 15 N */
     assert_close(right->closed[0].force, 15.0 * L, 3e-5);
-    s.c.set.scene.rule.load.gravity[1] = 0.1;
+    s.acting.gravity[1] = 0.1;
     assert_ok(scene_resolve(&s, 0.2));
     assert_int_equal(left->n_closed, 0);
     assert_int_equal(right->n_closed, 0);

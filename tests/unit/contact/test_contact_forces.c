@@ -542,7 +542,7 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
         double solution[MOST_UNKNOWNS];
         contact_forces r;
         mix_next(&w);
-        w.b.scene.rule.load = (forces){.gravity = {3.0, -7.0}, .mass_damping = 0.5};
+        w.b.acting = (forces){.model = &w.b.model, .gravity = {3.0, -7.0}, .mass_damping = 0.5};
         for (dem_index i = 0; i < w.b.model.lattice.n_nodes; i++) {
             const bool moves = w.b.inverse_mass[i] != 0.0;
             const vec2 vi = vec2_at(w.b.v, i);

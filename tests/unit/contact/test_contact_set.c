@@ -71,7 +71,7 @@ static void edges_are_sites_only_where_there_are_vertices_and_if_asked_for(void 
     assert_int_equal(flat.c.set.n, 4);
     contact_rule rule = s.c.set.scene.rule;
     rule.vertices = false;
-    assert_ok(automaton_create(&without, s.model, &rule));
+    assert_ok(automaton_create(&without, &s.acting, &rule));
     assert_int_equal(without.set.n, 4);
     automaton_destroy(&without);
     scene_close(&flat);
@@ -279,7 +279,7 @@ static void the_force_on_a_contact_is_elastic_and_weight(void **state)
     support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
     scene_start(&s, &lattice, &plane, 1);
     dem_lattice_free(&lattice);
-    s.c.set.scene.rule.load.gravity[0] = 0.5;
+    s.acting.gravity[0] = 0.5;
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
     close_contact(&s, 0, 0, 1);

@@ -169,7 +169,7 @@ static void a_turning_edge_that_slides_towards_the_vertex_stays_on_it(void **sta
     for (int k = 0; k < 2; k++) {
         scene s;
         const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
-        s.c.set.scene.rule.load.gravity[1] = 0.0;
+        s.acting.gravity[1] = 0.0;
         for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){k == 0 ? -0.9 : 0.9, -1.0});
         hit(&s, edge, 1, 0, 0);
         assert_int_equal(s.c.set.list[edge].n_closed, k == 0);
@@ -185,7 +185,7 @@ static dem_index open_clamp(scene *s, double fraction, double eta, double mu)
     static const double plate_points[4] = {8.0, 0.0, -8.0, 0.0}; /* faces down */
     const dem_obstacle clamp[2] = {obstacle(3, roof_points, eta, mu), obstacle(2, plate_points, eta, mu)};
     scene_open_triangle(s, masses, -2.0 * fraction, 0.0, clamp, 2);
-    s->c.set.scene.rule.load.gravity[1] = 0.0;
+    s->acting.gravity[1] = 0.0;
     vec2_put(scene_v(s), 1, (vec2){0.0, -1.0});
     vec2_put(scene_v(s), 2, (vec2){0.0, -1.0});
     assert_ok(contact_set_close(&s->c.set, 0, (contact_point){.feature = 2, .slide = 1}));

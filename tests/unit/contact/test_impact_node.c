@@ -109,7 +109,7 @@ static void a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it(voi
     for (int k = 0; k < 2; k++) {
         scene s;
         open_node(&s, corner, 2, 3.0, -4.0);
-        s.c.set.scene.rule.load.gravity[0] = k == 0 ? 1.0 : 0.0;
+        s.acting.gravity[0] = k == 0 ? 1.0 : 0.0;
         scene_put(&s, 0, 2.0 + 0.5 * penetration_tolerance, -0.5 * penetration_tolerance, 3.0, -4.0);
         hit(&s, 0, 2, 0, 1);
         scene_check(&s, 0, 2.0, 0.0, 0.0, 0.0);

@@ -19,7 +19,7 @@ static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
         scene s;
         event_listener listener;
         open_side(&s, &roof, 0.0, 0.0, -0.25);
-        if (k == 3) s.c.set.scene.rule.load.gravity[1] = g;
+        if (k == 3) s.acting.gravity[1] = g;
         vec2_put(scene_v(&s), 1, (vec2){0.0, v[k]});
         const contact_instant now = moment(&s, &listener);
         const dem_index left = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2);
@@ -29,7 +29,7 @@ static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
         open_side(&s, &roof, 0.0, 0.0, 0.0); /* a side that does not bend in is no notch */
         const contact_instant flat = moment(&s, &listener);
         vec2_put(scene_v(&s), 1, (vec2){0.0, 0.0});
-        s.c.set.scene.rule.load.gravity[0] = 5.0;
+        s.acting.gravity[0] = 5.0;
         assert_false(impact_rest_in_notch(&s.c.set, scene_edge(&s, 0, 1), scene_edge(&s, 1, 2), &flat));
         scene_close(&s);
     }

@@ -16,6 +16,7 @@ static const double g = 10.0, penetration_tolerance = 1e-10, mass = 2.0;
 /* Masses over a floor, and a step of them. */
 typedef struct rig {
     dem_model *model;
+    forces acting;
     automaton c;
     event_queue q;
     dem_index n, n_all;
@@ -33,12 +34,12 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
                                .max_step = 0.1,
                                .storm_time = 1.0,
                                .max_impacts = 40,
-                               .layout = {2, lattice->n_nodes, 0, 1, lattice->n_nodes + 4},
-                               .load = {.gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}}};
+                               .layout = {2, lattice->n_nodes, 0, 1, lattice->n_nodes + 4}};
     *r = (rig){.n = lattice->n_nodes, .n_all = lattice->n_nodes + 4};
     assert_true(r->n <= most_nodes);
     assert_ok(dem_model_create(&r->model, lattice, &plane, 1));
-    assert_ok(automaton_create(&r->c, r->model, &rule));
+    r->acting = (forces){.model = r->model, .gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}};
+    assert_ok(automaton_create(&r->c, &r->acting, &rule));
     assert_ok(event_queue_create(
         &r->q, &r->c, &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0, NULL},
         error != NULL));

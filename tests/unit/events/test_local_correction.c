@@ -26,6 +26,7 @@ typedef struct step {
     kind kind;
     dem_model *model;
     boundary_conditions b;
+    forces acting;
     automaton c, before; /* contacts as they are, and as they were */
     dem_index n, n_all;
     double h;
@@ -40,18 +41,17 @@ typedef struct step {
 /* Derivative of a state, of nodes and books. */
 static void derive(const step *s, automaton *c, double t, const double *y, double *f)
 {
-    const forces *load = &c->set.scene.rule.load;
     const state_layout *l = scene_layout(&c->set.scene);
     const dem_index n = 2 * s->n_all;
     const double *v = y + n;
     double *a = f + n;
     memcpy(f, v, (size_t)n * sizeof *f);
-    for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(s->model, load, i, y, v));
+    for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(&s->acting, i, y, v));
     automaton_constrain(c, 0.0, y, a);
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
     automaton_add_rates(c, 0.0, y, a);
-    a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(s->model, load, y, v);
+    a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(&s->acting, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
@@ -165,13 +165,14 @@ static void make_contacts(step *s)
                                .storm_time = 1.0,
                                .max_impacts = 100,
                                .vertices = true,
-                               .layout = {2, s->n, 0, s->model->obstacles.n, s->n_all},
-                               .load = {.gravity = {0.0, -9.81},
-                                        .mass_damping = s->kind.mass_damping,
-                                        .boundaries = s->kind.drives ? &s->b : NULL,
-                                        .clock = 2 * s->n_all - 1}};
-    assert_ok(automaton_create(&s->c, s->model, &rule));
-    assert_ok(automaton_create(&s->before, s->model, &rule));
+                               .layout = {2, s->n, 0, s->model->obstacles.n, s->n_all}};
+    s->acting = (forces){.model = s->model,
+                         .gravity = {0.0, -9.81},
+                         .mass_damping = s->kind.mass_damping,
+                         .boundaries = s->kind.drives ? &s->b : NULL,
+                         .clock = 2 * s->n_all - 1};
+    assert_ok(automaton_create(&s->c, &s->acting, &rule));
+    assert_ok(automaton_create(&s->before, &s->acting, &rule));
 }
 
 /* Stretched, sheared and bent by some percent, at speeds of some m/s. */
@@ -587,8 +588,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
-    const contact_rule rule = {
-        .penetration_tolerance = 1e-8, .max_step = h, .layout = {2, 1, 0, 1, 5}, .load = {.gravity = {0.0, -g}}};
+    const contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h, .layout = {2, 1, 0, 1, 5}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, middle[STATE_DIM_MOST], error;
     dem_lattice lattice;
     dem_model *model;
@@ -599,7 +599,8 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
     dem_lattice_free(&lattice);
-    assert_ok(automaton_create(&c, model, &rule));
+    const forces acting = {.model = model, .gravity = {0.0, -g}};
+    assert_ok(automaton_create(&c, &acting, &rule));
     assert_ok(local_correction_create(&near, &c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
     assert_ok(changed_motion_create(&tr, &rule.layout));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
@@ -652,7 +653,8 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     assert_ok(dem_model_create(&s.model, &l, &ground, 1));
     s.n = s.n_all = l.n_nodes;
     rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
-    assert_ok(automaton_create(&s.c, s.model, &rule));
+    s.acting = (forces){.model = s.model};
+    assert_ok(automaton_create(&s.c, &s.acting, &rule));
     assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
     assert_ok(changed_motion_create(&s.changed, &rule.layout));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);

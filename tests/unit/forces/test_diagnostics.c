@@ -96,6 +96,18 @@ static void free_moving(moving *m)
     free(m->v);
 }
 
+static dem_energy energy_of(const dem_model *model, const double *x, const double *v)
+{
+    const forces acting = {.model = model, .gravity = {gravity[0], gravity[1]}};
+    return diagnostics_energy(&acting, x, v);
+}
+
+static dem_strain strain_of(const dem_model *model, const double *x)
+{
+    const forces acting = {.model = model};
+    return diagnostics_strain(&acting, x);
+}
+
 /* Relative rounding of sums of some 30 terms; the elastic energy is of the order of E h A eps^2. */
 static void a_rigid_motion_has_kinetic_and_gravity_energy_only(void **state)
 {
@@ -107,7 +119,7 @@ static void a_rigid_motion_has_kinetic_and_gravity_energy_only(void **state)
         kinetic += 0.5 * body.mass * vec2_dot(speed[b], speed[b]) + 0.5 * body.moment * spin[b] * spin[b];
         weight -= body.mass * (gravity[0] * centre[b].x + gravity[1] * centre[b].y);
     }
-    const dem_energy energy = diagnostics_energy(m.model, gravity, m.x, m.v);
+    const dem_energy energy = energy_of(m.model, m.x, m.v);
     assert_close(energy.kinetic, kinetic, 1e-13 * kinetic);
     assert_close(energy.gravity, weight, 1e-13 * kinetic);
     assert_close(energy.elastic, 0.0, 1e-20 * 1e7);
@@ -138,7 +150,7 @@ static void a_rigid_motion_strains_nothing(void **state)
 {
     (void)state;
     moving m = make_moving();
-    const dem_strain strain = diagnostics_strain(m.model, m.x);
+    const dem_strain strain = strain_of(m.model, m.x);
     assert_close(strain.min, 0.0, 1e-13); /* rounding of positions of 1 m over 0.1 m */
     assert_close(strain.max, 0.0, 1e-13);
     assert_close(strain.area_min, 1.0, 1e-12);
@@ -180,7 +192,7 @@ static void extremes_of_strain_are_found_with_their_springs(void **state)
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.25, 0.5};
     (void)state;
     dem_model *model = make_square();
-    dem_strain strain = diagnostics_strain(model, x);
+    dem_strain strain = strain_of(model, x);
     assert_close(strain.min, sqrt(0.3125) - 1.0, 1e-15);
     assert_int_equal(strain.spring_min, 1);
     assert_close(strain.max, 0.0, 0.0);
@@ -188,7 +200,7 @@ static void extremes_of_strain_are_found_with_their_springs(void **state)
     assert_close(strain.area_min, 0.25, 1e-15);
     assert_int_equal(strain.guarded, 1);
     const double stretched[8] = {0.0, 0.0, 1.5, 0.0, 1.0, 1.0, 0.0, 1.0};
-    strain = diagnostics_strain(model, stretched);
+    strain = strain_of(model, stretched);
     assert_close(strain.min, 0.5 * sqrt(2.0) - 1.0, 1e-15);
     assert_int_equal(strain.spring_min, 2);
     assert_close(strain.max, 0.5, 0.0);
@@ -205,17 +217,17 @@ static void inverted_triangles_have_negative_areas_and_count(void **state)
     double x[8] = {0.0, 0.0, 0.1, 0.9, 1.0, 1.0, 0.0, 1.0};
     (void)state;
     dem_model *model = make_square();
-    dem_strain strain = diagnostics_strain(model, x);
+    dem_strain strain = strain_of(model, x);
     assert_close(strain.area_min, -0.8, 1e-15);
     assert_int_equal(strain.guarded, 0);
     assert_int_equal(strain.inverted, 1);
     x[6] = 0.9;
     x[7] = 0.1;
-    strain = diagnostics_strain(model, x);
+    strain = strain_of(model, x);
     assert_close(strain.area_min, -0.8, 1e-15);
     assert_int_equal(strain.guarded, 1);
     assert_int_equal(strain.inverted, 2);
-    assert_true(diagnostics_energy(model, gravity, x, x).guard > 0.0);
+    assert_true(energy_of(model, x, x).guard > 0.0);
     dem_model_destroy(model);
 }
 
@@ -225,7 +237,7 @@ static void elastic_energy_is_that_of_the_springs(void **state)
     (void)state;
     dem_model *model = make_square();
     const double strain = 0.5 * sqrt(2.0) - 1.0; /* of the diagonal alone */
-    assert_close(diagnostics_energy(model, gravity, x, v).elastic, 0.5 * 10.0 * 2.0 * strain * strain, 1e-14);
+    assert_close(energy_of(model, x, v).elastic, 0.5 * 10.0 * 2.0 * strain * strain, 1e-14);
     dem_model_destroy(model);
 }
 
@@ -236,7 +248,7 @@ static void area_energy_is_that_of_the_triangles(void **state)
     const double x[8] = {0.0, 0.0, 1.5, 0.0, 1.0, 1.0, 0.25, 0.5}, v[8] = {0.0};
     (void)state;
     dem_model *model = make_square();
-    const dem_energy energy = diagnostics_energy(model, gravity, x, v);
+    const dem_energy energy = energy_of(model, x, v);
     assert_close(energy.area, 0.5 * (3.0 * 0.25 - 1.0 * 0.5625), 1e-15);
     assert_close(dem_energy_ledger(energy), energy.area + energy.elastic + energy.guard + energy.gravity, 1e-12);
     dem_model_destroy(model);
@@ -251,7 +263,7 @@ static void without_springs_and_triangles_there_is_no_strain(void **state)
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_lattice_free(&lattice);
-    const dem_strain strain = diagnostics_strain(model, x);
+    const dem_strain strain = strain_of(model, x);
     assert_close(strain.min, 0.0, 0.0);
     assert_close(strain.max, 0.0, 0.0);
     assert_int_equal(strain.spring_min, -1);
@@ -261,8 +273,8 @@ static void without_springs_and_triangles_there_is_no_strain(void **state)
     assert_int_equal(strain.inverted, 0);
     const dem_body_motion motion = diagnostics_body(model, 0, x, v);
     assert_close(motion.angular_momentum, 0.0, 0.0);
-    assert_close(diagnostics_energy(model, gravity, x, v).kinetic, 25.0, 0.0);
-    assert_close(diagnostics_energy(model, gravity, x, v).gravity, -2.0 * (0.5 - 20.0), 0.0);
+    assert_close(energy_of(model, x, v).kinetic, 25.0, 0.0);
+    assert_close(energy_of(model, x, v).gravity, -2.0 * (0.5 - 20.0), 0.0);
     dem_model_destroy(model);
 }
 
@@ -322,11 +334,12 @@ static double power_of_damping_forces(const moving *m, double mass_damping)
 /* Relative rounding of sums of some hundred terms. */
 static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 {
-    const forces loads[2] = {{.gravity = {0.5, -10.0}}, {.gravity = {0.5, -10.0}, .mass_damping = 40.0}};
     (void)state;
     moving m = make_damped(1e-3);
+    const forces loads[2] = {{.model = m.model, .gravity = {0.5, -10.0}},
+                             {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0}};
     for (int k = 0; k < 2; k++) {
-        const double power = diagnostics_damping_power(m.model, &loads[k], m.x, m.v);
+        const double power = diagnostics_damping_power(&loads[k], m.x, m.v);
         assert_true(power > 100.0);
         assert_close(power, -power_of_damping_forces(&m, loads[k].mass_damping), 1e-12 * power);
     }
@@ -336,31 +349,32 @@ static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 /* It is also what the accelerations of damped and undamped motion differ by; fixed nodes have none, whatever v is. */
 static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
 {
-    const forces load = {.gravity = {0.5, -10.0}, .mass_damping = 40.0}, free_of_it = {.gravity = {0.5, -10.0}};
     double lacking = 0.0;
     (void)state;
     moving m = make_damped(1e-3), plain = make_damped(0.0);
+    const forces load = {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0};
+    const forces free_of_it = {.model = plain.model, .gravity = {0.5, -10.0}};
     for (dem_index i = 0; i < m.model->lattice.n_nodes; i++) {
-        const vec2 damped = forces_acceleration(m.model, &load, i, m.x, m.v);
-        const vec2 undamped = forces_acceleration(plain.model, &free_of_it, i, m.x, m.v);
+        const vec2 damped = forces_acceleration(&load, i, m.x, m.v);
+        const vec2 undamped = forces_acceleration(&free_of_it, i, m.x, m.v);
         lacking += m.model->lattice.mass[i] * vec2_dot(vec2_sub(undamped, damped), vec2_at(m.v, i));
     }
-    const double power = diagnostics_damping_power(m.model, &load, m.x, m.v);
+    const double power = diagnostics_damping_power(&load, m.x, m.v);
     assert_close(power, lacking, 1e-11 * power); /* differences of accelerations ten times as large */
-    assert_close(diagnostics_damping_power(plain.model, &free_of_it, m.x, m.v), 0.0, 0.0);
+    assert_close(diagnostics_damping_power(&free_of_it, m.x, m.v), 0.0, 0.0);
     free_moving(&m);
     free_moving(&plain);
 }
 
 static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves(void **state)
 {
-    const forces load = {.mass_damping = 3.0};
     (void)state;
     moving m = make_damped(0.0);
+    const forces load = {.model = m.model, .mass_damping = 3.0};
     m.v[0] = 100.0; /* of a fixed node */
-    const double kinetic = diagnostics_energy(m.model, gravity, m.x, m.v).kinetic;
+    const double kinetic = energy_of(m.model, m.x, m.v).kinetic;
     const double fixed = 0.5 * m.model->lattice.mass[0] * 100.0 * 100.0;
-    assert_close(diagnostics_damping_power(m.model, &load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
+    assert_close(diagnostics_damping_power(&load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
     free_moving(&m);
 }
 

@@ -328,19 +328,19 @@ static void by_default_the_boundary_may_touch(void **state)
 
 static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
 {
-    const forces down = {.gravity = {0.0, -9.81}};
     square s;
     (void)state;
     make_square(&s);
     s.lattice.flags = s.flags;
     s.lattice.velocity = s.velocity;
     dem_model *model = compile(&s);
+    const forces down = {.model = model, .gravity = {0.0, -9.81}};
     const double velocity[2 * n_nodes] = {1.0, 2.0, 0.0, 0.0, 5.0, 6.0, 0.0, 0.0};
     assert_memory_equal(dem_model_lattice(model)->velocity, velocity, sizeof velocity);
     assert_int_equal(model->n_contact_nodes, 1);
     assert_int_equal(model->contact_nodes[0], 0);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 a = forces_acceleration(model, &down, i, s.position, s.velocity);
+        const vec2 a = forces_acceleration(&down, i, s.position, s.velocity);
         assert_close(model->inverse_mass[i], i % 2 == 1 ? 0.0 : 1.0 / s.mass[i], 0.0);
         assert_int_equal(a.x == 0.0 && a.y == 0.0, i % 2 == 1);
     }
@@ -484,8 +484,7 @@ static void without_springs_spacing_and_frequency_are_zero(void **state)
 static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
 {
     const double step = 1e-6, v[2 * n_nodes] = {0};
-    const forces load = {.gravity = {0.5, -9.81}};
-    const double *gravity = load.gravity;
+    const double gravity[2] = {0.5, -9.81};
     double x[2 * n_nodes];
     square s;
     (void)state;
@@ -493,17 +492,18 @@ static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void
     s.guard[0] = 30.0;
     s.lattice.area_stiffness = s.area_stiffness;
     dem_model *model = compile(&s);
+    const forces acting = {.model = model, .gravity = {gravity[0], gravity[1]}};
     memcpy(x, s.x, sizeof x);
     x[5] = 0.1;
     assert_true(triangles_node_energy(&model->triangles, 2, x) > 1.0);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 a = forces_acceleration(model, &load, i, x, v), force = forces_of_elements(model, i, x, v);
+        const vec2 a = forces_acceleration(&acting, i, x, v), force = forces_of_elements(&acting, i, x, v);
         for (int k = 0; k < 2; k++) {
             const double here = x[2 * i + k], f = k == 0 ? force.x : force.y;
             x[2 * i + k] = here + step;
-            const double above = forces_node_energy(model, gravity, i, x);
+            const double above = forces_node_energy(&acting, i, x);
             x[2 * i + k] = here - step;
-            const double below = forces_node_energy(model, gravity, i, x);
+            const double below = forces_node_energy(&acting, i, x);
             x[2 * i + k] = here;
             assert_close(f + s.mass[i] * gravity[k], (below - above) / (2.0 * step), 1e-6);
             assert_close((k == 0 ? a.x : a.y) * s.mass[i], f + s.mass[i] * gravity[k], 1e-12);
@@ -517,13 +517,13 @@ static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void
 static void damping_of_springs_and_mass_slow_a_node(void **state)
 {
     const double v[2 * n_nodes] = {0.0, 0.0, 3.0, 4.0};
-    const forces load = {.gravity = {0.0, -10.0}, .mass_damping = 0.5};
     square s;
     (void)state;
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
     dem_model *model = compile(&s);
-    const vec2 force = forces_of_elements(model, 1, s.x, v), a = forces_acceleration(model, &load, 1, s.x, v);
+    const forces acting = {.model = model, .gravity = {0.0, -10.0}, .mass_damping = 0.5};
+    const vec2 force = forces_of_elements(&acting, 1, s.x, v), a = forces_acceleration(&acting, 1, s.x, v);
     assert_close(force.x, -3.0, 0.0);
     assert_close(force.y, -8.0, 0.0);
     assert_close(a.x, -3.0 / 2.0 - 0.5 * 3.0, 0.0);

@@ -168,11 +168,12 @@ static void the_sum_over_nodes_is_minus_that_of_places_times_forces(void **state
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_model *model = make_holed(0.02, 0.45);
     double *v = calloc(2 * (size_t)model->lattice.n_nodes, sizeof *v);
+    const forces acting = {.model = model};
     assert_non_null(v);
     for (int trial = 0; trial < 5; trial++) {
         double *x = stir(model, 0.2, 0.3, rng), total[3], expected[4] = {0.0, 0.0, 0.0, 0.0}, size = 0.0;
         for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
-            const vec2 f = forces_of_elements(model, i, x, v), at = vec2_at(x, i);
+            const vec2 f = forces_of_elements(&acting, i, x, v), at = vec2_at(x, i);
             expected[0] -= at.x * f.x;
             expected[1] -= at.y * f.y;
             expected[2] -= at.x * f.y;

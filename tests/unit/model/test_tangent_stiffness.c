@@ -65,6 +65,7 @@ static void it_is_the_derivative_of_the_forces_about_any_state(void **state)
         dem_model *model = make_block(trial % 2 == 0 ? 0.1 : 0.45);
         const dem_index n = model->lattice.n_nodes;
         const double step = 1e-7 * spacing;
+        const forces acting = {.model = model};
         double *x = squeezed(model, trial), *u = random_field(model, 100 + trial, 1.0), *out = zeros(model);
         double *above = zeros(model), *below = zeros(model), *still = zeros(model);
         for (dem_index k = 0; k < 2 * n; k++) {
@@ -75,7 +76,7 @@ static void it_is_the_derivative_of_the_forces_about_any_state(void **state)
         tangent_apply(model, x, u, out);
         for (dem_index i = 0; i < n; i++) {
             const vec2 change =
-                vec2_sub(forces_of_elements(model, i, below, still), forces_of_elements(model, i, above, still));
+                vec2_sub(forces_of_elements(&acting, i, below, still), forces_of_elements(&acting, i, above, still));
             assert_close(out[2 * i], change.x / (2.0 * step), 1e-6 * 1e7);
             assert_close(out[2 * i + 1], change.y / (2.0 * step), 1e-6 * 1e7);
         }
