@@ -201,25 +201,19 @@ static void put_node(const dense_output *p, double t, dem_index i, double *state
 }
 
 /* A node and all whose positions its force depends on. */
-static void put_around(const dem_model *model, const dense_output *p, double t, dem_index i, double *state)
+static void put_around(const forces *f, const dense_output *p, double t, dem_index i, double *state)
 {
-    const springs *s = &model->springs;
-    const triangles *tri = &model->triangles;
     put_node(p, t, i, state);
-    for (dem_index q = s->row[i]; q < s->row[i + 1]; q++) put_node(p, t, s->neighbour[q], state);
-    for (dem_index q = tri->row[i]; q < tri->row[i + 1]; q++) {
-        put_node(p, t, tri->next[q], state);
-        put_node(p, t, tri->last[q], state);
-    }
+    for (forces_neighbours j = forces_neighbours_of(f, i); forces_next_neighbour(&j);) put_node(p, t, j.node, state);
 }
 
 void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
 {
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &r->candidates[m];
-        put_around(r->scene->model, p, t, candidate->node, state);
+        put_around(r->scene->forces, p, t, candidate->node, state);
         if (!candidate_is_edge(candidate)) continue;
-        put_around(r->scene->model, p, t, candidate->other, state);
+        put_around(r->scene->forces, p, t, candidate->other, state);
         if (candidate->previous >= 0) put_node(p, t, candidate->previous, state);
         if (candidate->next >= 0) put_node(p, t, candidate->next, state);
     }

@@ -159,7 +159,7 @@ static bool has_moved(const event_queue *q, dem_index group)
 static void renew(const event_queue *q, dem_index i, const double *y)
 {
     const contact_set *c = &q->automaton->set;
-    const unsigned held = q->correction.rule.held != NULL ? q->correction.rule.held[i] : 0;
+    const unsigned held = forces_held(c->scene.forces, i);
     const double *v = y + state_velocities(scene_layout(&c->scene));
     double *a = q->changed.f1 + state_velocities(scene_layout(&c->scene));
     const bool grouped = contact_set_group_at(c, i) >= 0;
@@ -195,8 +195,6 @@ static dem_status renew_beside(event_queue *q, dem_index i, const double *y)
 static dem_status renew_end(event_queue *q)
 {
     contact_set *c = &q->automaton->set;
-    const springs *s = &c->scene.model->springs;
-    const triangles *t = &c->scene.model->triangles;
     const double *y1 = q->changed.y1;
     for (dem_index g = 0; g < c->forces.n_groups; g++)
         contact_forces_solve(&c->forces, c->forces.groups[g], scene_state_at(&c->scene, q->step->t1, y1));
@@ -204,11 +202,8 @@ static dem_status renew_end(event_queue *q)
         const dem_index i = q->changed.list[e].node;
         if (i >= c->scene.model->lattice.n_nodes) continue;
         renew(q, i, y1);
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(renew_beside(q, s->neighbour[p], y1));
-        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-            TRY(renew_beside(q, t->next[p], y1));
-            TRY(renew_beside(q, t->last[p], y1));
-        }
+        for (forces_neighbours j = forces_neighbours_of(c->scene.forces, i); forces_next_neighbour(&j);)
+            TRY(renew_beside(q, j.node, y1));
     }
     return renew_books(q);
 }

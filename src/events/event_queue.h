@@ -32,8 +32,8 @@ typedef struct event_queue {
     dem_index n_stops; /* times at which something happened */
 } event_queue;
 
-/** Borrows the contact, and what the rule points at. `controlled`: a step is rejected for an error above 1. Must stay
- *  where it is. Free with event_queue_destroy(). */
+/** Borrows the contact. `controlled`: a step is rejected for an error above 1. Must stay where it is. Free with
+ *  event_queue_destroy(). */
 dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled);
 void event_queue_destroy(event_queue *q);
 

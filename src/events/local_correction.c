@@ -11,7 +11,7 @@ enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stage
 
 dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule)
 {
-    const bool damped = set->scene.model->springs.viscosity != NULL;
+    const bool damped = forces_couple_velocities(set->scene.forces);
     local_correction p = {.rule = *rule};
     TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
@@ -113,37 +113,16 @@ static dem_status add_rate(local_correction *p, dem_index place, int stage, doub
     return DEM_OK;
 }
 
-/* Whether there is anything but contacts in the books. */
-static bool has_powers(const local_correction *p)
+static const forces *acting(const local_correction *p)
 {
-    const contact_scene *scene = &p->near.set->scene;
-    const forces *f = scene->forces;
-    return p->rule.held != NULL || scene->model->springs.viscosity != NULL || f->mass_damping > 0.0 ||
-           f->external != NULL;
+    return p->near.set->scene.forces;
 }
 
-/* What damping takes at node j of the ball, and what is put in from outside, W; of these what no event changes is left
- * out. The forces from outside are those asked for last, at the same state. */
-static vec2 node_powers(const local_correction *p, dem_index j, const double *x, const double *v)
+/* Power of the forces on node j of the ball; those from outside are those asked for last, at the same state. */
+static forces_power node_power(const local_correction *p, dem_index j, const double *x, const double *v)
 {
-    const dem_index i = p->near.nodes[j].i;
-    const contact_scene *scene = &p->near.set->scene;
-    const dem_model *model = scene->model;
-    const forces *f = scene->forces;
-    const vec2 vi = vec2_at(v, i);
-    vec2 power = {model->inverse_mass[i] > 0.0 ? f->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi) : 0.0,
-                  0.0};
-    if (model->springs.viscosity != NULL) power.x -= vec2_dot(springs_damping(&model->springs, i, x, v), vi);
-    if (f->boundaries != NULL) power.y += vec2_dot(boundary_conditions_force(f->boundaries, i, v[f->clock]), vi);
-    const vec2 push = f->external != NULL ? vec2_at(f->external->value, j) : (vec2){0.0, 0.0};
-    if (f->external != NULL) power.y += vec2_dot(push, vi);
-    const int held = p->rule.held != NULL ? p->rule.held[i] : 0;
-    if (held != 0) {
-        const vec2 a = vec2_along(forces_own_acceleration(f, i, x, v), model->inverse_mass[i], push);
-        if (held & DEM_COMPONENT_X) power.y -= model->lattice.mass[i] * a.x * vi.x;
-        if (held & DEM_COMPONENT_Y) power.y -= model->lattice.mass[i] * a.y * vi.y;
-    }
-    return power;
+    const external_force *c = acting(p)->external;
+    return forces_node_power(acting(p), p->near.nodes[j].i, c != NULL ? vec2_at(c->value, j) : (vec2){0.0, 0.0}, x, v);
 }
 
 /* Adds the rates of the books that come from the patch, in a state whose contact forces are known. */
@@ -164,12 +143,11 @@ static dem_status add_rates(local_correction *p, int stage, double sign, scene_s
                 totals[STATE_FRICTION] += of.power;
             }
     }
-    if (has_powers(p))
-        for (dem_index j = 0; j < p->near.end[rings]; j++) {
-            const vec2 powers = node_powers(p, j, state.x, state.v);
-            totals[STATE_DAMPING] += powers.x;
-            totals[STATE_WORK] += powers.y;
-        }
+    for (dem_index j = 0; j < p->near.end[rings] && forces_have_power(acting(p)); j++) {
+        const forces_power power = node_power(p, j, state.x, state.v);
+        totals[STATE_DAMPING] += power.damping;
+        totals[STATE_WORK] += power.work;
+    }
     for (dem_index k = 0; k < state_n_total_rows(l); k++)
         TRY(add_rate(p, state_total_rows(l) + k, stage, sign, vec2_at(totals, k)));
     return DEM_OK;
@@ -186,7 +164,7 @@ static double stage_time(const local_correction *p, const dense_output *step, in
 static void put_time(const local_correction *p, const dense_output *step, int stage, double *y)
 {
     const dem_index row = state_time_row(&step->layout);
-    if (!forces_are_driven(p->near.set->scene.forces)) return;
+    if (!forces_are_driven(acting(p))) return;
     dense_output_velocity(step, stage_time(p, step, stage), row,
                           y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }
@@ -203,7 +181,7 @@ static void fetch_stage(local_correction *p, int stage, dem_index n)
 /* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the books. */
 static bool needs_state(const local_correction *p)
 {
-    return !p->near.plain || p->near.n_groups > 0 || has_powers(p);
+    return !p->near.plain || p->near.n_groups > 0 || forces_have_power(acting(p));
 }
 
 static dem_status open_stage(local_correction *p, const dense_output *step, int stage, double *y)
@@ -317,8 +295,8 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
     neighbourhood_accelerate(&p->near, rings, &s, p->changed[2]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++)
         p->da[stage][k] = k < 2 * p->near.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
-    for (dem_index k = 0; k < 2 * n_moving(p) && p->rule.held != NULL; k++)
-        if (p->rule.held[p->near.nodes[k / 2].i] & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
+    for (dem_index k = 0; k < 2 * n_moving(p) && acting(p)->boundaries != NULL; k++)
+        if (forces_held(acting(p), p->near.nodes[k / 2].i) & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
     return add_rates(p, stage, 1.0, scene_state_at(&p->near.set->scene, s.t, y));
 }
 
@@ -333,7 +311,7 @@ static motion_change jump_at(const local_correction *p, int stage, dem_index j)
  * slope that is wrong by more would turn it back at once, and again at every attempt. */
 static vec2 change_of_slope(const local_correction *p, dem_index j, const motion_polynomial *motion)
 {
-    const unsigned held = p->rule.held != NULL ? p->rule.held[p->near.nodes[j].i] : 0;
+    const unsigned held = forces_held(acting(p), p->near.nodes[j].i);
     const vec2 after = vec2_add(vec2_at(p->a[0], j), vec2_at(p->da[0], j));
     const double per_h = p->h > 0.0 ? 1.0 / p->h : 0.0;
     const vec2 change = {after.x - per_h * motion->c[0][1][1], after.y - per_h * motion->c[1][1][1]};

@@ -18,7 +18,6 @@ enum { LOCAL_CORRECTION_STAGES = 6 };
 typedef struct local_correction_rule {
     int order;                             /* of the method that the step is of */
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
-    const unsigned char *held; /* [n_nodes] components that boundaries prescribe, as they have it; or NULL */
 } local_correction_rule;
 
 typedef struct local_correction {
@@ -40,7 +39,7 @@ typedef struct local_correction {
     double *changed[3];                   /* x, v, x'' with it at a stage */
 } local_correction;
 
-/** Borrows the sites, and what the rule points at. Free with local_correction_destroy(). */
+/** Borrows the sites. Free with local_correction_destroy(). */
 dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 

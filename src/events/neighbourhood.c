@@ -15,7 +15,7 @@ dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_ring
     neighbourhood b = {.set = set, .n_rings = n_rings, .number = malloc((size_t)n * sizeof *b.number)};
     CHECK(b.number != NULL, DEM_ERROR_MEMORY, "out of memory for the neighbours of %lld nodes", (long long)n);
     for (dem_index i = 0; i < n; i++) b.number[i] = -1;
-    b.plain = model->springs.viscosity == NULL && model->triangles.row[n] == 0 && set->scene.forces->boundaries == NULL;
+    b.plain = forces_are_plain(set->scene.forces);
     *out = b;
     return DEM_OK;
 }
@@ -44,13 +44,8 @@ static dem_status add_node(neighbourhood *b, dem_index i)
 
 static dem_status add_neighbours(neighbourhood *b, dem_index i)
 {
-    const springs *s = &b->set->scene.model->springs;
-    const triangles *t = &b->set->scene.model->triangles;
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(add_node(b, s->neighbour[p]));
-    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        TRY(add_node(b, t->next[p]));
-        TRY(add_node(b, t->last[p]));
-    }
+    for (forces_neighbours j = forces_neighbours_of(b->set->scene.forces, i); forces_next_neighbour(&j);)
+        TRY(add_node(b, j.node));
     return DEM_OK;
 }
 
@@ -204,15 +199,10 @@ static void pull(const neighbourhood *b, int rings, const double *x, double *f)
 
 static void accelerate_plain(const neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
-    const contact_scene *scene = &b->set->scene;
-    const forces *f = scene->forces;
+    const forces *f = b->set->scene.forces;
     pull(b, rings, s->x, a);
-    for (dem_index j = 0; j < b->end[rings]; j++) {
-        const double inverse_mass = scene->model->inverse_mass[b->nodes[j].i];
-        const vec2 weighed = vec2_along((vec2){f->gravity[0], f->gravity[1]}, inverse_mass, vec2_at(a, j));
-        const vec2 damped = vec2_along(weighed, -f->mass_damping, vec2_at(s->v, j));
-        vec2_put(a, j, inverse_mass > 0.0 ? damped : (vec2){0.0, 0.0});
-    }
+    for (dem_index j = 0; j < b->end[rings]; j++)
+        vec2_put(a, j, forces_acceleration_by(f, b->nodes[j].i, vec2_at(a, j), vec2_at(s->v, j)));
 }
 
 void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v)
@@ -233,8 +223,7 @@ void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_s
         vec2_put(a, j, forces_own_acceleration(f, b->nodes[j].i, s->y, v));
     neighbourhood_push(b, rings, v[f->clock], s->x, s->v);
     for (dem_index j = 0; j < b->end[rings] && f->external != NULL; j++)
-        vec2_put(a, j,
-                 vec2_along(vec2_at(a, j), scene->model->inverse_mass[b->nodes[j].i], vec2_at(f->external->value, j)));
+        vec2_put(a, j, forces_with_external(f, b->nodes[j].i, vec2_at(a, j), vec2_at(f->external->value, j)));
     for (dem_index g = 0; g < b->n_groups; g++)
         if (b->groups[g].ring <= rings)
             contact_forces_solve(&b->set->forces, b->groups[g].group, (scene_state){s->t, s->y, v});

@@ -17,17 +17,6 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     return energy;
 }
 
-double diagnostics_damping_power(const forces *f, const double *x, const double *v)
-{
-    const dem_model *model = f->model;
-    double twice_kinetic = 0.0; /* of the nodes that move */
-    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
-        const vec2 vi = vec2_at(v, i);
-        if (model->inverse_mass[i] > 0.0) twice_kinetic += model->lattice.mass[i] * vec2_dot(vi, vi);
-    }
-    return springs_damping_power(&model->springs, x, v) + f->mass_damping * twice_kinetic;
-}
-
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
 {
     const dem_lattice *l = &model->lattice;

@@ -8,9 +8,6 @@
 /** Kinetic, elastic, area, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v);
 
-/** Power that damping takes, of springs and masses, W, >= 0. */
-double diagnostics_damping_power(const forces *f, const double *x, const double *v);
-
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v);
 
 dem_strain diagnostics_strain(const forces *f, const double *x);

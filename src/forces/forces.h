@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on the nodes of one simulation, node by node. The sweep over all nodes (kernel.c) gives the same bits. */
+/* What acts on the nodes of one simulation, contact with obstacles apart: force and acceleration of a node, whom they
+ * depend on, their power and the energy that they store. Here it goes node by node; the sweep over all nodes (kernel.c)
+ * and the springs near an event (events/neighbourhood.c) evaluate the same terms, the sweep with equal bits. */
 #ifndef DEM_FORCES_FORCES_H
 #define DEM_FORCES_FORCES_H
 
@@ -12,16 +14,87 @@ typedef struct forces {
     const dem_model *model;
     double gravity[2];                     /* m/s^2 */
     double mass_damping;                   /* 1/s */
-    const boundary_conditions *boundaries; /* NULL: no forces on nodes */
+    const boundary_conditions *boundaries; /* NULL: none */
     external_force *external;              /* NULL: none from outside */
     dem_index clock;                       /* where the time stands among the velocities */
 } forces;
 
+/* ---- what it depends on ---- */
+
+/** Whether there are forces on nodes that boundary conditions give. */
+static inline bool forces_push(const forces *f)
+{
+    return f->boundaries != NULL && f->boundaries->first != NULL;
+}
+
 /** Whether any of it depends on time. */
 static inline bool forces_are_driven(const forces *f)
 {
-    return f->boundaries != NULL || f->external != NULL;
+    return forces_push(f) || f->external != NULL;
 }
+
+/** Whether the force on a node depends on the velocities of its neighbours. */
+static inline bool forces_couple_velocities(const forces *f)
+{
+    return f->model->springs.viscosity != NULL;
+}
+
+/** Whether springs or masses are damped. */
+static inline bool forces_are_damped(const forces *f)
+{
+    return forces_couple_velocities(f) || f->mass_damping > 0.0;
+}
+
+/** Whether undamped springs are all that acts between nodes, and forces_own_acceleration() does not depend on time. */
+static inline bool forces_are_plain(const forces *f)
+{
+    const triangles *t = &f->model->triangles;
+    return !forces_couple_velocities(f) && t->row[t->n_nodes] == 0 && !forces_push(f);
+}
+
+/** Whether forces_node_power() may be other than 0. */
+static inline bool forces_have_power(const forces *f)
+{
+    return forces_are_damped(f) || f->boundaries != NULL || f->external != NULL;
+}
+
+/** Components of the motion of node i that are prescribed. */
+static inline unsigned forces_held(const forces *f, dem_index i)
+{
+    return f->boundaries != NULL ? f->boundaries->held[i] : 0;
+}
+
+/** Goes through the nodes on whose positions, and velocities, the force on a node depends besides its own: the other
+ *  ends of its springs, then the other corners of its triangles; some come more than once. */
+typedef struct forces_neighbours {
+    const dem_model *model;
+    dem_index node;                /* the one it is at */
+    dem_index spring, springs_end; /* slots of springs that are to come */
+    dem_index corner, corners_end; /* two to each slot of a triangle */
+} forces_neighbours;
+
+static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index i)
+{
+    const springs *s = &f->model->springs;
+    const triangles *t = &f->model->triangles;
+    return (forces_neighbours){f->model, -1, s->row[i], s->row[i + 1], 2 * t->row[i], 2 * t->row[i + 1]};
+}
+
+/** Goes to the next one.  \return whether there is one */
+static inline bool forces_next_neighbour(forces_neighbours *n)
+{
+    const triangles *t = &n->model->triangles;
+    if (n->spring < n->springs_end) {
+        n->node = n->model->springs.neighbour[n->spring++];
+        return true;
+    }
+    if (n->corner == n->corners_end) return false;
+    n->node = (n->corner & 1 ? t->last : t->next)[n->corner / 2];
+    n->corner++;
+    return true;
+}
+
+/* ---- accelerations ---- */
 
 /** Force of springs, area term and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
 static inline vec2 forces_of_elements(const forces *f, dem_index i, const double *x, const double *v)
@@ -33,17 +106,30 @@ static inline vec2 forces_of_elements(const forces *f, dem_index i, const double
     return vec2_add(bonds, triangles_force(&model->triangles, i, x));
 }
 
+/** Acceleration of node i with velocity v, m/s^2, by a force on it, weight and drag of its mass: (2). A fixed node has
+ *  none. */
+static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 force, vec2 v)
+{
+    const double inverse_mass = f->model->inverse_mass[i];
+    if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
+    const vec2 a = vec2_along((vec2){f->gravity[0], f->gravity[1]}, inverse_mass, force);
+    return vec2_along(a, -f->mass_damping, v);
+}
+
 /** Acceleration of node i, m/s^2, free of contact: (4), weight (2) included, without forces from outside. A fixed node
  *  has none. */
 static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
-    const double inverse_mass = f->model->inverse_mass[i];
-    if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
-    const vec2 drag = vec2_scale(-f->mass_damping, vec2_at(v, i));
+    if (f->model->inverse_mass[i] == 0.0) return (vec2){0.0, 0.0};
     vec2 force = forces_of_elements(f, i, x, v);
-    if (f->boundaries != NULL) force = vec2_add(force, boundary_conditions_force(f->boundaries, i, v[f->clock]));
-    const vec2 a = vec2_along((vec2){f->gravity[0], f->gravity[1]}, inverse_mass, force);
-    return vec2_add(a, drag);
+    if (forces_push(f)) force = vec2_add(force, boundary_conditions_force(f->boundaries, i, v[f->clock]));
+    return forces_acceleration_by(f, i, force, vec2_at(v, i));
+}
+
+/** That with a force from outside, N. */
+static inline vec2 forces_with_external(const forces *f, dem_index i, vec2 own, vec2 external)
+{
+    return vec2_along(own, f->model->inverse_mass[i], external);
 }
 
 /** All of it. */
@@ -52,8 +138,29 @@ static inline vec2 forces_acceleration(const forces *f, dem_index i, const doubl
     const vec2 a = forces_own_acceleration(f, i, x, v);
     if (f->external == NULL) return a;
     const vec2 force = external_force_of_node(f->external, v[f->clock], i, vec2_at(x, i), vec2_at(v, i));
-    return vec2_along(a, f->model->inverse_mass[i], force);
+    return forces_with_external(f, i, a, force);
 }
+
+/** Puts the prescribed components at t into velocities u and accelerations a [n_nodes][2]; v has the velocities, and
+ *  the forces from outside are those that have been asked for last, for all nodes.
+ *  \return the power, W, that this takes and that the forces on nodes put in */
+double forces_prescribe(const forces *f, double t, const double *v, double *u, double *a);
+
+/* ---- power and energy ---- */
+
+/** W. */
+typedef struct forces_power {
+    double damping; /* taken by springs and masses */
+    double work;    /* put in by boundary conditions and from outside */
+} forces_power;
+
+/** Power of the forces on node i, of which `external` N is from outside. What prescribed components take is without
+ *  that of their own acceleration, which is given. The sum over all nodes, with that, is forces_damping_power() and
+ *  what forces_prescribe() returns, to rounding. */
+forces_power forces_node_power(const forces *f, dem_index i, vec2 external, const double *x, const double *v);
+
+/** Power that damping takes, of all springs and masses, W, >= 0. */
+double forces_damping_power(const forces *f, const double *x, const double *v);
 
 /** Energy that hangs on the position of node i, J: its springs, its triangles and its weight. */
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)

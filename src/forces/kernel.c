@@ -224,7 +224,7 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
         sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
-    for (dem_index p = 0; f->boundaries != NULL && p < f->boundaries->n; p++) {
+    for (dem_index p = 0; forces_push(f) && p < f->boundaries->n; p++) {
         const boundary_condition *push = &f->boundaries->list[p];
         for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
             sum += accelerate_row(k, f, y, push->nodes[j]);
@@ -233,13 +233,13 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
 }
 
 /* What comes from outside is asked for all nodes at once. */
-static double push(const kernel *k, const forces *f, const kernel_state *y)
+static double push(const forces *f, const kernel_state *y)
 {
     external_force *c = f->external;
     double sum = 0.0;
     external_force_evaluate(c, &(dem_force_query){y->v[f->clock], c->n_nodes, c->all, y->x, y->v});
     for (dem_index i = 0; i < c->n_nodes; i++) {
-        const vec2 a = vec2_along(vec2_at(y->a, i), k->model->inverse_mass[i], vec2_at(c->value, i));
+        const vec2 a = forces_with_external(f, i, vec2_at(y->a, i), vec2_at(c->value, i));
         vec2_put(y->a, i, a);
         sum += a.x + a.y;
     }
@@ -248,7 +248,7 @@ static double push(const kernel *k, const forces *f, const kernel_state *y)
 
 bool kernel_can_fuse(const kernel *k, const forces *f)
 {
-    return k->packed == NULL && !k->model->layout.damped && f->mass_damping == 0.0 && !forces_are_driven(f);
+    return k->packed == NULL && !forces_are_damped(f) && !forces_are_driven(f);
 }
 
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
@@ -279,7 +279,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, f, y);
-    return f->external != NULL ? sum + push(k, f, y) : sum;
+    return f->external != NULL ? sum + push(f, y) : sum;
 }
 
 static double guard_bound(const kernel *k, const double *x, dem_index q)

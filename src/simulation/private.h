@@ -46,7 +46,6 @@ struct dem_simulation {
     const double *seen;    /* y or frame */
     dem_contact *contacts; /* [2 n_candidates + 2 n_edges] closed ones, as seen */
     run_measures *measures;
-    bool damped;  /* whether springs or masses are */
     int unlooked; /* steps since overlaps were looked for */
     dem_index events;
     dem_index unrecorded;     /* steps since the last record */

@@ -3,7 +3,6 @@
 #include "simulation/right_hand_side.h"
 
 #include "base/status.h"
-#include "forces/diagnostics.h"
 
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
@@ -25,7 +24,7 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
     automaton_add_rates(&s->automaton, t, y, a);
-    if (s->damped) a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(&s->forces, y, v);
+    a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->forces, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
@@ -41,8 +40,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, t, y, a);
-    const double work = boundary_conditions_prescribe(&s->boundaries, s->model->lattice.mass, t, v, u, a);
-    fill_rates(s, t, y, a, s->external != NULL ? work + external_force_power(s->external, v) : work);
+    fill_rates(s, t, y, a, forces_prescribe(&s->forces, t, v, u, a));
     if (external_force_failed(s->external)) return 2;
     if (isfinite(sum)) return 0;
     (void)name_culprit(s, t, y, a);

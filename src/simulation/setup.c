@@ -45,7 +45,7 @@ static forces forces_of(const dem_simulation *s)
     return (forces){.model = s->model,
                     .gravity = {o->gravity[0], o->gravity[1]},
                     .mass_damping = o->mass_damping,
-                    .boundaries = s->boundaries.first != NULL ? &s->boundaries : NULL,
+                    .boundaries = s->boundaries.n > 0 ? &s->boundaries : NULL,
                     .external = s->external,
                     .clock = state_total_index(&s->layout, STATE_TIME)};
 }
@@ -68,12 +68,11 @@ static dem_status set_up(dem_simulation *s)
     TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
-    s->damped = model->springs.viscosity != NULL || o->mass_damping > 0.0;
     TRY(automaton_create(&s->automaton, &s->forces, &rule));
     TRY(automaton_check_start(&s->automaton, 0.0, s->y));
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
-    const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, s->boundaries.held};
+    const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale};
     if (run_is_local(s)) TRY(event_queue_create(&s->queue, &s->automaton, &near, !(o->fixed_step > 0.0)));
     const ode_problem problem = right_hand_side_problem(s);
     TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));

@@ -118,7 +118,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     spread(p, y, y0);
     assert_ok(automaton_create(&c, &p->acting, &p->rule));
     assert_ok(automaton_start(&c, t, y0, &nobody));
-    assert_ok(event_queue_create(&q, &c, &(local_correction_rule){5, one[0], one[1], NULL}, true));
+    assert_ok(event_queue_create(&q, &c, &(local_correction_rule){5, one[0], one[1]}, true));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
     (void)derive(t, y0, f0, p);

@@ -41,7 +41,7 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     r->acting = (forces){.model = r->model, .gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}};
     assert_ok(automaton_create(&r->c, &r->acting, &rule));
     assert_ok(event_queue_create(
-        &r->q, &r->c, &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0, NULL},
+        &r->q, &r->c, &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0},
         error != NULL));
 }
 

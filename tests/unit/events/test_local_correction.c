@@ -10,7 +10,6 @@
 
 #include "contact/automaton_step.h"
 #include "events/local_correction.h"
-#include "forces/diagnostics.h"
 #include "verification/support.h"
 
 static const double spacing = 0.01, start = 2e-4, position_error = 1e-8, velocity_error = 1e-5;
@@ -51,7 +50,7 @@ static void derive(const step *s, automaton *c, double t, const double *y, doubl
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
     automaton_add_rates(c, 0.0, y, a);
-    a[state_total_index(l, STATE_DAMPING)] = diagnostics_damping_power(&s->acting, y, v);
+    a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->acting, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
@@ -202,7 +201,7 @@ static void open_step(step *s, kind k)
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
     assert_ok(local_correction_create(&s->correction, &s->c.set,
-                                      &(local_correction_rule){5, position_error, velocity_error, s->b.held}));
+                                      &(local_correction_rule){5, position_error, velocity_error}));
     assert_ok(changed_motion_create(&s->changed, scene_layout(&s->c.set.scene)));
 }
 
@@ -601,7 +600,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     dem_lattice_free(&lattice);
     const forces acting = {.model = model, .gravity = {0.0, -g}};
     assert_ok(automaton_create(&c, &acting, &rule));
-    assert_ok(local_correction_create(&near, &c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
+    assert_ok(local_correction_create(&near, &c.set, &(local_correction_rule){5, 1.0, 1.0}));
     assert_ok(changed_motion_create(&tr, &rule.layout));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
@@ -655,7 +654,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
     s.acting = (forces){.model = s.model};
     assert_ok(automaton_create(&s.c, &s.acting, &rule));
-    assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0, NULL}));
+    assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0}));
     assert_ok(changed_motion_create(&s.changed, &rule.layout));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);

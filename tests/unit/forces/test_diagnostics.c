@@ -339,7 +339,7 @@ static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
     const forces loads[2] = {{.model = m.model, .gravity = {0.5, -10.0}},
                              {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0}};
     for (int k = 0; k < 2; k++) {
-        const double power = diagnostics_damping_power(&loads[k], m.x, m.v);
+        const double power = forces_damping_power(&loads[k], m.x, m.v);
         assert_true(power > 100.0);
         assert_close(power, -power_of_damping_forces(&m, loads[k].mass_damping), 1e-12 * power);
     }
@@ -359,9 +359,9 @@ static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
         const vec2 undamped = forces_acceleration(&free_of_it, i, m.x, m.v);
         lacking += m.model->lattice.mass[i] * vec2_dot(vec2_sub(undamped, damped), vec2_at(m.v, i));
     }
-    const double power = diagnostics_damping_power(&load, m.x, m.v);
+    const double power = forces_damping_power(&load, m.x, m.v);
     assert_close(power, lacking, 1e-11 * power); /* differences of accelerations ten times as large */
-    assert_close(diagnostics_damping_power(&free_of_it, m.x, m.v), 0.0, 0.0);
+    assert_close(forces_damping_power(&free_of_it, m.x, m.v), 0.0, 0.0);
     free_moving(&m);
     free_moving(&plain);
 }
@@ -374,7 +374,7 @@ static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_move
     m.v[0] = 100.0; /* of a fixed node */
     const double kinetic = energy_of(m.model, m.x, m.v).kinetic;
     const double fixed = 0.5 * m.model->lattice.mass[0] * 100.0 * 100.0;
-    assert_close(diagnostics_damping_power(&load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
+    assert_close(forces_damping_power(&load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
     free_moving(&m);
 }
 

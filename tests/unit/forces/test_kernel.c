@@ -106,9 +106,11 @@ static void check_fused_step(scene *s, const forces *load, dem_kernel kind, int 
 
 static bool can_fuse(const scene *s, const forces *load)
 {
+    forces acting = *load;
+    acting.model = s->model;
     kernel k;
     assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
-    const bool may = kernel_can_fuse(&k, load);
+    const bool may = kernel_can_fuse(&k, &acting);
     kernel_destroy(&k);
     return may;
 }
@@ -139,7 +141,7 @@ static void check_load(scene *s, const forces *load)
         for (int n_threads = 1; n_threads <= 3; n_threads++)
             if (dem_kernel_check(kind) == DEM_OK) {
                 check_kernel(s, &acting, kind, n_threads);
-                if (can_fuse(s, &acting)) check_fused_step(s, &acting, kind, n_threads);
+                if (can_fuse(s, load)) check_fused_step(s, &acting, kind, n_threads);
                 check_stiffening(s, kind, n_threads);
             }
 }
@@ -408,7 +410,8 @@ static void triangles_may_reach_further_than_springs(void **state)
 /* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
 static void what_depends_on_more_than_positions_is_not_fused(void **state)
 {
-    const boundary_conditions pushes = {0};
+    dem_index none = -1;
+    const boundary_conditions pushes = {.first = &none};
     const forces plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
     (void)state;
     for (int k = 0; k < 3; k++) {
