@@ -4,6 +4,7 @@
 
 #include <float.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "contact/candidate_resolve.h"
 #include "contact/early_reflection.h"
@@ -76,7 +77,8 @@ static dem_status settle_until_done(automaton *c, dem_index around, contact_inst
     c->solved = NAN;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
         changed = false;
-        TRY(around < 0 ? settle_all(s, now, &changed) : settle_around(s, around, now, &changed));
+        TRY(around < 0 ? reduce_status(settle_all(s, now, &changed), 0.0) : settle_around(s, around, now, &changed));
+        if (around < 0) changed = reduce_any(changed);
     }
     CHECK(c->idle <= s->scene.rule.max_impacts, DEM_ERROR_CONTACT,
           "more than %lld contact events in a row changed nothing, at t = %.9g s", (long long)s->scene.rule.max_impacts,
@@ -110,7 +112,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     const dem_index impacts = s->ledger.counts.impacts;
     TRY(settle_until_done(c, -1, &now));
-    if (s->scene.rule.window > 0.0 && s->ledger.counts.impacts > impacts) early_reflection(s, &now);
+    if (s->scene.rule.window > 0.0 && reduce_any(s->ledger.counts.impacts > impacts)) early_reflection(s, &now);
     straighten_nodes(s, t, now.x);
     contact_set_solve_all(s, instant_state(&now));
     contact_set_store_all(s);
@@ -149,18 +151,25 @@ static double extent(const contact_set *c, dem_index k, dem_index feature, const
     return fmax(vec2_norm(spot->a), fmax(vec2_norm(line.start), vec2_norm(line.end)));
 }
 
+/* Closes what touches. */
+static dem_status touch_all(contact_set *s, contact_instant *now)
+{
+    for (dem_index k = 0; k < s->n; k++)
+        for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
+            const candidate_positions spot = candidate_place(&s->list[k], now->t, now->x);
+            const contact_gap gap = candidate_gap(&s->scene, &s->list[k], &spot);
+            if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, &spot)) break;
+            TRY(candidate_resolve_touch(s, k, &gap, now));
+            if (!candidate_is_edge(&s->list[k]) || s->list[k].n_closed != 1) break;
+        }
+    return DEM_OK;
+}
+
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener)
 {
     contact_set *s = &c->set;
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
-    for (dem_index k = 0; k < s->n; k++)
-        for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
-            const candidate_positions spot = candidate_place(&s->list[k], t, now.x);
-            const contact_gap gap = candidate_gap(&s->scene, &s->list[k], &spot);
-            if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, &spot)) break;
-            TRY(candidate_resolve_touch(s, k, &gap, &now));
-            if (!candidate_is_edge(&s->list[k]) || s->list[k].n_closed != 1) break;
-        }
+    TRY(reduce_status(touch_all(s, &now), 0.0));
     const dem_status status = automaton_resolve(c, t, y, listener);
     return now.told != DEM_OK ? now.told : status;
 }
@@ -207,6 +216,13 @@ static void add_rates_of(const contact_set *s, dem_index k, scene_state state, d
     }
 }
 
+/* Rates of impulses and friction are sums over the contacts of the whole model. */
+static void reduce_rates(const state_layout *l, double *a)
+{
+    for (dem_index k = state_row(l, state_impulse(l, 0)); k <= state_total_index(l, STATE_FRICTION); k++)
+        a[k] = reduce_rounded_sum(a[k]);
+}
+
 void automaton_add_rates(const automaton *c, double t, const double *y, double *a)
 {
     const scene_state state = automaton_state(c, t, y);
@@ -214,6 +230,7 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
             add_rates_of(&c->set, k, state, a);
+    reduce_rates(scene_layout(&c->set.scene), a);
 }
 
 dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list)

@@ -2,6 +2,7 @@
 /* What happens to the contacts within a step, and after it. */
 #include "contact/automaton_step.h"
 
+#include "base/reduce.h"
 #include "contact/event_location.h"
 #include "contact/impact_group.h"
 
@@ -91,6 +92,7 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
     automaton_begin_step(c, p, state);
     for (dem_index a = 0; a < automaton_n_active(c); a++)
         first = fmin(first, automaton_next_change(c, p, automaton_active_candidate(c, a), p->t0, state));
+    first = reduce_min(first);
     if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;
     p->end = first;
@@ -124,6 +126,8 @@ bool automaton_project(automaton *c, double t, double *y)
         impact_group_stop(s, group, &now);
         any = true;
     }
+    s->straightened = reduce_max(s->straightened);
+    any = reduce_any(any);
     if (any) c->solved = NAN;
     return any;
 }

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 
 dem_status broad_phase_create(broad_phase *out, dem_index n_candidates)
@@ -27,7 +28,7 @@ double broad_phase_speed(const contact_set *c, const double *v)
         const vec2 vi = vec2_at(v, c->list[k].node);
         square = fmax(square, vec2_dot(vi, vi));
     }
-    return sqrt(square);
+    return reduce_max(sqrt(square));
 }
 
 /* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "contact/impact_group.h"
 
@@ -226,12 +227,12 @@ static dem_status settle_end(event_queue *q)
 
 double event_queue_error(const event_queue *q)
 {
-    return isfinite(q->most) ? sqrt(q->error / q->most) : 0.0;
+    return isfinite(q->most) ? sqrt(reduce_rounded_sum(q->error) / q->most) : 0.0;
 }
 
 double event_queue_reach(const event_queue *q)
 {
-    const double error = isfinite(q->most) ? sqrt(q->ahead / q->most) : 0.0;
+    const double error = isfinite(q->most) ? sqrt(reduce_rounded_sum(q->ahead) / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
@@ -243,10 +244,13 @@ dem_status event_queue_show(event_queue *q, double t)
         event_queue_undo(q);
         look_ahead(q);
     }
+    dem_status status = DEM_OK;
     due_event due;
-    while ((due = next_of(q)).source != NULL && due.t <= t && q->error <= q->most) TRY(take(q, &due));
+    while (status == DEM_OK && (due = next_of(q)).source != NULL && due.t <= t && q->error <= q->most)
+        status = take(q, &due);
+    TRY(reduce_status(status, q->now));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
-    q->quiet = q->n_stops == 0;
+    q->quiet = !reduce_any(q->n_stops > 0);
     return q->quiet || q->settled ? DEM_OK : settle_end(q);
 }

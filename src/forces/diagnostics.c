@@ -2,6 +2,13 @@
 /* Energies, mean motions and strains of a state. */
 #include "forces/diagnostics.h"
 
+#include "base/reduce.h"
+
+static vec2 rounded_sum(vec2 own)
+{
+    return (vec2){reduce_rounded_sum(own.x), reduce_rounded_sum(own.y)};
+}
+
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
@@ -14,6 +21,8 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
         energy.kinetic += 0.5 * m * vec2_dot(vi, vi);
         energy.gravity -= m * vec2_dot(g, vec2_at(x, i));
     }
+    double *const own[] = {&energy.kinetic, &energy.elastic, &energy.area, &energy.guard, &energy.gravity};
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_rounded_sum(*own[k]);
     return energy;
 }
 
@@ -28,12 +37,13 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
         centre = vec2_along(centre, l->mass[i], vec2_at(x, i));
         momentum = vec2_along(momentum, l->mass[i], vec2_at(v, i));
     }
-    centre = vec2_scale(1.0 / mass, centre);
-    const vec2 velocity = vec2_scale(1.0 / mass, momentum);
+    mass = reduce_rounded_sum(mass);
+    centre = vec2_scale(1.0 / mass, rounded_sum(centre));
+    const vec2 velocity = vec2_scale(1.0 / mass, rounded_sum(momentum));
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (l->body[i] == body)
             spin += l->mass[i] * vec2_cross(vec2_sub(vec2_at(x, i), centre), vec2_sub(vec2_at(v, i), velocity));
-    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, spin};
+    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, reduce_rounded_sum(spin)};
 }
 
 static void measure_triangles(const dem_model *model, const double *x, dem_strain *strain)
@@ -47,6 +57,17 @@ static void measure_triangles(const dem_model *model, const double *x, dem_strai
         strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
         strain->inverted += ratio <= 0.0;
     }
+    strain->area_min = reduce_min(strain->area_min);
+    strain->guarded = reduce_count(strain->guarded);
+    strain->inverted = reduce_count(strain->inverted);
+}
+
+/* The lower end of a spring, by which it is found: -1 for none. */
+static dem_index lower_end(const dem_model *model, dem_index spring)
+{
+    const dem_index *ends = &model->lattice.ends[2 * spring];
+    if (spring < 0) return -1;
+    return ends[0] < ends[1] ? ends[0] : ends[1];
 }
 
 dem_strain diagnostics_strain(const forces *f, const double *x)
@@ -66,6 +87,8 @@ dem_strain diagnostics_strain(const forces *f, const double *x)
                 strain.spring_max = s->spring[p];
             }
         }
+    reduce_least(&strain.min, &strain.spring_min, lower_end(f->model, strain.spring_min));
+    reduce_largest(&strain.max, &strain.spring_max, lower_end(f->model, strain.spring_max));
     measure_triangles(f->model, x, &strain);
     return strain;
 }
@@ -90,10 +113,15 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
         mean = vec2_along(mean, size, vec2_at(list[k].x, 0));
         weight += size;
     }
+    load.contacts = reduce_count(load.contacts);
+    weight = reduce_rounded_sum(weight);
+    sum = rounded_sum(sum);
+    mean = rounded_sum(mean);
     if (weight > 0.0) mean = vec2_scale(1.0 / weight, mean);
     for (dem_index k = 0; k < n; k++)
         if (list[k].obstacle == obstacle)
             moment += vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k]));
+    moment = reduce_rounded_sum(moment);
     const double square = vec2_dot(sum, sum);
     const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
     vec2_put(load.reaction, 0, sum);
@@ -120,8 +148,9 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
                     ? vec2_along(force, b->share[k] * boundary_condition_ramp(b, v[f->clock]), b->value)
                     : vec2_add(force, held_force(f, b, i, x, v));
     }
-    vec2_put(out.force, 0, force);
-    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)b->n_nodes, way));
+    vec2_put(out.force, 0, rounded_sum(force));
+    way = rounded_sum(way);
+    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(b->n_nodes), way));
     return out;
 }
 
@@ -143,6 +172,7 @@ double diagnostics_residual(const forces *f, const double *x, const double *v, c
         const vec2 without_drag = vec2_along(vec2_at(a, i), f->mass_damping, vec2_at(v, i));
         if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
     }
-    const double scale = largest_force(&model->springs, x);
+    largest = reduce_max(largest);
+    const double scale = reduce_max(largest_force(&model->springs, x));
     return largest > 0.0 ? largest / scale : 0.0;
 }

@@ -3,6 +3,7 @@
  * equilibrium, and the stress is the derivative of the energy over the volume. */
 #include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
@@ -59,6 +60,7 @@ static dem_status measure(loading *l)
             l->volume +=
                 h * vec2_triangle_area(vec2_at(lattice->x, c[0]), vec2_at(lattice->x, c[1]), vec2_at(lattice->x, c[2]));
     }
+    l->volume = reduce_rounded_sum(l->volume);
     CHECK(l->volume > 0.0, DEM_ERROR_MODEL, "the body has no triangles, whose volume its constants refer to");
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if (!is_of_body(l, i)) continue;
@@ -66,7 +68,9 @@ static dem_status measure(loading *l)
         l->centre = vec2_add(l->centre, vec2_at(lattice->x, i));
         n++;
     }
-    l->centre = vec2_scale(1.0 / (double)n, l->centre);
+    l->mass = reduce_rounded_sum(l->mass);
+    l->centre = (vec2){reduce_rounded_sum(l->centre.x), reduce_rounded_sum(l->centre.y)};
+    l->centre = vec2_scale(1.0 / (double)reduce_count(n), l->centre);
     return DEM_OK;
 }
 
@@ -91,7 +95,7 @@ static dem_status load(loading *l, int which)
         largest += force[k] * force[k];
         force[k] = -force[k];
     }
-    TRY(tangent_solve(l->model, lattice->x, l->held, accepted * sqrt(largest), force));
+    TRY(tangent_solve(l->model, lattice->x, l->held, accepted * sqrt(reduce_rounded_sum(largest)), force));
     for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) u[k] += force[k];
     tangent_apply(l->model, lattice->x, u, force);
     return DEM_OK;
@@ -102,7 +106,7 @@ static double stiffness_of(const loading *l, const double *u, const double *forc
 {
     double sum = 0.0;
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) sum += u[k] * force[k];
-    return sum / l->volume;
+    return reduce_rounded_sum(sum) / l->volume;
 }
 
 /* ---- what follows from C ---- */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/random.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "model/tangent_stiffness.h"
@@ -70,7 +71,7 @@ static double product(const lanczos *l, const double *a, const double *b)
 {
     double sum = 0.0;
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) sum += a[k] * b[k];
-    return sum;
+    return reduce_rounded_sum(sum);
 }
 
 /* Every mode is in it: random numbers; 0 where a node is fixed. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
@@ -92,6 +93,7 @@ static dem_status check_bodies(const dem_model *m)
     const dem_lattice *l = &m->lattice;
     dem_index loose = -1, empty = -1;
     for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
+    for (dem_index b = 0; b < m->n_bodies; b++) size[b] = reduce_count(size[b]);
     for (dem_index i = l->n_nodes - 1; i >= 0; i--)
         if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1) loose = i;
     for (dem_index b = m->n_bodies - 1; b >= 0; b--)
@@ -152,21 +154,24 @@ static double frequency_bound(const dem_model *m)
         const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
         const double bound = sym2_largest(sum) * m->inverse_mass[i];
-        if (!isfinite(bound)) return (double)INFINITY;
-        squared = fmax(squared, bound);
+        squared = isfinite(bound) ? fmax(squared, bound) : (double)INFINITY;
     }
-    return sqrt(squared);
+    return sqrt(reduce_max(squared));
 }
 
 static void compile_scales(dem_model *m)
 {
     const dem_lattice *l = &m->lattice;
-    for (dem_index k = 0; k < l->n_springs; k++)
-        m->spacing = k == 0 ? l->rest_length[0] : fmin(m->spacing, l->rest_length[k]);
+    double shortest = INFINITY;
+    for (dem_index k = 0; k < l->n_springs; k++) shortest = fmin(shortest, l->rest_length[k]);
+    shortest = reduce_min(shortest);
+    m->spacing = isfinite(shortest) ? shortest : 0.0;
     m->omega_max = frequency_bound(m);
+    m->n_bodies = (dem_index)reduce_max((double)m->n_bodies);
+    m->mass = reduce_rounded_sum(m->mass);
 }
 
-static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
+static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(check_lattice(lattice));
     dem_lattice_init(&m->lattice);
@@ -178,10 +183,15 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
     TRY(surface_compile(&m->surface, &m->lattice));
     TRY(stress_compile(&m->stress, &m->lattice, &m->springs));
     TRY(obstacles_compile(&m->obstacles, list, n));
-    TRY(compile_nodes(m));
+    return compile_nodes(m);
+}
+
+static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
+{
+    TRY(reduce_status(compile_parts(m, lattice, list, n), 0.0));
     compile_scales(m);
     CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
-    return check_bodies(m);
+    return reduce_status(check_bodies(m), 0.0);
 }
 
 /* ---- public ---- */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "elastic/triangles.h"
 #include "lattice/mesh_edges.h"
@@ -143,5 +144,6 @@ void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double
     if (o->n == 0) return;
     fill_cells(o, x);
     for (dem_index k = 0; k < lattice->n_triangles; k++) look_in(o, lattice, k, t, x);
+    o->found.now = reduce_count(o->found.now);
     if (o->found.now > o->found.most) o->found.most = o->found.now;
 }

@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
 
@@ -27,7 +28,7 @@ static double product(const solver *s, const double *a, const double *b)
 {
     double sum = 0.0;
     for (dem_index k = 0; k < s->n_free; k++) sum += vec2_dot(vec2_at(a, s->free[k]), vec2_at(b, s->free[k]));
-    return sum;
+    return reduce_rounded_sum(sum);
 }
 
 /* r.z with z = r times the scales */
@@ -38,7 +39,7 @@ static double scaled_product(const solver *s)
         const vec2 r = vec2_at(s->rest, s->free[k]);
         sum += s->scale[k] * vec2_dot(r, r);
     }
-    return sum;
+    return reduce_rounded_sum(sum);
 }
 
 static void advance(const solver *s, double step, double *u)
@@ -63,7 +64,7 @@ static void turn(const solver *s, double ratio)
 /* u = 0 at first, the residual is f. */
 static dem_status iterate(const solver *s, double residual, double *u)
 {
-    const dem_index most = 20 * s->n_free + 1000; /* without rounding 2 n_free would do */
+    const dem_index most = 20 * reduce_count(s->n_free) + 1000; /* without rounding 2 n_free would do */
     double size = scaled_product(s), previous = 0.0;
     for (dem_index k = 0; product(s, s->rest, s->rest) > residual * residual; k++) {
         CHECK(k < most, DEM_ERROR_MODEL, "the shape of %lld free nodes is not found in %lld iterations",

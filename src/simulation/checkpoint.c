@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/record.h"
+#include "base/reduce.h"
 #include "base/status.h"
 
 typedef struct numbers {
@@ -209,17 +210,23 @@ static dem_status check_numbers(const numbers *n)
     return DEM_OK;
 }
 
+/* What may be wrong with a record. */
+static dem_status get(dem_simulation *s, const dem_record *record, numbers *n, const double **y)
+{
+    const record_way way = {.from = record};
+    TRY(check_sizes(s, record));
+    TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
+    TRY(check_numbers(n));
+    TRY(find_state(s, record, y));
+    return get_contacts(&s->automaton.set, record);
+}
+
 dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
 {
     contact_set *c = &s->automaton.set;
-    const record_way way = {.from = record};
     const double *y = NULL;
     numbers n;
-    TRY(check_sizes(s, record));
-    TRY(pass(s, &way, &n, &c->ledger.counts));
-    TRY(check_numbers(&n));
-    TRY(find_state(s, record, &y));
-    TRY(get_contacts(c, record));
+    TRY(reduce_status(get(s, record, &n, &y), 0.0));
     c->ledger.impact = n.impact;
     c->ledger.projection = n.projection;
     c->straightened = n.straightened;

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 
 static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
@@ -53,7 +54,7 @@ dem_status observers_step(const observers *a, const dem_simulation *simulation)
         const dem_observer *o = &a->members[k].observer;
         if (o->step != NULL) status = status_first(status, o->step(o->context, simulation));
     }
-    return status;
+    return reduce_status(status, 0.0);
 }
 
 dem_status observers_record(const observers *a, const dem_simulation *simulation, dem_record *record)
@@ -63,7 +64,7 @@ dem_status observers_record(const observers *a, const dem_simulation *simulation
         const dem_observer *o = &a->members[k].observer;
         if (o->record != NULL) status = status_first(status, o->record(o->context, simulation, record));
     }
-    return status;
+    return reduce_status(status, 0.0);
 }
 
 int observers_due(const observers *a, double end, double t_end, double *t)
@@ -85,5 +86,5 @@ dem_status observers_frame(observers *a, int k, const dem_simulation *simulation
 {
     const dem_observer *o = &a->members[k].observer;
     a->members[k].next_frame++;
-    return o->frame(o->context, simulation);
+    return reduce_status(o->frame(o->context, simulation), 0.0);
 }

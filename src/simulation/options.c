@@ -2,6 +2,7 @@
 /* Validity and defaults. */
 #include "simulation/options.h"
 
+#include "base/reduce.h"
 #include "base/status.h"
 
 static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
@@ -44,6 +45,8 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
     for (dem_index k = 0; k < model->n_contact_nodes; k++)
         drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->contact_nodes[k]]));
+    speed = reduce_max(speed);
+    drop = reduce_min(drop);
     const double g = hypot(o->gravity[0], o->gravity[1]);
     return isfinite(drop) && drop > 0.0 ? fmax(speed, sqrt(2.0 * g * drop)) : speed;
 }
@@ -51,7 +54,7 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
 /* Largest rate at which damping slows anything, 1/s. */
 static double damping_rate(const dem_options *o, const dem_model *m)
 {
-    return springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass) + o->mass_damping;
+    return reduce_max(springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass)) + o->mass_damping;
 }
 
 dem_status options_fill(dem_options *o, const dem_model *model, const boundary_conditions *b)

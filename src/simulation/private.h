@@ -4,6 +4,7 @@
 #ifndef DEM_SIMULATION_PRIVATE_H
 #define DEM_SIMULATION_PRIVATE_H
 
+#include "base/reduce.h"
 #include "base/state.h"
 #include "events/event_queue.h"
 #include "forces/kernel.h"
@@ -56,6 +57,11 @@ struct dem_simulation {
     dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
     observers observers;
 };
+
+static inline bool run_force_failed(const dem_simulation *s)
+{
+    return reduce_any(external_force_failed(s->external));
+}
 
 static inline bool run_is_local(const dem_simulation *s)
 {

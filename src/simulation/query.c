@@ -2,6 +2,7 @@
 /* A state is interpolated, and what follows from it worked out, when it is first asked for. */
 #include "simulation/query.h"
 
+#include "base/reduce.h"
 #include "forces/diagnostics.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
@@ -62,11 +63,11 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
     run_measures *m = s->measures;
     if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, seen_of(s), s->seen + state_velocities(&s->layout));
     m->has_energy = true;
-    m->energy.impact = contact_of(s)->set.ledger.impact;
+    m->energy.impact = reduce_rounded_sum(contact_of(s)->set.ledger.impact);
     m->energy.friction = state_total_of(&s->layout, seen_of(s), STATE_FRICTION);
     m->energy.damping = state_total_of(&s->layout, seen_of(s), STATE_DAMPING);
     m->energy.boundary = state_total_of(&s->layout, seen_of(s), STATE_WORK);
-    m->energy.projection = contact_of(s)->set.ledger.projection;
+    m->energy.projection = reduce_rounded_sum(contact_of(s)->set.ledger.projection);
     return m->energy;
 }
 
@@ -104,15 +105,24 @@ dem_overlap dem_simulation_overlap(const dem_simulation *s)
     return s->overlap.found;
 }
 
+/* Counts of contact events and nodes; `late` counts steps. */
+static dem_counts contact_counts(const dem_simulation *s)
+{
+    dem_counts c = contact_of(s)->set.ledger.counts;
+    dem_index *const own[] = {&c.impacts, &c.vertex_impacts, &c.releases, &c.slips, &c.sticks, &c.passings, &c.behind};
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_count(*own[k]);
+    return c;
+}
+
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
     const dem_counts of_engine = integrator_counts(&s->integrator);
-    dem_counts counts = contact_of(s)->set.ledger.counts;
+    dem_counts counts = contact_counts(s);
     counts.steps = of_engine.steps;
     counts.rejected = of_engine.rejected;
     counts.evaluations = of_engine.evaluations;
     counts.retries = of_engine.retries;
-    counts.events = s->events + (s->in_hand ? s->queue.n_stops : 0);
+    counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_stops) : 0);
     return counts;
 }
 
@@ -129,8 +139,8 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = books->impulse[2 * obstacle + k] + lasting[k];
-        load.friction_impulse[k] = books->friction_impulse[2 * obstacle + k] + rubbing[k];
+        load.impulse[k] = reduce_rounded_sum(books->impulse[2 * obstacle + k]) + lasting[k];
+        load.friction_impulse[k] = reduce_rounded_sum(books->friction_impulse[2 * obstacle + k]) + rubbing[k];
     }
     return load;
 }

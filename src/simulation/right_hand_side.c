@@ -2,6 +2,7 @@
 /* y = (x, v) with x' = v and m v' = F(x, v, t), less what closed contacts hold; then what is integrated along. */
 #include "simulation/right_hand_side.h"
 
+#include "base/reduce.h"
 #include "base/status.h"
 
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
@@ -24,8 +25,8 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
     automaton_add_rates(&s->automaton, t, y, a);
-    a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->forces, y, v);
-    a[state_total_index(l, STATE_WORK)] = work;
+    a[state_total_index(l, STATE_DAMPING)] = reduce_rounded_sum(forces_damping_power(&s->forces, y, v));
+    a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work);
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 
@@ -41,8 +42,8 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, t, y, a);
     fill_rates(s, t, y, a, forces_prescribe(&s->forces, t, v, u, a));
-    if (external_force_failed(s->external)) return 2;
-    if (isfinite(sum)) return 0;
+    if (run_force_failed(s)) return 2;
+    if (!reduce_any(!isfinite(sum))) return 0;
     (void)name_culprit(s, t, y, a);
     return 1;
 }
@@ -55,11 +56,11 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
-    if (!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0) return -1;
+    if (reduce_any(!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0)) return -1;
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
     fill_rates(s, step->t1, y.x, y.a, 0.0);
-    if (isfinite(sum)) return 0;
+    if (!reduce_any(!isfinite(sum))) return 0;
     (void)name_culprit(s, step->t1, y.x, y.a);
     return 1;
 }
@@ -73,7 +74,7 @@ static void root_functions(double t, const double *y, double *g, void *context)
 static double stiffening(const double *y, void *context)
 {
     dem_simulation *s = context;
-    return kernel_stiffening(&s->kernel, y);
+    return reduce_max(kernel_stiffening(&s->kernel, y));
 }
 
 ode_problem right_hand_side_problem(dem_simulation *s)

@@ -2,6 +2,7 @@
 /* Another motion in the place of the one that a simulation has come to: the step in hand ends where it is seen. */
 #include <string.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "forces/diagnostics.h"
 #include "simulation/query.h"
@@ -51,12 +52,12 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
     CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
     dem_simulation_state(s, &seen); /* with contacts and books of that time */
-    TRY(check(s, "place", x, seen.x));
-    TRY(check(s, "velocity", v, seen.v));
-    if (x != NULL) TRY(automaton_check_start(&s->automaton, s->seen_t, x));
+    TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
+    TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
+    if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
     put(s, x, v, s->frame);
-    s->events += s->in_hand ? s->queue.n_stops : 0;
+    s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;
     s->t = s->seen_t;
     s->path = (dense_output){0};
     s->in_hand = s->at_event = s->started = s->has_record = false;

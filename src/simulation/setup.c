@@ -5,6 +5,7 @@
 
 #include "base/aligned.h"
 #include "base/record.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "simulation/checkpoint.h"
 #include "simulation/options.h"
@@ -69,7 +70,7 @@ static dem_status set_up(dem_simulation *s)
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);
     TRY(automaton_create(&s->automaton, &s->forces, &rule));
-    TRY(automaton_check_start(&s->automaton, 0.0, s->y));
+    TRY(reduce_status(automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
     const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale};
@@ -89,7 +90,7 @@ static dem_status set_up(dem_simulation *s)
 static dem_status resume(dem_simulation *s, const dem_record *record)
 {
     TRY(checkpoint_restore(s, record));
-    if (external_force_failed(s->external)) return external_force_failure(s->external);
+    if (run_force_failed(s)) return reduce_status(external_force_failure(s->external), 0.0);
     s->started = s->has_record = true;
     query_at(s, s->t, s->y);
     return record_copy(s->record, record);
@@ -106,7 +107,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     s->model = model;
     s->options = *options;
     s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n);
-    dem_status status = set_up(s);
+    dem_status status = reduce_status(set_up(s), 0.0);
     if (status == DEM_OK && record != NULL) status = resume(s, record);
     if (status == DEM_OK)
         *out = s;

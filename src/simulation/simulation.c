@@ -3,6 +3,7 @@
  * observers whose frames fall into it, and committed: its end becomes the state, the contacts change, and the next
  * step is taken. An advance to t_end stops within a step in hand, which the next advance goes on with: t_end is
  * never stepped to. */
+#include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
 #include "simulation/checkpoint.h"
@@ -35,7 +36,7 @@ static dem_status tell_events(dem_simulation *s, double t)
         query_inside(s, event.t);
         status = status_first(status, observers_event(&s->observers, s, &event));
     }
-    return status;
+    return reduce_status(status, 0.0);
 }
 
 static dem_status tell_step(dem_simulation *s)
@@ -60,7 +61,7 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 /* Nothing goes on that a force from outside has not been there for. */
 static dem_status stop_if_force_failed(const dem_simulation *s, dem_status status)
 {
-    return external_force_failed(s->external) ? DEM_STOPPED : status;
+    return run_force_failed(s) ? DEM_STOPPED : status;
 }
 
 /* Keeps the state with its contacts, which are about to change at once. */
@@ -85,7 +86,7 @@ static dem_status roll_back(dem_simulation *s)
         status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_rollback = false;
     query_at(s, s->t, s->y);
-    return status_first(status, external_force_failure(s->external));
+    return status_first(status, reduce_status(external_force_failure(s->external), 0.0));
 }
 
 /* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
@@ -175,7 +176,7 @@ static dem_status resolve_event(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};
     s->events++;
-    return go_on(s, automaton_resolve(&s->automaton, s->t, s->y, &listener)); /* (8), (9) */
+    return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
 /* The integrator goes on from the end of the step as events and vertex contacts put back (`moved`) have left it. */
@@ -183,7 +184,7 @@ static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
     if (moved) return integrator_restart(&s->integrator, s->t, s->y);
-    return s->queue.n_stops > 0 ? integrator_resume(&s->integrator) : DEM_OK;
+    return reduce_any(s->queue.n_stops > 0) ? integrator_resume(&s->integrator) : DEM_OK;
 }
 
 static dem_status commit_step(dem_simulation *s)
@@ -193,7 +194,7 @@ static dem_status commit_step(dem_simulation *s)
     if (s->at_event) TRY(take_rollback(s));
     const bool moved = settle_step(s);
     if (s->at_event) return resolve_event(s);
-    s->events += s->queue.n_stops;
+    s->events += reduce_count(s->queue.n_stops);
     TRY(go_on_changed(s, moved));
     return tell_step(s);
 }
@@ -203,8 +204,8 @@ static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};
     TRY(take_rollback(s));
-    const dem_status status = go_on(s, automaton_start(&s->automaton, s->t, s->y, &listener));
-    s->started = !external_force_failed(s->external);
+    const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
+    s->started = !run_force_failed(s);
     return status;
 }
 
@@ -248,5 +249,5 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     s->advanced = s->advancing = true;
     const dem_status status = advance(s, t_end);
     s->advancing = false;
-    return external_force_failed(s->external) ? roll_back(s) : status;
+    return run_force_failed(s) ? roll_back(s) : status;
 }

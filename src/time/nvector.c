@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/aligned.h"
+#include "base/reduce.h"
 #include "base/threads.h"
 
 enum { most_terms = 32, n_sampled = 16 };
@@ -207,12 +208,13 @@ static sunrealtype norm(N_Vector x, N_Vector w)
     double largest = 0.0, scale = 1.0;
     for (dem_index k = 0; k < s->length; k += s->length / n_sampled + 1)
         largest = fmax(largest, fabs(values[k] * weights[k]));
+    largest = reduce_max(largest);
     for (;;) {
         scale = scale_of(largest);
-        const array_ops_sum sum = square(s, values, weights, scale);
+        const array_ops_sum sum = reduce_squares(square(s, values, weights, scale));
         if (!isfinite(sum.largest)) return INFINITY;
         largest = sqrt(sum.largest) / scale;
-        if (scale_of(largest) == scale) return sqrt(array_ops_value(&sum) / (double)s->length) / scale;
+        if (scale_of(largest) == scale) return sqrt(array_ops_value(&sum) / (double)reduce_count(s->length)) / scale;
     }
 }
 
