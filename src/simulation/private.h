@@ -14,10 +14,12 @@
 
 /* What is known of the state as seen; each is worked out once, when first asked for. */
 typedef struct run_measures {
-    bool has_events, has_state, has_contacts, has_energy, has_strain;
+    bool has_events, has_state, has_contacts, has_energy, has_strain, has_body;
     dem_index n_contacts;
     dem_energy energy;
     dem_strain strain;
+    dem_index body; /* the last one asked about */
+    dem_body_motion motion;
 } run_measures;
 
 struct dem_simulation {

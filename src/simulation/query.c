@@ -128,7 +128,12 @@ dem_counts dem_simulation_counts(const dem_simulation *s)
 
 dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 {
-    return diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
+    run_measures *m = s->measures;
+    if (!m->has_body || m->body != body)
+        m->motion = diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
+    m->has_body = true;
+    m->body = body;
+    return m->motion;
 }
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
