@@ -93,23 +93,25 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
     return out;
 }
 
-static double slot_area_energy(const triangles *t, dem_index i, dem_index p, const double *x)
+/* Energies at J = area / rest area of the triangle in slot p. */
+static double area_energy(const triangles *t, dem_index p, double J)
 {
     if (t->area_stiffness == NULL) return 0.0;
-    const double beyond = area_at(t, i, p, x) / t->rest_area[p] - 1.0;
-    return 0.5 * t->rest_area[p] * t->area_stiffness[p] * beyond * beyond;
+    return 0.5 * t->rest_area[p] * t->area_stiffness[p] * (J - 1.0) * (J - 1.0);
 }
 
-static double slot_guard_energy(const triangles *t, dem_index i, dem_index p, const double *x)
+static double guard_energy(const triangles *t, dem_index p, double J)
 {
-    return t->rest_area[p] * t->guard[p] * triangles_guard_law(area_at(t, i, p, x) / t->rest_area[p]).energy;
+    return J >= TRIANGLES_GUARD_ONSET ? 0.0 : t->rest_area[p] * t->guard[p] * triangles_guard_law(J).energy;
 }
 
 double triangles_node_energy(const triangles *t, dem_index i, const double *x)
 {
     double energy = 0.0;
-    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
-        energy += slot_area_energy(t, i, p, x) + slot_guard_energy(t, i, p, x);
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double J = area_at(t, i, p, x) / t->rest_area[p];
+        energy += area_energy(t, p, J) + guard_energy(t, p, J);
+    }
     return energy;
 }
 
@@ -120,8 +122,9 @@ void triangles_energy(const triangles *t, const double *x, double *area, double 
     for (dem_index i = 0; i < t->n_nodes; i++)
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
             if (t->next[p] < i || t->last[p] < i) continue;
-            *area += slot_area_energy(t, i, p, x);
-            *guard += slot_guard_energy(t, i, p, x);
+            const double J = area_at(t, i, p, x) / t->rest_area[p];
+            *area += area_energy(t, p, J);
+            *guard += guard_energy(t, p, J);
         }
 }
 
