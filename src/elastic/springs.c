@@ -112,19 +112,20 @@ static double slot_energy(const springs *s, dem_index i, dem_index p, const doub
     return 0.5 * s->stiffness[p] * s->rest_length[p] * strain * strain;
 }
 
-double springs_node_energy(const springs *s, dem_index i, const double *x)
+double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x)
 {
     double energy = 0.0;
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) energy += slot_energy(s, i, p, x);
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (!springs_broken(s, broken, p)) energy += slot_energy(s, i, p, x);
     return energy;
 }
 
-double springs_energy(const springs *s, const double *x)
+double springs_energy(const springs *s, const unsigned char *broken, const double *x)
 {
     double energy = 0.0;
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i) energy += slot_energy(s, i, p, x);
+            if (s->neighbour[p] > i && !springs_broken(s, broken, p)) energy += slot_energy(s, i, p, x);
     return energy;
 }
 
@@ -134,18 +135,20 @@ double springs_strain(const springs *s, dem_index i, dem_index p, const double *
     return (length - s->rest_length[p]) / s->rest_length[p];
 }
 
-void springs_strains(const springs *s, const double *x, double *strain)
+void springs_strains(const springs *s, const unsigned char *broken, const double *x, double *strain)
 {
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i) strain[s->spring[p]] = springs_strain(s, i, p, x);
+            if (s->neighbour[p] > i)
+                strain[s->spring[p]] = springs_broken(s, broken, p) ? 0.0 : springs_strain(s, i, p, x);
 }
 
-void springs_forces(const springs *s, const double *x, double *force)
+void springs_forces(const springs *s, const unsigned char *broken, const double *x, double *force)
 {
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i) force[s->spring[p]] = s->stiffness[p] * springs_strain(s, i, p, x);
+            if (s->neighbour[p] > i)
+                force[s->spring[p]] = springs_broken(s, broken, p) ? 0.0 : s->stiffness[p] * springs_strain(s, i, p, x);
 }
 
 /* Of the spring in slot p of row i, 1/s. */
@@ -156,13 +159,13 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
     return vec2_dot(d, dv) / (s->rest_length[p] * vec2_norm(d));
 }
 
-double springs_damping_power(const springs *s, const double *x, const double *v)
+double springs_damping_power(const springs *s, const unsigned char *broken, const double *x, const double *v)
 {
     double power = 0.0;
     if (s->viscosity == NULL) return power;
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            if (s->neighbour[p] < i) continue;
+            if (s->neighbour[p] < i || springs_broken(s, broken, p)) continue;
             const double rate = strain_rate(s, i, p, x, v);
             power += s->viscosity[p] * rate * rate * s->rest_length[p];
         }

@@ -3,7 +3,11 @@
 #ifndef DEM_ELASTIC_SPRINGS_H
 #define DEM_ELASTIC_SPRINGS_H
 
+#include <stdbool.h>
+
 #include "base/vec2.h"
+
+/* A list of flags `broken` [n_springs], by the lattice's numbers, leaves springs out; NULL: all are whole. */
 
 typedef struct springs {
     dem_index n_nodes, n_springs;
@@ -20,6 +24,12 @@ typedef struct springs {
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 
+/** Whether the spring in slot p is broken. */
+static inline bool springs_broken(const springs *s, const unsigned char *broken, dem_index p)
+{
+    return broken != NULL && broken[s->spring[p]];
+}
+
 /** E_ij (d - d0)/d0 of a spring of length d, over d: times the vector between its ends it is its force, (1). */
 static inline double springs_pull(double stiffness, double rest_length, double length)
 {
@@ -27,11 +37,12 @@ static inline double springs_pull(double stiffness, double rest_length, double l
 }
 
 /** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
-static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
+static inline vec2 springs_force(const springs *s, const unsigned char *broken, dem_index i, const double *x)
 {
     const vec2 xi = vec2_at(x, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        if (springs_broken(s, broken, p)) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
         force = vec2_along(force, springs_pull(s->stiffness[p], s->rest_length[p], vec2_norm(d)), d);
     }
@@ -39,11 +50,13 @@ static inline vec2 springs_force(const springs *s, dem_index i, const double *x)
 }
 
 /** Kelvin-Voigt damping of node i, N: in every spring of its row the viscosity times the strain rate. */
-static inline vec2 springs_damping(const springs *s, dem_index i, const double *x, const double *v)
+static inline vec2 springs_damping(const springs *s, const unsigned char *broken, dem_index i, const double *x,
+                                   const double *v)
 {
     const vec2 xi = vec2_at(x, i), vi = vec2_at(v, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        if (springs_broken(s, broken, p)) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi), dv = vec2_sub(vec2_at(v, s->neighbour[p]), vi);
         force = vec2_along(force, s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
     }
@@ -74,22 +87,22 @@ static inline void springs_virial(const dem_lattice *lattice, dem_index k, const
 vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
 
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
-double springs_node_energy(const springs *s, dem_index i, const double *x);
+double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x);
 
 /** Energy of all springs, J. */
-double springs_energy(const springs *s, const double *x);
+double springs_energy(const springs *s, const unsigned char *broken, const double *x);
 
 /** (d - d0)/d0 of the spring in slot p of row i. */
 double springs_strain(const springs *s, dem_index i, dem_index p, const double *x);
 
-/** Strain of every spring, in the order of the lattice.  \param[out] strain  [n_springs] */
-void springs_strains(const springs *s, const double *x, double *strain);
+/** Strain of every spring, in the order of the lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
+void springs_strains(const springs *s, const unsigned char *broken, const double *x, double *strain);
 
-/** Force (1) along every spring, > 0 in tension.  \param[out] force  [n_springs] N */
-void springs_forces(const springs *s, const double *x, double *force);
+/** Force (1) along every spring, > 0 in tension; 0 of one that is broken.  \param[out] force  [n_springs] N */
+void springs_forces(const springs *s, const unsigned char *broken, const double *x, double *force);
 
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
-double springs_damping_power(const springs *s, const double *x, const double *v);
+double springs_damping_power(const springs *s, const unsigned char *broken, const double *x, const double *v);
 
 /** S_i = sum over the springs of node i of c/d0 n n^T, n their directions at x and c their `strength`: stiffness or
  *  viscosity. The springs make the matrix A with u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i u_i. */

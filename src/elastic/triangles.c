@@ -3,7 +3,6 @@
  * by node in a fixed order. */
 #include "elastic/triangles.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 
 #include "base/status.h"
@@ -61,10 +60,11 @@ static double curvature_at(const triangles *t, dem_index p, double A)
     return t->area_stiffness != NULL ? t->area_stiffness[p] + curvature : curvature;
 }
 
-vec2 triangles_force(const triangles *t, dem_index i, const double *x)
+vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        if (triangles_broken(t, broken, p)) continue;
         const double slope = slope_at(t, p, area_at(t, i, p, x));
         if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
@@ -105,23 +105,24 @@ static double guard_energy(const triangles *t, dem_index p, double J)
     return J >= TRIANGLES_GUARD_ONSET ? 0.0 : t->rest_area[p] * t->guard[p] * triangles_guard_law(J).energy;
 }
 
-double triangles_node_energy(const triangles *t, dem_index i, const double *x)
+double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
 {
     double energy = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        if (triangles_broken(t, broken, p)) continue;
         const double J = area_at(t, i, p, x) / t->rest_area[p];
         energy += area_energy(t, p, J) + guard_energy(t, p, J);
     }
     return energy;
 }
 
-void triangles_energy(const triangles *t, const double *x, double *area, double *guard)
+void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard)
 {
     *area = 0.0;
     *guard = 0.0;
     for (dem_index i = 0; i < t->n_nodes; i++)
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-            if (t->next[p] < i || t->last[p] < i) continue;
+            if (t->next[p] < i || t->last[p] < i || triangles_broken(t, broken, p)) continue;
             const double J = area_at(t, i, p, x) / t->rest_area[p];
             *area += area_energy(t, p, J);
             *guard += guard_energy(t, p, J);
@@ -138,13 +139,13 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x)
 
 /* Of A0 g w(A/A0):  g w'' (dA.u)^2/A0 + g w' u.A'' u,  where (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2, and A'' has the
  * eigenvalues 0 and +-sqrt(3)/2. */
-double triangles_guard_bound(const triangles *t, dem_index i, const double *x)
+double triangles_guard_bound(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
 {
     const double turn = 0.8660254037844386;
     double bound = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
-        if (!(A < TRIANGLES_GUARD_ONSET * A0)) continue;
+        if (!(A < TRIANGLES_GUARD_ONSET * A0) || triangles_broken(t, broken, p)) continue;
         const triangles_law l = triangles_guard_law(A / A0);
         const vec2 dA = gradient(t, p, x);
         bound += t->guard[p] * (3.0 * l.curvature * vec2_dot(dA, dA) / A0 + turn * fabs(l.slope));
@@ -166,11 +167,12 @@ static dem_status allocate(triangles *t, dem_index slots, bool stiff)
     t->row = calloc((size_t)t->n_nodes + 1, sizeof *t->row);
     t->next = malloc(n * sizeof *t->next);
     t->last = malloc(n * sizeof *t->last);
+    t->triangle = malloc(n * sizeof *t->triangle);
     t->rest_area = malloc(n * sizeof *t->rest_area);
     t->guard = malloc(n * sizeof *t->guard);
     if (stiff) t->area_stiffness = malloc(n * sizeof *t->area_stiffness);
-    CHECK(t->row && t->next && t->last && t->rest_area && t->guard && (t->area_stiffness || !stiff), DEM_ERROR_MEMORY,
-          "out of memory for %lld triangles", (long long)(slots / 3));
+    CHECK(t->row && t->next && t->last && t->triangle && t->rest_area && t->guard && (t->area_stiffness || !stiff),
+          DEM_ERROR_MEMORY, "out of memory for %lld triangles", (long long)(slots / 3));
     return DEM_OK;
 }
 
@@ -185,6 +187,7 @@ static void fill(triangles *t, const dem_lattice *lattice)
             const dem_index p = --t->row[corner[c] + 1];
             t->next[p] = corner[(c + 1) % 3];
             t->last[p] = corner[(c + 2) % 3];
+            t->triangle[p] = k;
             t->rest_area[p] = area_at(t, corner[c], p, lattice->x); /* J is exactly 1 at rest, from every corner */
             t->guard[p] = lattice->guard != NULL ? lattice->guard[k] : 0.0;
             if (t->area_stiffness != NULL) t->area_stiffness[p] = lattice->area_stiffness[k];
@@ -220,6 +223,7 @@ void triangles_free(triangles *t)
     free(t->row);
     free(t->next);
     free(t->last);
+    free(t->triangle);
     free(t->rest_area);
     free(t->guard);
     free(t->area_stiffness);

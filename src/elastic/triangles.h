@@ -4,16 +4,21 @@
 #ifndef DEM_ELASTIC_TRIANGLES_H
 #define DEM_ELASTIC_TRIANGLES_H
 
+#include <stdbool.h>
+
 #include "base/vec2.h"
 
 /** The guard acts where J = area / rest area is below this. */
 #define TRIANGLES_GUARD_ONSET 0.4
+
+/* A list of flags `broken` [n_triangles], by the lattice's numbers, leaves triangles out; NULL: all are whole. */
 
 /** Triangles by node: slot p of row i is a triangle (i, next[p], last[p]), counter-clockwise. */
 typedef struct triangles {
     dem_index n_nodes;
     dem_index *row; /* [n_nodes + 1]; every row empty where no triangle has area stiffness or guard */
     dem_index *next, *last;
+    dem_index *triangle;    /* index in the lattice */
     double *rest_area;      /* m^2 */
     double *guard;          /* strength g, N/m */
     double *area_stiffness; /* kappa, N/m; NULL: none */
@@ -24,8 +29,14 @@ typedef struct triangles {
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
 void triangles_free(triangles *t);
 
+/** Whether the triangle in slot p is broken. */
+static inline bool triangles_broken(const triangles *t, const unsigned char *broken, dem_index p)
+{
+    return broken != NULL && broken[t->triangle[p]];
+}
+
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
-vec2 triangles_force(const triangles *t, dem_index i, const double *x);
+vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
 
 /** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
  *  unit tensor. */
@@ -35,10 +46,10 @@ double triangles_virial(const triangles *t, dem_index i, dem_index p, const doub
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
 
 /** Energy of the triangles at node i, J. */
-double triangles_node_energy(const triangles *t, dem_index i, const double *x);
+double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
 
 /** Energies of the area term and of the guard, J. */
-void triangles_energy(const triangles *t, const double *x, double *area, double *guard);
+void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard);
 
 /** Sum over the triangles at node i of max(kappa, 0)/A0 g g^T, g = dA/dx_i at x: the area term makes a matrix that is
  *  at most three times the sum of these blocks. */
@@ -46,7 +57,7 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x);
 
 /** What the guard adds at most to the stiffness at node i, N/m: no second variation of its energy at x exceeds the sum
  *  of this times u_i^2. 0 where it does not act. */
-double triangles_guard_bound(const triangles *t, dem_index i, const double *x);
+double triangles_guard_bound(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
 
 /** A function of J = area / rest area and its derivatives. */
 typedef struct triangles_law {

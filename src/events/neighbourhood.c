@@ -114,9 +114,10 @@ static void add_bonds(neighbourhood *b, dem_index j)
 {
     const springs *s = &b->set->scene.model->springs;
     const dem_index i = b->nodes[j].i;
+    const unsigned char *broken = element_state_springs(element_state_at(b->set->scene.forces->elements, i));
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = b->number[s->neighbour[p]];
-        if (other < j) continue;
+        if (other < j || springs_broken(s, broken, p)) continue;
         b->bonds[b->n_bonds] = (neighbourhood_bond){(int32_t)j, other};
         b->stiffness[b->n_bonds] = s->stiffness[p];
         b->rest_length[b->n_bonds++] = s->rest_length[p];

@@ -12,8 +12,8 @@ static vec2 rounded_sum(vec2 own)
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
-    dem_energy energy = {.elastic = springs_energy(&model->springs, x)};
-    triangles_energy(&model->triangles, x, &energy.area, &energy.guard);
+    dem_energy energy = {.elastic = springs_energy(&model->springs, element_state_springs(f->elements), x)};
+    triangles_energy(&model->triangles, element_state_triangles(f->elements), x, &energy.area, &energy.guard);
     const vec2 g = {f->gravity[0], f->gravity[1]};
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const double m = model->lattice.mass[i];
@@ -46,10 +46,11 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
     return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, reduce_rounded_sum(spin)};
 }
 
-static void measure_triangles(const dem_model *model, const double *x, dem_strain *strain)
+static void measure_triangles(const forces *f, const double *x, dem_strain *strain)
 {
-    const dem_lattice *l = &model->lattice;
+    const dem_lattice *l = &f->model->lattice;
     for (dem_index k = 0; k < l->n_triangles; k++) {
+        if (f->elements != NULL && f->elements->triangle[k]) continue;
         const dem_index *c = &l->triangles[3 * k];
         const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
         const double ratio = vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
@@ -76,7 +77,7 @@ dem_strain diagnostics_strain(const forces *f, const double *x)
     dem_strain strain = {.spring_min = -1, .spring_max = -1, .area_min = 1.0};
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            if (s->neighbour[p] < i) continue;
+            if (s->neighbour[p] < i || springs_broken(s, element_state_springs(f->elements), p)) continue;
             const double here = springs_strain(s, i, p, x);
             if (strain.spring_min < 0 || here < strain.min) {
                 strain.min = here;
@@ -89,7 +90,7 @@ dem_strain diagnostics_strain(const forces *f, const double *x)
         }
     reduce_least(&strain.min, &strain.spring_min, lower_end(f->model, strain.spring_min));
     reduce_largest(&strain.max, &strain.spring_max, lower_end(f->model, strain.spring_max));
-    measure_triangles(f->model, x, &strain);
+    measure_triangles(f, x, &strain);
     return strain;
 }
 
@@ -155,12 +156,14 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
 }
 
 /* Largest force of a spring, N. */
-static double largest_force(const springs *s, const double *x)
+static double largest_force(const forces *f, const double *x)
 {
+    const springs *s = &f->model->springs;
     double largest = 0.0;
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            largest = fmax(largest, s->stiffness[p] * fabs(springs_strain(s, i, p, x)));
+            if (!springs_broken(s, element_state_springs(f->elements), p))
+                largest = fmax(largest, s->stiffness[p] * fabs(springs_strain(s, i, p, x)));
     return largest;
 }
 
@@ -173,6 +176,6 @@ double diagnostics_residual(const forces *f, const double *x, const double *v, c
         if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
     }
     largest = reduce_max(largest);
-    const double scale = reduce_max(largest_force(&model->springs, x));
+    const double scale = reduce_max(largest_force(f, x));
     return largest > 0.0 ? largest / scale : 0.0;
 }

@@ -5,6 +5,7 @@
 #ifndef DEM_FORCES_FORCES_H
 #define DEM_FORCES_FORCES_H
 
+#include "elastic/element_state.h"
 #include "forces/boundary_conditions.h"
 #include "forces/external_force.h"
 #include "model/model.h"
@@ -12,6 +13,7 @@
 /** Springs and triangles of the model, and what acts besides. It belongs to a simulation, the model to many. */
 typedef struct forces {
     const dem_model *model;
+    const element_state *elements;         /* NULL: all springs and triangles are whole */
     double gravity[2];                     /* m/s^2 */
     double mass_damping;                   /* 1/s */
     const boundary_conditions *boundaries; /* NULL: none */
@@ -65,45 +67,66 @@ static inline unsigned forces_held(const forces *f, dem_index i)
 }
 
 /** Goes through the nodes on whose positions, and velocities, the force on a node depends besides its own: the other
- *  ends of its springs, then the other corners of its triangles; some come more than once. */
+ *  ends of its springs, then the other corners of its triangles, those that are whole; some come more than once. */
 typedef struct forces_neighbours {
-    const dem_model *model;
-    dem_index node;                /* the one it is at */
-    dem_index spring, springs_end; /* slots of springs that are to come */
-    dem_index corner, corners_end; /* two to each slot of a triangle */
+    const forces *f;
+    const element_state *state;      /* NULL: the elements of the node are whole */
+    const dem_index *other, *others; /* ends of springs that are to come, and where they end */
+    dem_index corner, corners;       /* the same of corners, two to each slot of a triangle */
+    dem_index node;                  /* the one it is at */
 } forces_neighbours;
 
 static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index i)
 {
     const springs *s = &f->model->springs;
-    const triangles *t = &f->model->triangles;
-    return (forces_neighbours){f->model, -1, s->row[i], s->row[i + 1], 2 * t->row[i], 2 * t->row[i + 1]};
+    const dem_index *t = f->model->triangles.row + i;
+    return (forces_neighbours){.f = f,
+                               .state = element_state_at(f->elements, i),
+                               .other = s->neighbour + s->row[i],
+                               .others = s->neighbour + s->row[i + 1],
+                               .corner = 2 * t[0],
+                               .corners = 2 * t[1]};
 }
 
 /** Goes to the next one.  \return whether there is one */
 static inline bool forces_next_neighbour(forces_neighbours *n)
 {
-    const triangles *t = &n->model->triangles;
-    if (n->spring < n->springs_end) {
-        n->node = n->model->springs.neighbour[n->spring++];
-        return true;
+    const springs *s = &n->f->model->springs;
+    const triangles *t = &n->f->model->triangles;
+    while (n->other < n->others) {
+        n->node = *n->other++;
+        if (n->state == NULL || !n->state->spring[s->spring[n->other - 1 - s->neighbour]]) return true;
     }
-    if (n->corner == n->corners_end) return false;
-    n->node = (n->corner & 1 ? t->last : t->next)[n->corner / 2];
-    n->corner++;
-    return true;
+    while (n->corner < n->corners) {
+        const dem_index p = n->corner / 2;
+        n->node = (n->corner++ & 1 ? t->last : t->next)[p];
+        if (n->state == NULL || !n->state->triangle[t->triangle[p]]) return true;
+    }
+    return false;
 }
 
 /* ---- accelerations ---- */
 
+/* Of the elements that are whole; `state` is NULL where that is all of them, which the compiler is to know. */
+static inline vec2 forces_of_whole_elements(const forces *f, const element_state *state, dem_index i, const double *x,
+                                            const double *v)
+{
+    const springs *s = &f->model->springs;
+    const triangles *t = &f->model->triangles;
+    vec2 bonds = springs_force(s, element_state_springs(state), i, x);
+    if (s->viscosity != NULL) bonds = vec2_add(bonds, springs_damping(s, element_state_springs(state), i, x, v));
+    if (t->row[i] == t->row[i + 1]) return bonds;
+    return vec2_add(bonds, triangles_force(t, element_state_triangles(state), i, x));
+}
+
+/** forces_of_elements() of a node at which something is broken. */
+vec2 forces_of_damaged(const forces *f, dem_index i, const double *x, const double *v);
+
 /** Force of springs, area term and guard on node i at positions x and velocities v [n][2], N: (1) and its damping. */
 static inline vec2 forces_of_elements(const forces *f, dem_index i, const double *x, const double *v)
 {
-    const dem_model *model = f->model;
-    vec2 bonds = springs_force(&model->springs, i, x);
-    if (model->springs.viscosity != NULL) bonds = vec2_add(bonds, springs_damping(&model->springs, i, x, v));
-    if (model->triangles.row[i] == model->triangles.row[i + 1]) return bonds;
-    return vec2_add(bonds, triangles_force(&model->triangles, i, x));
+    if (element_state_at(f->elements, i) != NULL) return forces_of_damaged(f, i, x, v);
+    return forces_of_whole_elements(f, NULL, i, x, v);
 }
 
 /** Acceleration of node i with velocity v, m/s^2, by a force on it, weight and drag of its mass: (2). A fixed node has
@@ -120,7 +143,6 @@ static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 for
  *  has none. */
 static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
-    if (f->model->inverse_mass[i] == 0.0) return (vec2){0.0, 0.0};
     vec2 force = forces_of_elements(f, i, x, v);
     if (forces_push(f)) force = vec2_add(force, boundary_conditions_force(f->boundaries, i, v[f->clock]));
     return forces_acceleration_by(f, i, force, vec2_at(v, i));
@@ -167,7 +189,9 @@ static inline double forces_node_energy(const forces *f, dem_index i, const doub
 {
     const dem_model *model = f->model;
     const double weight = model->lattice.mass[i] * (f->gravity[0] * x[2 * i] + f->gravity[1] * x[2 * i + 1]);
-    return springs_node_energy(&model->springs, i, x) + triangles_node_energy(&model->triangles, i, x) - weight;
+    const element_state *state = element_state_at(f->elements, i);
+    return springs_node_energy(&model->springs, element_state_springs(state), i, x) +
+           triangles_node_energy(&model->triangles, element_state_triangles(state), i, x) - weight;
 }
 
 #endif

@@ -205,6 +205,14 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
     return sum;
 }
 
+/* The sum over a state: the sweep's has the broken springs too, and those may be of any length. */
+static double sum_up(const kernel_state *y, dem_index n)
+{
+    double sum = 0.0;
+    for (dem_index c = 0; c < 2 * n; c++) sum += y->u != NULL ? y->a[c] + y->u[c] : y->a[c];
+    return sum;
+}
+
 /* The first place from q on whose node the guard acts on; that of the first node in no block if there is none. */
 static dem_index next_guarded(const kernel *k, dem_index q)
 {
@@ -215,7 +223,8 @@ static dem_index next_guarded(const kernel *k, dem_index q)
     return q < end ? q : end;
 }
 
-/* Nodes behind the last block, nodes on which the guard acts, and those that are pushed. */
+/* Nodes behind the last block, nodes on which the guard acts, those at which something is broken, and those that are
+ * pushed. */
 static double accelerate_rest(const kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
@@ -224,6 +233,8 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
         sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
+    for (dem_index d = 0; f->elements != NULL && d < f->elements->n_damaged; d++)
+        sum += accelerate_row(k, f, y, f->elements->damaged[d]);
     for (dem_index p = 0; forces_push(f) && p < f->boundaries->n; p++) {
         const boundary_condition *push = &f->boundaries->list[p];
         for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
@@ -279,17 +290,19 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, f, y);
+    if (f->elements != NULL && !isfinite(sum)) sum = sum_up(y, n);
     return f->external != NULL ? sum + push(f, y) : sum;
 }
 
-static double guard_bound(const kernel *k, const double *x, dem_index q)
+static double guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
 {
     const layout *l = &k->model->layout;
     const dem_index i = l->order != NULL ? l->order[q] : q;
-    return triangles_guard_bound(&k->model->triangles, i, x) * k->model->inverse_mass[i];
+    return triangles_guard_bound(&k->model->triangles, element_state_triangles(f->elements), i, x) *
+           k->model->inverse_mass[i];
 }
 
-double kernel_stiffening(kernel *k, const double *x)
+double kernel_stiffening(kernel *k, const forces *f, const double *x)
 {
     const layout *l = &k->model->layout;
     const double omega = k->model->omega_max;
@@ -299,7 +312,7 @@ double kernel_stiffening(kernel *k, const double *x)
     const sweep s = {.layout = l, .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
     THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
-        added = fmax(added, guard_bound(k, x, q));
-    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, x, q));
+        added = fmax(added, guard_bound(k, f, x, q));
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, f, x, q));
     return sqrt(1.0 + added / (omega * omega));
 }

@@ -46,6 +46,6 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 
 /** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
  *  >= 1: omega_max^2 and what the guard adds to it at most. */
-double kernel_stiffening(kernel *k, const double *x);
+double kernel_stiffening(kernel *k, const forces *f, const double *x);
 
 #endif

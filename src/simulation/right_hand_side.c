@@ -74,7 +74,7 @@ static void root_functions(double t, const double *y, double *g, void *context)
 static double stiffening(const double *y, void *context)
 {
     dem_simulation *s = context;
-    return reduce_max(kernel_stiffening(&s->kernel, y));
+    return reduce_max(kernel_stiffening(&s->kernel, &s->forces, y));
 }
 
 ode_problem right_hand_side_problem(dem_simulation *s)

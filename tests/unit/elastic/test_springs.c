@@ -74,8 +74,8 @@ static void strain_force_and_virial_are_those_of_each_spring(void **state)
     springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.3, 5);
-    springs_strains(&s, x, strain);
-    springs_forces(&s, x, force);
+    springs_strains(&s, NULL, x, strain);
+    springs_forces(&s, NULL, x, force);
     for (dem_index k = 0; k < n_springs; k++) {
         const dem_index i = pairs[2 * k], j = pairs[2 * k + 1];
         const double dx = x[2 * j] - x[2 * i], dy = x[2 * j + 1] - x[2 * i + 1], d = hypot(dx, dy);
@@ -141,10 +141,10 @@ static void nodes_without_springs_feel_nothing(void **state)
     assert_ok(springs_compile(&s, &lattice));
     dem_lattice_free(&lattice);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_force(&s, i, corners);
+        const vec2 force = springs_force(&s, NULL, i, corners);
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
-    assert_close(springs_energy(&s, corners), 0.0, 0.0);
+    assert_close(springs_energy(&s, NULL, corners), 0.0, 0.0);
     assert_close(sym2_largest(springs_block(&s, s.stiffness, 0, corners)), 0.0, 0.0);
     springs_free(&s);
 }
@@ -158,13 +158,13 @@ static void a_stretched_spring_pulls_with_stiffness_times_strain(void **state)
     const double x[4] = {1.0, -1.0, 4.0, 3.0};
     (void)state;
     springs s = compile_pair(x, 2.0, 100.0);
-    const vec2 first = springs_force(&s, 0, x), second = springs_force(&s, 1, x);
+    const vec2 first = springs_force(&s, NULL, 0, x), second = springs_force(&s, NULL, 1, x);
     assert_close(first.x, 90.0, 1e-13);
     assert_close(first.y, 120.0, 1e-13);
     assert_true(second.x == -first.x && second.y == -first.y);
     assert_close(springs_strain(&s, 0, 0, x), 1.5, 0.0);
-    assert_close(springs_energy(&s, x), 225.0, 0.0);
-    assert_close(springs_node_energy(&s, 1, x), 225.0, 0.0);
+    assert_close(springs_energy(&s, NULL, x), 225.0, 0.0);
+    assert_close(springs_node_energy(&s, NULL, 1, x), 225.0, 0.0);
     springs_free(&s);
 }
 
@@ -173,8 +173,8 @@ static void a_compressed_spring_pushes(void **state)
     const double x[4] = {0.0, 0.0, 0.0, 1.5};
     (void)state;
     springs s = compile_pair(x, 2.0, 100.0);
-    assert_close(springs_force(&s, 0, x).y, -25.0, 0.0);
-    assert_close(springs_force(&s, 1, x).y, 25.0, 0.0);
+    assert_close(springs_force(&s, NULL, 0, x).y, -25.0, 0.0);
+    assert_close(springs_force(&s, NULL, 1, x).y, 25.0, 0.0);
     assert_close(springs_strain(&s, 1, 1, x), -0.25, 0.0);
     springs_free(&s);
 }
@@ -190,13 +190,13 @@ static void the_force_is_minus_the_gradient_of_the_energy(void **state)
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 1);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_force(&s, i, x);
+        const vec2 force = springs_force(&s, NULL, i, x);
         for (int k = 0; k < 2; k++) {
             const double here = x[2 * i + k];
             x[2 * i + k] = here + step;
-            const double above = springs_energy(&s, x), node_above = springs_node_energy(&s, i, x);
+            const double above = springs_energy(&s, NULL, x), node_above = springs_node_energy(&s, NULL, i, x);
             x[2 * i + k] = here - step;
-            const double below = springs_energy(&s, x), node_below = springs_node_energy(&s, i, x);
+            const double below = springs_energy(&s, NULL, x), node_below = springs_node_energy(&s, NULL, i, x);
             x[2 * i + k] = here;
             assert_close(k == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-6);
             assert_close(k == 0 ? force.x : force.y, (node_below - node_above) / (2.0 * step), 1e-6);
@@ -215,16 +215,16 @@ static void springs_exert_no_force_and_no_torque_on_the_whole(void **state)
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 2);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_force(&s, i, x);
+        const vec2 force = springs_force(&s, NULL, i, x);
         total = vec2_add(total, force);
         torque += vec2_cross(vec2_at(x, i), force);
-        energy += 0.5 * springs_node_energy(&s, i, x); /* every spring is at two nodes */
+        energy += 0.5 * springs_node_energy(&s, NULL, i, x); /* every spring is at two nodes */
     }
     assert_close(total.x, 0.0, 1e-12);
     assert_close(total.y, 0.0, 1e-12);
     assert_close(torque, 0.0, 1e-12);
-    assert_true(springs_energy(&s, x) > 1.0);
-    assert_close(energy, springs_energy(&s, x), 1e-12);
+    assert_true(springs_energy(&s, NULL, x) > 1.0);
+    assert_close(energy, springs_energy(&s, NULL, x), 1e-12);
     springs_free(&s);
 }
 
@@ -233,9 +233,9 @@ static void nodes_that_coincide_give_a_force_that_is_no_number(void **state)
     const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
     (void)state;
     springs s = compile_pair(apart, 1.0, 10.0);
-    assert_true(isnan(springs_force(&s, 0, together).x) != 0);
-    assert_true(isnan(springs_force(&s, 1, together).y) != 0);
-    assert_close(springs_energy(&s, together), 5.0, 0.0);
+    assert_true(isnan(springs_force(&s, NULL, 0, together).x) != 0);
+    assert_true(isnan(springs_force(&s, NULL, 1, together).y) != 0);
+    assert_close(springs_energy(&s, NULL, together), 5.0, 0.0);
     springs_free(&s);
 }
 
@@ -247,7 +247,7 @@ static void springs_without_viscosities_stay_without(void **state)
     (void)state;
     springs s = compile_pair(x, 1.0, 10.0);
     assert_null(s.viscosity);
-    assert_close(springs_damping_power(&s, x, v), 0.0, 0.0);
+    assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 0.0);
     assert_close(springs_damping_bound(&s, x, inverse_mass), 0.0, 0.0);
     springs_free(&s);
 }
@@ -273,11 +273,11 @@ static void a_lengthening_spring_pulls_with_viscosity_times_strain_rate(void **s
     const double x[4] = {1.0, -1.0, 4.0, 3.0}, v[4] = {-2.0, 5.0, 5.0, 4.0};
     (void)state;
     springs s = compile_damped_pair(x, 2.0, 6.0);
-    const vec2 first = springs_damping(&s, 0, x, v), second = springs_damping(&s, 1, x, v);
+    const vec2 first = springs_damping(&s, NULL, 0, x, v), second = springs_damping(&s, NULL, 1, x, v);
     assert_close(first.x, 6.12, 1e-14);
     assert_close(first.y, 8.16, 1e-14);
     assert_true(second.x == -first.x && second.y == -first.y);
-    assert_close(springs_damping_power(&s, x, v), 34.68, 1e-13);
+    assert_close(springs_damping_power(&s, NULL, x, v), 34.68, 1e-13);
     springs_free(&s);
 }
 
@@ -292,7 +292,7 @@ static void damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power(
     stir(x, n_nodes, 0.2, 3);
     stir(v, n_nodes, 1.0, 4);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_damping(&s, i, x, v);
+        const vec2 force = springs_damping(&s, NULL, i, x, v);
         total = vec2_add(total, force);
         torque += vec2_cross(vec2_at(x, i), force);
         given += vec2_dot(vec2_at(v, i), force);
@@ -300,8 +300,8 @@ static void damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power(
     assert_close(total.x, 0.0, 1e-13);
     assert_close(total.y, 0.0, 1e-13);
     assert_close(torque, 0.0, 1e-13);
-    assert_true(springs_damping_power(&s, x, v) > 1.0);
-    assert_close(springs_damping_power(&s, x, v), -given, 1e-13);
+    assert_true(springs_damping_power(&s, NULL, x, v) > 1.0);
+    assert_close(springs_damping_power(&s, NULL, x, v), -given, 1e-13);
     springs_free(&s);
 }
 
@@ -315,11 +315,11 @@ static void a_rigid_motion_is_not_damped(void **state)
     stir(x, n_nodes, 0.2, 5);
     for (dem_index i = 0; i < n_nodes; i++) vec2_put(v, i, (vec2){0.7 - 3.0 * x[2 * i + 1], -0.2 + 3.0 * x[2 * i]});
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_damping(&s, i, x, v);
+        const vec2 force = springs_damping(&s, NULL, i, x, v);
         assert_close(force.x, 0.0, 1e-13);
         assert_close(force.y, 0.0, 1e-13);
     }
-    assert_close(springs_damping_power(&s, x, v), 0.0, 1e-26);
+    assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 1e-26);
     springs_free(&s);
 }
 
@@ -387,7 +387,7 @@ static double highest_damping_rate(const springs *s, const dem_lattice *lattice)
     for (dem_index q = 0; q < 2 * lattice->n_nodes; q++) {
         v[q] = 1.0;
         for (dem_index i = 0; i < lattice->n_nodes; i++)
-            set_entry(damping, lattice, i, q, vec2_scale(-1.0, springs_damping(s, i, lattice->x, v)));
+            set_entry(damping, lattice, i, q, vec2_scale(-1.0, springs_damping(s, NULL, i, lattice->x, v)));
         v[q] = 0.0;
     }
     return largest_eigenvalue(damping);

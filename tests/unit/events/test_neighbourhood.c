@@ -147,6 +147,23 @@ static void accelerations_are_the_models(void **state)
     }
 }
 
+/* Half of the springs near the site are broken, those with an odd number. */
+static void broken_springs_do_not_pull(void **state)
+{
+    rig r;
+    element_state broken;
+    (void)state;
+    open_rig(&r, 1.0 / 3.0, 4);
+    assert_ok(element_state_create(&broken, &r.model->lattice));
+    for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2)
+        element_state_break_spring(&broken, &r.model->lattice, k);
+    r.acting.elements = &broken;
+    assert_ok(gather(&r, bottom_site(&r)));
+    check_accelerations(&r);
+    element_state_destroy(&broken);
+    close_rig(&r);
+}
+
 static void a_closed_contact_holds_its_node(void **state)
 {
     rig r;
@@ -172,6 +189,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rings_are_distances),
         cmocka_unit_test(accelerations_are_the_models),
+        cmocka_unit_test(broken_springs_do_not_pull),
         cmocka_unit_test(a_closed_contact_holds_its_node),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

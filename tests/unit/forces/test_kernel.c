@@ -15,6 +15,8 @@ typedef struct scene {
     gsl_rng *random;
 } scene;
 
+static const forces whole;
+
 static double about_zero(gsl_rng *r, double size)
 {
     return size * (2.0 * gsl_rng_uniform(r) - 1.0);
@@ -116,20 +118,20 @@ static bool can_fuse(const scene *s, const forces *load)
 }
 
 /* sqrt(1 + largest bound/omega_max^2), node by node. */
-static double stiffening_of(const scene *s)
+static double stiffening_of(const scene *s, const unsigned char *broken)
 {
     const dem_model *m = s->model;
     double added = 0.0;
     for (dem_index i = 0; i < m->lattice.n_nodes; i++)
-        added = fmax(added, triangles_guard_bound(&m->triangles, i, s->x) * m->inverse_mass[i]);
+        added = fmax(added, triangles_guard_bound(&m->triangles, broken, i, s->x) * m->inverse_mass[i]);
     return sqrt(1.0 + added / (m->omega_max * m->omega_max));
 }
 
-static void check_stiffening(scene *s, dem_kernel kind, int n_threads)
+static void check_stiffening(scene *s, const forces *load, dem_kernel kind, int n_threads)
 {
     kernel k;
     assert_ok(kernel_create(&k, s->model, kind, n_threads));
-    assert_close(kernel_stiffening(&k, s->x), stiffening_of(s), 0.0);
+    assert_close(kernel_stiffening(&k, load, s->x), stiffening_of(s, element_state_triangles(load->elements)), 0.0);
     kernel_destroy(&k);
 }
 
@@ -142,7 +144,7 @@ static void check_load(scene *s, const forces *load)
             if (dem_kernel_check(kind) == DEM_OK) {
                 check_kernel(s, &acting, kind, n_threads);
                 if (can_fuse(s, load)) check_fused_step(s, &acting, kind, n_threads);
-                check_stiffening(s, kind, n_threads);
+                check_stiffening(s, &acting, kind, n_threads);
             }
 }
 
@@ -219,10 +221,59 @@ static void squeezed_triangles_agree(void **state)
         dem_lattice lattice = make_holed(&material);
         check_lattice(&lattice, 0.6);
         scene s = make_scene(&lattice, 0.6);
-        assert_true(stiffening_of(&s) > 2.0);
+        assert_true(stiffening_of(&s, NULL) > 2.0);
         free_scene(&s);
         dem_lattice_free(&lattice);
     }
+}
+
+/* Every seventh spring and every fifth triangle; what is left of the guard stiffens less. */
+static void broken_elements_agree(void **state)
+{
+    (void)state;
+    for (int laws = 0; laws < 8; laws++) {
+        dem_material material = rubber;
+        if (laws & 1) material.poissons_ratio = 0.45;
+        if (laws & 2) material.guard = 0.0;
+        if (laws & 4) material.damping_time = 1e-5;
+        dem_lattice lattice = make_holed(&material);
+        element_state broken;
+        assert_ok(element_state_create(&broken, &lattice));
+        for (dem_index k = 0; k < lattice.n_springs; k += 7) element_state_break_spring(&broken, &lattice, k);
+        for (dem_index k = 0; k < lattice.n_triangles; k += 5) element_state_break_triangle(&broken, &lattice, k);
+        const forces plain = {.gravity = {0.5, -9.81}, .elements = &broken};
+        const forces drag = {.gravity = {0.5, -9.81}, .mass_damping = 3.0, .elements = &broken};
+        scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
+        check_load(&s, &plain);
+        check_load(&s, &drag);
+        free_scene(&s);
+        element_state_destroy(&broken);
+        dem_lattice_free(&lattice);
+    }
+}
+
+/* The sweep evaluates what is broken too, and has no number for it; a spring that is whole has none either. */
+static void the_ends_of_a_broken_spring_may_meet(void **state)
+{
+    dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    element_state broken;
+    (void)state;
+    assert_ok(element_state_create(&broken, &lattice));
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        scene s = make_scene(&lattice, 0.1);
+        kernel sweeps;
+        const forces f = {.model = s.model, .elements = &broken};
+        const kernel_state y = {.x = s.x, .v = s.v, .a = s.a};
+        vec2_put(s.x, lattice.ends[2 * k], vec2_at(s.x, lattice.ends[2 * k + 1]));
+        assert_ok(kernel_create(&sweeps, s.model, DEM_KERNEL_AUTO, 1));
+        assert_true(!isfinite(kernel_accelerate(&sweeps, &f, &y)));
+        element_state_break_spring(&broken, &lattice, k);
+        assert_true(isfinite(kernel_accelerate(&sweeps, &f, &y)));
+        kernel_destroy(&sweeps);
+        free_scene(&s);
+    }
+    element_state_destroy(&broken);
+    dem_lattice_free(&lattice);
 }
 
 static void squares_agree(void **state)
@@ -488,8 +539,8 @@ static void the_guard_stiffens_what_it_squeezes(void **state)
         kernel k;
         const double omega = dem_model_omega_max(s.model);
         assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
-        assert_close(kernel_stiffening(&k, rest), 1.0, 0.0);
-        assert_close(kernel_stiffening(&k, x), sqrt(1.0 + added / (omega * omega)), 1e-12);
+        assert_close(kernel_stiffening(&k, &whole, rest), 1.0, 0.0);
+        assert_close(kernel_stiffening(&k, &whole, x), sqrt(1.0 + added / (omega * omega)), 1e-12);
         kernel_destroy(&k);
         free_scene(&s);
     }
@@ -535,6 +586,8 @@ int main(void)
         cmocka_unit_test(rectangles_of_all_sizes_agree),
         cmocka_unit_test(every_law_agrees_on_bodies_with_holes),
         cmocka_unit_test(squeezed_triangles_agree),
+        cmocka_unit_test(broken_elements_agree),
+        cmocka_unit_test(the_ends_of_a_broken_spring_may_meet),
         cmocka_unit_test(squares_agree),
         cmocka_unit_test(any_numbering_agrees),
         cmocka_unit_test(random_springs_agree),

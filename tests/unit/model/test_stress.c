@@ -84,7 +84,7 @@ static double *stir(const dem_model *model, double height, double share, gsl_rng
 static double triangles_energy_at(const dem_model *m, const double *x)
 {
     double area, guard;
-    triangles_energy(&m->triangles, x, &area, &guard);
+    triangles_energy(&m->triangles, NULL, x, &area, &guard);
     return area + guard;
 }
 
@@ -198,7 +198,7 @@ static double energy_of(const dem_model *model, const double *x, const double F[
     double *turned = copy_positions(model);
     memcpy(turned, x, 2 * (size_t)model->lattice.n_nodes * sizeof *x);
     deform(turned, model->lattice.n_nodes, F);
-    const double energy = springs_energy(&model->springs, turned) + triangles_energy_at(model, turned);
+    const double energy = springs_energy(&model->springs, NULL, turned) + triangles_energy_at(model, turned);
     free(turned);
     return energy;
 }

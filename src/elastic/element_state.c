@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Flags, and the list of nodes beside what is broken. */
+#include "elastic/element_state.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+
+dem_status element_state_create(element_state *out, const dem_lattice *lattice)
+{
+    const size_t n = (size_t)lattice->n_nodes;
+    element_state s = {.spring = calloc((size_t)lattice->n_springs + 1, sizeof *s.spring),
+                       .triangle = calloc((size_t)lattice->n_triangles + 1, sizeof *s.triangle),
+                       .node = calloc(n + 1, sizeof *s.node),
+                       .damaged = malloc((n + 1) * sizeof *s.damaged)};
+    if (s.spring == NULL || s.triangle == NULL || s.node == NULL || s.damaged == NULL) {
+        element_state_destroy(&s);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for the state of %lld springs",
+                           (long long)lattice->n_springs);
+    }
+    *out = s;
+    return DEM_OK;
+}
+
+void element_state_destroy(element_state *s)
+{
+    free(s->spring);
+    free(s->triangle);
+    free(s->node);
+    free(s->damaged);
+    *s = (element_state){0};
+}
+
+static void damage(element_state *s, dem_index node)
+{
+    if (s->node[node]) return;
+    s->node[node] = 1;
+    s->damaged[s->n_damaged++] = node;
+}
+
+void element_state_break_spring(element_state *s, const dem_lattice *lattice, dem_index spring)
+{
+    s->spring[spring] = 1;
+    for (int end = 0; end < 2; end++) damage(s, lattice->ends[2 * spring + end]);
+}
+
+void element_state_break_triangle(element_state *s, const dem_lattice *lattice, dem_index triangle)
+{
+    s->triangle[triangle] = 1;
+    for (int corner = 0; corner < 3; corner++) damage(s, lattice->triangles[3 * triangle + corner]);
+}
