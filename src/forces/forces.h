@@ -1,7 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What acts on the nodes of one simulation, contact with obstacles apart: force and acceleration of a node, whom they
  * depend on, their power and the energy that they store. Here it goes node by node; the sweep over all nodes (kernel.c)
- * and the springs near an event (events/neighbourhood.c) evaluate the same terms, the sweep with equal bits. */
+ * and the springs near an event (events/neighbourhood.c) evaluate the same terms, the sweep with equal bits.
+ *
+ * A further law, of contact between surfaces say, comes as files of its own and a pointer to it in `forces`, NULL where
+ * there is none, as boundary conditions do: forces_push() shows where. It adds
+ *   - its force on a node to forces_own_acceleration(), and the nodes on which it acts to the rows that kernel.c
+ *     evaluates one by one behind the sweep (accelerate_rest), which gives the sweep the same bits;
+ *   - the nodes that this force depends on to forces_next_neighbour(), such that they hold for a whole step;
+ *   - its energy to forces_node_energy() and diagnostics_energy(), or else its power to forces_node_power() and the
+ *     sums over all nodes below it;
+ *   - what it depends on to the questions that follow: forces_are_plain() is false with it.
+ * Nothing outside this folder asks more. tests/unit/forces/test_forces.c is what every law has to keep to. */
 #ifndef DEM_FORCES_FORCES_H
 #define DEM_FORCES_FORCES_H
 

@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* forces.h, forces.c: what every force keeps to. Forces are minus the gradient of the energy, power is force times
+ * velocity, nothing but the neighbours matters, and what is broken is as if it had never been. */
+#include "verification/support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "forces/diagnostics.h"
+
+enum { MOST_NODES = 64 };
+
+static const double spacing = 1e-2;
+
+/* A block of rubber in which all there is acts, on the move. Stays where it is: it points to itself. */
+typedef struct body {
+    dem_lattice lattice;
+    dem_model *model;
+    element_state state;
+    boundary_conditions boundaries;
+    external_force *external;
+    forces f;
+    dem_index n;
+    double x[2 * MOST_NODES], v[2 * MOST_NODES + 1]; /* the time behind the velocities */
+} body;
+
+/* N: depends on everything that it may. */
+static dem_status wind(void *context, const dem_force_query *q, double *force)
+{
+    (void)context;
+    for (dem_index k = 0; k < q->n; k++) {
+        force[2 * k] = 3.0 * q->x[2 * k + 1] - 0.2 * q->v[2 * k] + q->t;
+        force[2 * k + 1] = 2.0 + 0.1 * (double)q->nodes[k] + 0.3 * q->v[2 * k];
+    }
+    return DEM_OK;
+}
+
+/* nu = 0.2 brings the area term; nodes are moved by up to half a spacing, so that the guard acts. */
+static void make_lattice(dem_lattice *out, double damping_time)
+{
+    const dem_material rubber = {.youngs_modulus = 1e7,
+                                 .poissons_ratio = 0.2,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02,
+                                 .damping_time = damping_time};
+    assert_ok(dem_lattice_rectangle(out, 5.0 * spacing, 5.0 * spacing, spacing));
+    assert_ok(dem_lattice_assemble(out, &rubber));
+    assert_true(out->n_nodes <= MOST_NODES && out->n_nodes > 30);
+}
+
+static void compile(body *b)
+{
+    b->n = b->lattice.n_nodes;
+    assert_ok(dem_model_create(&b->model, &b->lattice, NULL, 0));
+    assert_ok(element_state_create(&b->state, &b->lattice));
+    b->f = (forces){.model = b->model, .elements = &b->state, .gravity = {0.5, -9.81}, .clock = 2 * b->n};
+    for (dem_index c = 0; c < 2 * b->n; c++) {
+        b->x[c] = b->lattice.x[c] + 0.45 * spacing * sin(7.0 * (double)(c * c));
+        b->v[c] = 3.0 * cos(5.0 * (double)(c * c));
+    }
+    b->v[2 * b->n] = 0.7;
+}
+
+static void open_body(body *b, double damping_time)
+{
+    *b = (body){0};
+    make_lattice(&b->lattice, damping_time);
+    compile(b);
+}
+
+/* Mass damping, a force on two nodes and one from outside; one component of a node is prescribed. */
+static void drive(body *b)
+{
+    const dem_index pushed[2] = {7, 12}, moved[1] = {9};
+    const dem_boundary list[2] = {
+        {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = pushed, .value = {40.0, -20.0}, .ramp = 2.0},
+        {.kind = DEM_BOUNDARY_VELOCITY,
+         .components = DEM_COMPONENT_Y,
+         .n_nodes = 1,
+         .nodes = moved,
+         .value = {0.0, 2.0},
+         .ramp = 2.0}};
+    const dem_options options = {.force = wind};
+    assert_ok(boundary_conditions_compile(&b->boundaries, list, 2, &b->model->lattice, 0));
+    assert_ok(external_force_create(&b->external, &options, b->n));
+    b->f.mass_damping = 30.0;
+    b->f.boundaries = &b->boundaries;
+    b->f.external = b->external;
+}
+
+static void close_body(body *b)
+{
+    boundary_conditions_free(&b->boundaries);
+    external_force_destroy(b->external);
+    element_state_destroy(&b->state);
+    dem_model_destroy(b->model);
+    dem_lattice_free(&b->lattice);
+}
+
+/* Every fifth spring and every seventh triangle. */
+static bool breaks_spring(dem_index k)
+{
+    return k % 5 == 0;
+}
+
+static bool breaks_triangle(dem_index k)
+{
+    return k % 7 == 0;
+}
+
+static void break_some(body *b)
+{
+    for (dem_index k = 0; k < b->lattice.n_springs; k++)
+        if (breaks_spring(k)) element_state_break_spring(&b->state, &b->lattice, k);
+    for (dem_index k = 0; k < b->lattice.n_triangles; k++)
+        if (breaks_triangle(k)) element_state_break_triangle(&b->state, &b->lattice, k);
+    assert_true(b->state.n_damaged > 10);
+}
+
+/* Breaks all that is at node 0. */
+static void break_off(body *b)
+{
+    const dem_lattice *l = &b->lattice;
+    for (dem_index k = 0; k < 2 * l->n_springs; k++)
+        if (l->ends[k] == 0) element_state_break_spring(&b->state, l, k / 2);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        if (l->triangles[k] == 0) element_state_break_triangle(&b->state, l, k / 3);
+}
+
+/* The body without them: springs and triangles keep their order, so that sums run as they did. */
+static void open_without(body *b, double damping_time)
+{
+    *b = (body){0};
+    make_lattice(&b->lattice, damping_time);
+    dem_lattice *l = &b->lattice;
+    dem_index n_springs = 0, n_triangles = 0;
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        if (breaks_spring(k)) continue;
+        memmove(l->ends + 2 * n_springs, l->ends + 2 * k, 2 * sizeof *l->ends);
+        l->stiffness[n_springs] = l->stiffness[k];
+        l->rest_length[n_springs] = l->rest_length[k];
+        if (l->viscosity != NULL) l->viscosity[n_springs] = l->viscosity[k];
+        n_springs++;
+    }
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        if (breaks_triangle(k)) continue;
+        memmove(l->triangles + 3 * n_triangles, l->triangles + 3 * k, 3 * sizeof *l->triangles);
+        l->area_stiffness[n_triangles] = l->area_stiffness[k];
+        l->guard[n_triangles] = l->guard[k];
+        n_triangles++;
+    }
+    l->n_springs = n_springs;
+    l->n_triangles = n_triangles;
+    compile(b);
+}
+
+static vec2 force_on(const body *b, dem_index i)
+{
+    return vec2_scale(b->model->lattice.mass[i], forces_acceleration(&b->f, i, b->x, b->v));
+}
+
+/* ---- energy ---- */
+
+/* Minus the slope of the node's energy along c, by central differences over 1e-8 m. */
+static double pull_of_energy(body *b, dem_index i, int c)
+{
+    const double step = 1e-8, here = b->x[2 * i + c];
+    b->x[2 * i + c] = here + step;
+    const double above = forces_node_energy(&b->f, i, b->x);
+    b->x[2 * i + c] = here - step;
+    const double below = forces_node_energy(&b->f, i, b->x);
+    b->x[2 * i + c] = here;
+    return (below - above) / (2.0 * step);
+}
+
+/* Energies of some 1e3 J in rounding 1e-16 over 2e-8 m: 1e-5 N of forces of up to 1e6 N; truncation 1e-16 * 1e12 N/m^2
+ * where a triangle is all but flat. */
+static void forces_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
+{
+    (void)state;
+    for (int broken = 0; broken < 2; broken++) {
+        body b;
+        open_body(&b, 0.0);
+        if (broken) break_some(&b);
+        for (dem_index i = 0; i < b.n; i++) {
+            const vec2 force = force_on(&b, i);
+            assert_close(force.x, pull_of_energy(&b, i, 0), 1e-3);
+            assert_close(force.y, pull_of_energy(&b, i, 1), 1e-3);
+        }
+        close_body(&b);
+    }
+}
+
+/* The energy of all nodes moved at once by their velocities times 1e-8 s: sums of some 1e4 J, rounding 1e-16 each, over
+ * 2e-8 s; the power is 1.6e6 W. */
+static void the_power_of_all_forces_is_what_the_energy_loses(void **state)
+{
+    const double tau = 1e-8;
+    (void)state;
+    for (int broken = 0; broken < 2; broken++) {
+        body b;
+        double power = 0.0, moved[2][2 * MOST_NODES], stored[2];
+        open_body(&b, 0.0);
+        if (broken) break_some(&b);
+        for (dem_index i = 0; i < b.n; i++) power += vec2_dot(force_on(&b, i), vec2_at(b.v, i));
+        for (int k = 0; k < 2; k++) {
+            for (dem_index c = 0; c < 2 * b.n; c++) moved[k][c] = b.x[c] + (k == 0 ? -tau : tau) * b.v[c];
+            const dem_energy e = diagnostics_energy(&b.f, moved[k], b.v);
+            assert_true(e.guard > 0.0 && e.area < 0.0 && e.elastic > 0.0);
+            stored[k] = e.elastic + e.area + e.guard + e.gravity;
+        }
+        assert_close(power, (stored[0] - stored[1]) / (2.0 * tau), 1e-2);
+        close_body(&b);
+    }
+}
+
+/* ---- power ---- */
+
+/* The force on a node that is driven and damped, times its velocity, is that of its energy, less what damping takes,
+ * with what is put in. Some 5e6 W in rounding 1e-16, some ten terms. */
+static void the_power_of_a_node_is_its_force_times_its_velocity(void **state)
+{
+    (void)state;
+    for (int broken = 0; broken < 2; broken++) {
+        body b;
+        open_body(&b, 1e-4);
+        if (broken) break_some(&b);
+        const forces still = {.model = b.model, .elements = b.f.elements, .gravity = {0.5, -9.81}};
+        const double at_rest[2 * MOST_NODES] = {0.0};
+        drive(&b);
+        for (dem_index i = 0; i < b.n; i++) {
+            const vec2 v = vec2_at(b.v, i), x = vec2_at(b.x, i);
+            const vec2 push = external_force_of_node(b.external, b.v[2 * b.n], i, x, v);
+            const forces_power power = forces_node_power(&b.f, i, push, b.x, b.v);
+            const double mass = b.model->lattice.mass[i];
+            const double elastic = mass * vec2_dot(forces_acceleration(&still, i, b.x, at_rest), v);
+            const double held =
+                forces_held(&b.f, i) != 0 ? force_on(&b, i).y * v.y : 0.0; /* given back by the boundary */
+            assert_close(power.work - power.damping, vec2_dot(force_on(&b, i), v) - held - elastic, 1e-7);
+        }
+        close_body(&b);
+    }
+}
+
+/* Terms of up to 5e6 W: rounding. What the prescribed acceleration takes itself is in the sum over all alone. */
+static void the_power_of_all_is_the_sum_over_nodes(void **state)
+{
+    (void)state;
+    for (int broken = 0; broken < 2; broken++) {
+        body b;
+        double u[2 * MOST_NODES], a[2 * MOST_NODES], damping = 0.0, work = 0.0;
+        open_body(&b, 1e-4);
+        if (broken) break_some(&b);
+        drive(&b);
+        const double t = b.v[2 * b.n];
+        const boundary_condition *moves = &b.boundaries.list[1];
+        b.v[2 * 9 + 1] = boundary_condition_velocity(moves, t).y;
+        external_force_evaluate(b.external, &(dem_force_query){t, b.n, b.external->all, b.x, b.v});
+        for (dem_index i = 0; i < b.n; i++) {
+            const forces_power power = forces_node_power(&b.f, i, vec2_at(b.external->value, i), b.x, b.v);
+            vec2_put(a, i, forces_acceleration(&b.f, i, b.x, b.v));
+            damping += power.damping;
+            work += power.work;
+        }
+        memcpy(u, b.v, sizeof u);
+        work += b.model->lattice.mass[9] * boundary_condition_acceleration(moves, t).y * b.v[2 * 9 + 1];
+        assert_true(damping > 100.0 && fabs(work) > 100.0);
+        assert_close(forces_damping_power(&b.f, b.x, b.v), damping, 1e-12 * damping);
+        assert_close(forces_prescribe(&b.f, t, b.v, u, a), work, 1e-8);
+        assert_close(a[2 * 9 + 1], boundary_condition_acceleration(moves, t).y, 0.0);
+        close_body(&b);
+    }
+}
+
+/* ---- neighbours ---- */
+
+static bool has_neighbour(const forces *f, dem_index i, dem_index other)
+{
+    for (forces_neighbours j = forces_neighbours_of(f, i); forces_next_neighbour(&j);)
+        if (j.node == other) return true;
+    return false;
+}
+
+/* Whether another place and velocity of one node make any difference to the acceleration of another. */
+static bool matters(body *b, dem_index i, dem_index other)
+{
+    const vec2 x = vec2_at(b->x, other), v = vec2_at(b->v, other);
+    const vec2 before = forces_acceleration(&b->f, i, b->x, b->v);
+    vec2_put(b->x, other, (vec2){x.x + 0.11 * spacing, x.y - 0.07 * spacing});
+    vec2_put(b->v, other, (vec2){v.x + 1.0, v.y - 2.0});
+    const vec2 after = forces_acceleration(&b->f, i, b->x, b->v);
+    vec2_put(b->x, other, x);
+    vec2_put(b->v, other, v);
+    return before.x != after.x || before.y != after.y;
+}
+
+static void the_neighbours_of_a_node_are_all_that_matter_to_it(void **state)
+{
+    (void)state;
+    for (int broken = 0; broken < 2; broken++) {
+        body b;
+        dem_index n_pairs = 0;
+        open_body(&b, 1e-4);
+        if (broken) break_some(&b);
+        if (broken) break_off(&b);
+        drive(&b);
+        for (dem_index i = 0; i < b.n; i++)
+            for (dem_index j = 0; j < b.n; j++) {
+                if (i == j) continue;
+                assert_int_equal(matters(&b, i, j), has_neighbour(&b.f, i, j));
+                assert_int_equal(has_neighbour(&b.f, i, j), has_neighbour(&b.f, j, i));
+                n_pairs += has_neighbour(&b.f, i, j);
+            }
+        assert_true(n_pairs > 100);
+        for (dem_index j = 0; j < b.n && broken; j++) assert_false(has_neighbour(&b.f, 0, j));
+        close_body(&b);
+    }
+}
+
+/* ---- what is broken ---- */
+
+/* To the bit: sums have the same terms in the same order. */
+static void what_is_broken_is_as_if_it_had_never_been(void **state)
+{
+    body b, without;
+    (void)state;
+    open_body(&b, 1e-4);
+    open_without(&without, 1e-4);
+    break_some(&b);
+    without.f.elements = NULL;
+    drive(&b);
+    drive(&without);
+    for (dem_index i = 0; i < b.n; i++) {
+        const vec2 own = forces_acceleration(&b.f, i, b.x, b.v), other = forces_acceleration(&without.f, i, b.x, b.v);
+        assert_close(own.x, other.x, 0.0);
+        assert_close(own.y, other.y, 0.0);
+        assert_close(forces_node_energy(&b.f, i, b.x), forces_node_energy(&without.f, i, b.x), 0.0);
+    }
+    const dem_energy e = diagnostics_energy(&b.f, b.x, b.v), expected = diagnostics_energy(&without.f, b.x, b.v);
+    assert_memory_equal(&e, &expected, sizeof e);
+    assert_close(forces_damping_power(&b.f, b.x, b.v), forces_damping_power(&without.f, b.x, b.v), 0.0);
+    const dem_strain strain = diagnostics_strain(&b.f, b.x), left = diagnostics_strain(&without.f, b.x);
+    assert_close(strain.min, left.min, 0.0);
+    assert_close(strain.max, left.max, 0.0);
+    assert_close(strain.area_min, left.area_min, 0.0);
+    assert_int_equal(strain.guarded, left.guarded);
+    assert_int_equal(strain.inverted, left.inverted);
+    close_body(&b);
+    close_body(&without);
+}
+
+/* Strains and forces that are told of each spring: those that are whole have their own, the others 0. */
+static void a_broken_spring_has_no_strain_and_no_force(void **state)
+{
+    body b;
+    (void)state;
+    open_body(&b, 0.0);
+    break_some(&b);
+    double *whole = calloc(3 * (size_t)b.lattice.n_springs, sizeof *whole);
+    assert_non_null(whole);
+    double *strain = whole + b.lattice.n_springs, *force = strain + b.lattice.n_springs;
+    springs_strains(&b.model->springs, NULL, b.x, whole);
+    springs_strains(&b.model->springs, b.state.spring, b.x, strain);
+    springs_forces(&b.model->springs, b.state.spring, b.x, force);
+    for (dem_index k = 0; k < b.lattice.n_springs; k++) {
+        assert_true(whole[k] != 0.0);
+        assert_close(strain[k], b.state.spring[k] ? 0.0 : whole[k], 0.0);
+        assert_int_equal(force[k] == 0.0, b.state.spring[k] != 0);
+    }
+    free(whole);
+    close_body(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(forces_are_minus_the_gradient_of_the_energy_at_a_node),
+        cmocka_unit_test(the_power_of_all_forces_is_what_the_energy_loses),
+        cmocka_unit_test(the_power_of_a_node_is_its_force_times_its_velocity),
+        cmocka_unit_test(the_power_of_all_is_the_sum_over_nodes),
+        cmocka_unit_test(the_neighbours_of_a_node_are_all_that_matter_to_it),
+        cmocka_unit_test(what_is_broken_is_as_if_it_had_never_been),
+        cmocka_unit_test(a_broken_spring_has_no_strain_and_no_force),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
