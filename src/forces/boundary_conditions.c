@@ -143,13 +143,6 @@ double boundary_conditions_speed(const boundary_conditions *b)
     return fastest;
 }
 
-double boundary_conditions_settled(const boundary_conditions *b)
-{
-    double last = 0.0;
-    for (dem_index k = 0; k < b->n; k++) last = fmax(last, b->list[k].ramp);
-    return last;
-}
-
 /* ---- compilation ---- */
 
 static dem_status check_one(const dem_boundary *b, dem_index k)

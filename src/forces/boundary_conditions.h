@@ -67,7 +67,4 @@ bool boundary_conditions_move(const boundary_conditions *b);
 /** The fastest that a boundary moves a component, m/s. */
 double boundary_conditions_speed(const boundary_conditions *b);
 
-/** When the last ramp has ended, s. */
-double boundary_conditions_settled(const boundary_conditions *b);
-
 #endif
