@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Carries, and the one rounding. */
+/* Carries, sums of many terms, and the one rounding. */
 #include "base/exact_sum.h"
 
 #include <math.h>
 
-enum { limb_bits = 32, mantissa_bits = 53, unit_exponent = -1074 /* of 2 */ };
+enum {
+    limb_bits = 32,
+    mantissa_bits = 53,
+    unit_exponent = -1074, /* of 2 */
+    block = 256,           /* terms that are split together, */
+    lanes = 8              /* so many at a time */
+};
 
+static const double too_large = 0x1p1020; /* for what their magnitudes add up to */
 static const int64_t limb_size = 0x100000000, limb_mask = 0xffffffff;
 
 /* Afterwards every limb but the last is in [0, 2^32), and the last has the sign of the sum. */
@@ -27,6 +34,62 @@ void exact_sum_add_special(exact_sum *s, double term)
         s->has_nan = true;
     else
         s->has_infinity[term < 0.0] = true;
+}
+
+/* ---- many terms: error-free extraction (Rump, Ogita and Oishi 2008; Demmel and Nguyen 2013) ---- */
+
+static double total(const double lane[lanes])
+{
+    double sum = 0.0;
+    for (int l = 0; l < lanes; l++) sum += lane[l];
+    return sum;
+}
+
+static double magnitudes(const double *terms, int n)
+{
+    double sum[lanes] = {0};
+    for (int k = 0; k < n; k += lanes)
+        for (int l = 0; l < lanes; l++) sum[l] += fabs(terms[k + l]);
+    return total(sum);
+}
+
+/* Takes from each term its multiple of a unit u, and leaves at most u/2 of it. With 2^e above the sum of magnitudes,
+ * u = 2^(e - 51) is the last place of `large`, so that adding and subtracting that rounds to it. The multiples add up
+ * to less than 2^(e + 1) = 2^52 u in any order, so their sum is a double. Where u would be below the smallest
+ * subnormal number all is exact and nothing is left.  \return the sum of what was taken */
+static double extract(double *terms, int n, int e)
+{
+    const double large = ldexp(1.5, e + 1);
+    double sum[lanes] = {0};
+    for (int k = 0; k < n; k += lanes)
+        for (int l = 0; l < lanes; l++) {
+            const double multiple = (terms[k + l] + large) - large;
+            terms[k + l] -= multiple;
+            sum[l] += multiple;
+        }
+    return total(sum);
+}
+
+/* Each round extracts twice: 2^(e - 43) is above the sum of up to 256 rests of u/2. Usual terms take a round or two,
+ * those as far apart as doubles can be some thirty. */
+static void add_block(exact_sum *s, const double *terms, int n)
+{
+    double rest[block];
+    int m = n, e;
+    memcpy(rest, terms, (size_t)n * sizeof *rest);
+    while (m % lanes != 0) rest[m++] = 0.0;
+    double size = magnitudes(rest, m);
+    for (int k = 0; k < n && !(size < too_large); k++) exact_sum_add(s, terms[k]);
+    for (; size > 0.0 && size < too_large; size = magnitudes(rest, m)) {
+        (void)frexp(size, &e);
+        exact_sum_add(s, extract(rest, m, e));
+        exact_sum_add(s, extract(rest, m, e - 43));
+    }
+}
+
+void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
+{
+    for (int64_t k = 0; k < n; k += block) add_block(s, terms + k, n - k < block ? (int)(n - k) : block);
 }
 
 /* ---- rounding, of limbs after a carry and not negative ---- */

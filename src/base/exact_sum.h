@@ -43,6 +43,10 @@ static inline void exact_sum_add(exact_sum *s, double term)
     if (++s->n_terms == EXACT_SUM_MOST) exact_sum_carry(s);
 }
 
+/** Adds n terms, to the same bits as one by one, in about a third of the instructions where there are many and their
+ *  exponents are not far apart. */
+void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n);
+
 /** The sum rounded to the nearest double, ties to the even one: +0 if it is 0 or empty, infinite where it overflows.
  *  With terms that are not finite it is what additions of doubles give in any order. */
 double exact_sum_value(const exact_sum *s);

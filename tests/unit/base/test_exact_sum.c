@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* exact_sum.c: against sums of fractions worked out by Python, sums known by hand, and itself in other orders. Every
- * comparison is to the bit: the nearest double is one number. */
+/* exact_sum.c, exact_terms.h: against sums of fractions worked out by Python, sums known by hand, and itself in
+ * other orders. Every comparison is to the bit: the nearest double is one number. */
 #include "unit/close.h"
 
 #include <float.h>
 #include <string.h>
 
-#include "base/exact_sum.h"
+#include "base/exact_terms.h"
 
 enum { most = 20000 };
 
@@ -193,6 +193,92 @@ static void terms_that_are_not_finite_count_in_any_order(void **state)
     assert_true(isnan(sum_of(none, 3)));
 }
 
+/* ---- many at a time ---- */
+
+/* The same number, not only the same rounded one: limbs after carries are the digits of the sum. */
+static void assert_same_sum(exact_sum actual, exact_sum expected)
+{
+    exact_sum_carry(&actual);
+    exact_sum_carry(&expected);
+    assert_memory_equal(actual.limb, expected.limb, sizeof actual.limb);
+    assert_same(exact_sum_value(&actual), exact_sum_value(&expected));
+}
+
+/* The first n terms: as an array, and collected, to what is there already. */
+static void assert_many_are_like_one_by_one(int n)
+{
+    exact_sum one_by_one = {0}, array = {0};
+    exact_terms collected = {.n = 0};
+    exact_sum_add(&one_by_one, 1.0 / 3.0);
+    exact_sum_add(&array, 1.0 / 3.0);
+    exact_terms_add(&collected, 1.0 / 3.0);
+    for (int k = 0; k < n; k++) exact_sum_add(&one_by_one, terms[k]);
+    for (int k = 0; k < n; k++) exact_terms_add(&collected, terms[k]);
+    exact_sum_add_array(&array, terms, n);
+    assert_same_sum(array, one_by_one);
+    assert_same_sum(*exact_terms_sum(&collected), one_by_one);
+    assert_same_sum(*exact_terms_sum(&collected), one_by_one); /* none is added twice */
+}
+
+/* All exponents, as far as 2^86 apart, alike, subnormal, near overflow; lengths at the ends of lanes and blocks. */
+static void many_terms_add_up_like_one_by_one(void **state)
+{
+    static const int ranges[][2] = {{-1126, 918}, {-1050, 945}, {-40, 46}, {-53, -52}, {-1126, -1074}, {900, 970}};
+    static const int lengths[] = {0, 1, 7, 8, 9, 255, 256, 257, 512, 1000, most};
+    (void)state;
+    for (size_t r = 0; r < sizeof ranges / sizeof ranges[0]; r++)
+        for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
+            fill(70 + r, lengths[k], ranges[r][0], ranges[r][1]);
+            assert_many_are_like_one_by_one(lengths[k]);
+        }
+}
+
+/* A full block of the same term, whose multiples add up to the most that they can; all bits of its mantissa are set,
+ * or rounding to multiples is a tie. */
+static void blocks_of_equal_terms_are_exact(void **state)
+{
+    static const double equal[] = {0x1.fffffffffffffp0, 1.0, 0x1.0000000000001p0, 0x1.00000004p-3,
+                                   0x1.fffffffffffffp-1022};
+    (void)state;
+    for (size_t e = 0; e < sizeof equal / sizeof equal[0]; e++)
+        for (int n = EXACT_TERMS_MOST - 1; n <= EXACT_TERMS_MOST + 1; n++) {
+            for (int k = 0; k < n; k++) terms[k] = equal[e];
+            assert_many_are_like_one_by_one(n);
+        }
+}
+
+static void many_terms_that_cancel_leave_what_is_left(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 80; seed < 90; seed++) {
+        exact_sum s = {0};
+        fill(seed, most / 2, seed % 2 ? -1050 : -60, seed % 2 ? 945 : 60);
+        for (int k = 0; k < most / 2; k++) terms[most / 2 + k] = -terms[k];
+        shuffle(seed, most);
+        exact_sum_add_array(&s, terms, most);
+        assert_same(exact_sum_value(&s), 0.0);
+        terms[7] = terms[most - 1] = 0x1p-1074;
+        assert_many_are_like_one_by_one(most);
+    }
+}
+
+/* Blocks whose magnitudes overflow when they are added up, and those with terms that are not finite. */
+static void blocks_that_overflow_are_added_one_by_one(void **state)
+{
+    (void)state;
+    fill(90, most, 960, 971);
+    assert_many_are_like_one_by_one(most);
+    for (int k = 0; k < most; k++) terms[k] = k % 3 ? -DBL_MAX : DBL_MAX;
+    assert_many_are_like_one_by_one(most);
+    exact_sum s = {0}, none = {0};
+    terms[300] = INFINITY;
+    exact_sum_add_array(&s, terms, most);
+    assert_same(exact_sum_value(&s), INFINITY);
+    terms[0] = NAN;
+    exact_sum_add_array(&none, terms, most);
+    assert_true(isnan(exact_sum_value(&none)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -206,6 +292,10 @@ int main(void)
         cmocka_unit_test(limbs_do_not_overflow),
         cmocka_unit_test(many_large_terms_overflow_only_when_they_are_read),
         cmocka_unit_test(terms_that_are_not_finite_count_in_any_order),
+        cmocka_unit_test(many_terms_add_up_like_one_by_one),
+        cmocka_unit_test(blocks_of_equal_terms_are_exact),
+        cmocka_unit_test(many_terms_that_cancel_leave_what_is_left),
+        cmocka_unit_test(blocks_that_overflow_are_added_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
