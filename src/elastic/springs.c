@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 
 static void count_rows(springs *s, const dem_lattice *lattice)
@@ -122,11 +123,11 @@ double springs_node_energy(const springs *s, const unsigned char *broken, dem_in
 
 double springs_energy(const springs *s, const unsigned char *broken, const double *x)
 {
-    double energy = 0.0;
+    exact_terms energy = {.n = 0};
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i && !springs_broken(s, broken, p)) energy += slot_energy(s, i, p, x);
-    return energy;
+            if (s->neighbour[p] > i && !springs_broken(s, broken, p)) exact_terms_add(&energy, slot_energy(s, i, p, x));
+    return reduce_terms(&energy);
 }
 
 double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)

@@ -89,7 +89,7 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x);
 
-/** Energy of all springs, J. */
+/** Energy of all springs, J; does not depend on how they and the nodes are numbered. */
 double springs_energy(const springs *s, const unsigned char *broken, const double *x);
 
 /** (d - d0)/d0 of the spring in slot p of row i. */

@@ -48,7 +48,7 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
 /** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
 
-/** Energies of the area term and of the guard, J. */
+/** Energies of the area term and of the guard, J; sums that do not depend on an order. */
 void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard);
 
 /** Sum over the triangles at node i of max(kappa, 0)/A0 g g^T, g = dA/dx_i at x: the area term makes a matrix that is

@@ -4,9 +4,15 @@
 
 #include "base/reduce.h"
 
-static vec2 rounded_sum(vec2 own)
+static void add(exact_sum sum[2], vec2 term)
 {
-    return (vec2){reduce_rounded_sum(own.x), reduce_rounded_sum(own.y)};
+    exact_sum_add(&sum[0], term.x);
+    exact_sum_add(&sum[1], term.y);
+}
+
+static vec2 sum_of(const exact_sum sum[2])
+{
+    return (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])};
 }
 
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
@@ -14,36 +20,37 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     const dem_model *model = f->model;
     dem_energy energy = {.elastic = springs_energy(&model->springs, element_state_springs(f->elements), x)};
     triangles_energy(&model->triangles, element_state_triangles(f->elements), x, &energy.area, &energy.guard);
+    exact_terms kinetic = {.n = 0}, weight = {.n = 0};
     const vec2 g = {f->gravity[0], f->gravity[1]};
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const double m = model->lattice.mass[i];
         const vec2 vi = vec2_at(v, i);
-        energy.kinetic += 0.5 * m * vec2_dot(vi, vi);
-        energy.gravity -= m * vec2_dot(g, vec2_at(x, i));
+        exact_terms_add(&kinetic, 0.5 * m * vec2_dot(vi, vi));
+        exact_terms_add(&weight, -m * vec2_dot(g, vec2_at(x, i)));
     }
-    double *const own[] = {&energy.kinetic, &energy.elastic, &energy.area, &energy.guard, &energy.gravity};
-    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_rounded_sum(*own[k]);
+    energy.kinetic = reduce_terms(&kinetic);
+    energy.gravity = reduce_terms(&weight);
     return energy;
 }
 
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
 {
     const dem_lattice *l = &model->lattice;
-    double mass = 0.0, spin = 0.0;
-    vec2 centre = {0.0, 0.0}, momentum = {0.0, 0.0};
+    exact_terms sum[5] = {{.n = 0}}, spin = {.n = 0}; /* of mass, mass times place, momentum */
     for (dem_index i = 0; i < l->n_nodes; i++) {
         if (l->body[i] != body) continue;
-        mass += l->mass[i];
-        centre = vec2_along(centre, l->mass[i], vec2_at(x, i));
-        momentum = vec2_along(momentum, l->mass[i], vec2_at(v, i));
+        const vec2 place = vec2_scale(l->mass[i], vec2_at(x, i)), momentum = vec2_scale(l->mass[i], vec2_at(v, i));
+        const double terms[5] = {l->mass[i], place.x, place.y, momentum.x, momentum.y};
+        for (int k = 0; k < 5; k++) exact_terms_add(&sum[k], terms[k]);
     }
-    mass = reduce_rounded_sum(mass);
-    centre = vec2_scale(1.0 / mass, rounded_sum(centre));
-    const vec2 velocity = vec2_scale(1.0 / mass, rounded_sum(momentum));
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (l->body[i] == body)
-            spin += l->mass[i] * vec2_cross(vec2_sub(vec2_at(x, i), centre), vec2_sub(vec2_at(v, i), velocity));
-    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, reduce_rounded_sum(spin)};
+    const double mass = reduce_terms(&sum[0]);
+    const vec2 centre = vec2_scale(1.0 / mass, (vec2){reduce_terms(&sum[1]), reduce_terms(&sum[2])});
+    const vec2 velocity = vec2_scale(1.0 / mass, (vec2){reduce_terms(&sum[3]), reduce_terms(&sum[4])});
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const vec2 r = vec2_sub(vec2_at(x, i), centre), u = vec2_sub(vec2_at(v, i), velocity);
+        if (l->body[i] == body) exact_terms_add(&spin, l->mass[i] * vec2_cross(r, u));
+    }
+    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, reduce_terms(&spin)};
 }
 
 static void measure_triangles(const forces *f, const double *x, dem_strain *strain)
@@ -104,26 +111,22 @@ static vec2 contact_force(const dem_contact *c)
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle)
 {
     dem_obstacle_load load = {0};
-    vec2 sum = {0.0, 0.0}, mean = {0.0, 0.0};
-    double weight = 0.0, moment = 0.0; /* about the mean place */
+    exact_sum resultant[2] = {0}, places[2] = {0}, weights = {0}, moments = {0}; /* about the mean place */
     for (dem_index k = 0; k < n; k++) {
         if (list[k].obstacle != obstacle) continue;
-        const double size = vec2_norm(contact_force(&list[k]));
+        const vec2 force = contact_force(&list[k]);
         load.contacts++;
-        sum = vec2_add(sum, contact_force(&list[k]));
-        mean = vec2_along(mean, size, vec2_at(list[k].x, 0));
-        weight += size;
+        add(resultant, force);
+        add(places, vec2_scale(vec2_norm(force), vec2_at(list[k].x, 0)));
+        exact_sum_add(&weights, vec2_norm(force));
     }
     load.contacts = reduce_count(load.contacts);
-    weight = reduce_rounded_sum(weight);
-    sum = rounded_sum(sum);
-    mean = rounded_sum(mean);
-    if (weight > 0.0) mean = vec2_scale(1.0 / weight, mean);
+    const double weight = reduce_sum(&weights);
+    const vec2 sum = sum_of(resultant), mean = weight > 0.0 ? vec2_scale(1.0 / weight, sum_of(places)) : sum_of(places);
     for (dem_index k = 0; k < n; k++)
         if (list[k].obstacle == obstacle)
-            moment += vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k]));
-    moment = reduce_rounded_sum(moment);
-    const double square = vec2_dot(sum, sum);
+            exact_sum_add(&moments, vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k])));
+    const double square = vec2_dot(sum, sum), moment = reduce_sum(&moments);
     const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
     vec2_put(load.reaction, 0, sum);
     vec2_put(load.point, 0, vec2_add(mean, arm));
@@ -141,17 +144,16 @@ static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i
 dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *x, const double *v)
 {
     dem_boundary_load out;
-    vec2 force = {0.0, 0.0}, way = {0.0, 0.0};
+    exact_sum resultant[2] = {0}, ways[2] = {0};
     for (dem_index k = 0; k < b->n_nodes; k++) {
         const dem_index i = b->nodes[k];
-        way = vec2_add(way, vec2_sub(vec2_at(x, i), vec2_at(f->model->lattice.position, i)));
-        force = b->kind == DEM_BOUNDARY_FORCE
-                    ? vec2_along(force, b->share[k] * boundary_condition_ramp(b, v[f->clock]), b->value)
-                    : vec2_add(force, held_force(f, b, i, x, v));
+        add(ways, vec2_sub(vec2_at(x, i), vec2_at(f->model->lattice.position, i)));
+        add(resultant, b->kind == DEM_BOUNDARY_FORCE
+                           ? vec2_scale(b->share[k] * boundary_condition_ramp(b, v[f->clock]), b->value)
+                           : held_force(f, b, i, x, v));
     }
-    vec2_put(out.force, 0, rounded_sum(force));
-    way = rounded_sum(way);
-    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(b->n_nodes), way));
+    vec2_put(out.force, 0, sum_of(resultant));
+    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(b->n_nodes), sum_of(ways)));
     return out;
 }
 

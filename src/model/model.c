@@ -138,7 +138,6 @@ static dem_status compile_nodes(dem_model *m)
         m->inverse_mass[i] = fixed ? 0.0 : 1.0 / l->mass[i];
         if ((l->flags[i] & DEM_NODE_CONTACT) && !fixed) m->contact_nodes[m->n_contact_nodes++] = i;
         if (l->body[i] >= m->n_bodies) m->n_bodies = l->body[i] + 1;
-        m->mass += l->mass[i];
     }
     return DEM_OK;
 }
@@ -168,7 +167,9 @@ static void compile_scales(dem_model *m)
     m->spacing = isfinite(shortest) ? shortest : 0.0;
     m->omega_max = frequency_bound(m);
     m->n_bodies = (dem_index)reduce_max((double)m->n_bodies);
-    m->mass = reduce_rounded_sum(m->mass);
+    exact_sum mass = {0};
+    exact_sum_add_array(&mass, l->mass, l->n_nodes);
+    m->mass = reduce_sum(&mass);
 }
 
 static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
