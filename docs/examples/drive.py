@@ -72,7 +72,7 @@ class dem_observer(ctypes.Structure):
                 ("record", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p)]
 
 
-dem = ctypes.CDLL("libdem.so.0")
+dem = ctypes.CDLL("libdem.so.1")
 dem.dem_status_message.restype = c_char_p
 dem.dem_model_lattice.restype = POINTER(dem_lattice)
 for function, arguments in {

@@ -35,14 +35,16 @@ typedef enum dem_friction_law {
     DEM_FRICTION_PAPER /**< at an impact v_t' = mu v_t, a lasting contact slides freely: docs/method.md    (10) */
 } dem_friction_law;
 
-/** A fixed polyline; bodies live on the left of each segment, the solid is on its right. Closed if the last point is
- *  the first. The ends of an open one are free: what has passed round an end may come back from behind, unhindered. */
+/** A rigid polyline, at rest or moving; bodies live on the left of each segment, the solid is on its right. Closed if
+ *  the last point is the first. The ends of an open one are free: what has passed round an end may come back from
+ *  behind, unhindered. Restitution and friction are those of velocities relative to it. */
 typedef struct dem_obstacle {
     dem_index n_points;   /**< >= 2 */
-    const double *points; /**< [n_points][2], m; from one to the next a length that can be squared */
+    const double *points; /**< [n_points][2], m, at t = 0; from one to the next a length that can be squared */
     double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
+    double velocity[2]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
 } dem_obstacle;
 
 /** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
@@ -256,7 +258,8 @@ typedef struct dem_energy {
     double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
     double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
     double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
-    double boundary;   /**< put in from outside so far: work of what prescribes motions, and of forces */
+    double boundary;   /**< put in from outside so far: work of what prescribes motions, of forces, and of
+                            moving obstacles, which have no entry of their own yet */
 } dem_energy;
 
 /** Of motion and strain: what the ledger is compared with. */

@@ -81,6 +81,13 @@ static inline double sym2_largest(sym2 A)
     return 0.5 * (A.xx + A.yy) + sqrt(0.25 * (A.xx - A.yy) * (A.xx - A.yy) + A.xy * A.xy);
 }
 
+/** The vector whose products with two directions are these; not finite where they are parallel. */
+static inline vec2 vec2_with_products(double p0, vec2 n0, double p1, vec2 n1)
+{
+    const double d = vec2_cross(n0, n1);
+    return (vec2){(p0 * n1.y - p1 * n0.y) / d, (p1 * n0.x - p0 * n1.x) / d};
+}
+
 /** The parts of a along two directions: a = p[0] n0 + p[1] n1; not finite where they are parallel. */
 static inline void vec2_parts(vec2 a, vec2 n0, vec2 n1, double p[2])
 {

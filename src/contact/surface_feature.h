@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Features of surfaces that bodies touch: the one place where contacts ask where a surface is, how it is shaped, and
- * what law holds on it. Surfaces are those of the obstacles, whose nodes have inverse mass 0. They rest, so that the
- * times asked for are not used yet. */
+ * what law holds on it. Surfaces are those of the obstacles, whose nodes have inverse mass 0: they move by the laws of
+ * the obstacles, whatever touches them. */
 #ifndef DEM_CONTACT_SURFACE_FEATURE_H
 #define DEM_CONTACT_SURFACE_FEATURE_H
 
@@ -31,18 +31,21 @@ typedef struct surface_line {
     dem_index before, after; /* the segments that go on at the start and at the end, -1 at a free end */
 } surface_line;
 
+static inline surface_line surface_line_of(const segment *s)
+{
+    return (surface_line){s->start, s->end, s->tangent, s->normal, s->length, s->before, s->after};
+}
+
 static inline surface_line surface_line_at(const contact_scene *scene, dem_index id, double t)
 {
-    const segment *s = &scene->model->obstacles.segments[id];
-    (void)t;
-    return (surface_line){s->start, s->end, s->tangent, s->normal, s->length, s->before, s->after};
+    segment moved;
+    return surface_line_of(obstacles_segment(&scene->model->obstacles, id, t, &moved));
 }
 
 /** Where a vertex is at t. */
 static inline vec2 surface_vertex_at(const contact_scene *scene, dem_index id, double t)
 {
-    (void)t;
-    return scene->model->obstacles.vertices[id].at;
+    return obstacles_vertex(&scene->model->obstacles, id, t);
 }
 
 /** Signed distance of x to a line, m, and place along it from its start, m. */
@@ -96,8 +99,7 @@ bool surface_in_cone(const contact_scene *scene, dem_index vertex, double t, vec
 /** Whether two segments are neighbours, and where the vertex is at t that they share. */
 static inline bool surface_share(const contact_scene *scene, dem_index s, dem_index other, double t, vec2 *vertex)
 {
-    (void)t;
-    return obstacles_share(&scene->model->obstacles, s, other, vertex);
+    return obstacles_share(&scene->model->obstacles, t, s, other, vertex);
 }
 
 /** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
@@ -112,39 +114,60 @@ typedef struct surface_query {
     vec2 x;
 } surface_query;
 
+/** No surface is faster, m/s; 0 if all rest. */
+static inline double surface_speed(const contact_scene *scene)
+{
+    return scene->model->obstacles.speed;
+}
+
+/** Whether the surface moves that a segment is of, and how the point of it moves that is there. */
+static inline bool surface_moves(const contact_scene *scene, dem_index id)
+{
+    const obstacle_set *o = &scene->model->obstacles;
+    return obstacles_moves(o, o->segments[id].obstacle);
+}
+
+static inline obstacle_motion surface_motion(const contact_scene *scene, dem_index id, surface_query at)
+{
+    const obstacle_set *o = &scene->model->obstacles;
+    return obstacles_motion(o, o->segments[id].obstacle, at.t, at.x);
+}
+
+/** How the corner moves in which two segments meet: as both, if they do not move against each other, else along both
+ *  normals as each does. Of obstacles that turn against each other it is the velocity alone. */
+obstacle_motion surface_corner_motion(const contact_scene *scene, const dem_index ids[2], surface_query at);
+
 /** Smallest of the signed distances of a point to the surfaces, leaving out up to two obstacles (-1: none). Free ends
  *  count as longer by `margin`, m. */
 static inline obstacle_gap surface_gap(const contact_scene *scene, surface_query at, double margin,
                                        const dem_index without[2])
 {
-    return obstacles_gap(&scene->model->obstacles, at.x, margin, without[0], without[1]);
+    return obstacles_gap(&scene->model->obstacles, at.t, at.x, margin, without[0], without[1]);
 }
 
 /** The same to one obstacle, free ends counting as longer by scene_margin(). */
 static inline obstacle_gap surface_gap_of(const contact_scene *scene, surface_query at, dem_index obstacle)
 {
-    return obstacles_gap_of(&scene->model->obstacles, at.x, scene_margin(scene), obstacle);
+    return obstacles_gap_of(&scene->model->obstacles, at.t, at.x, scene_margin(scene), obstacle);
 }
 
 /** Segments that a point touches, at most `capacity` of them, into hits; returns their number. */
 static inline int surface_touching(const contact_scene *scene, surface_query at, const obstacle_touch *point,
                                    dem_index *hits, int capacity)
 {
-    return obstacles_touching(&scene->model->obstacles, at.x, point, hits, capacity);
+    return obstacles_touching(&scene->model->obstacles, at.t, at.x, point, hits, capacity);
 }
 
 /** The vertex nearest to entering through an edge of a body at t. */
 static inline obstacle_poke surface_poke(const contact_scene *scene, double t, const obstacle_edge *edge)
 {
-    (void)t;
-    return obstacles_poke(&scene->model->obstacles, edge);
+    return obstacles_poke(&scene->model->obstacles, t, edge);
 }
 
 /** Distance of the edge at t to the nearest convex vertex, at most its reach, m. */
 static inline double surface_clearance(const contact_scene *scene, double t, const obstacle_edge *edge)
 {
-    (void)t;
-    return obstacles_clearance(&scene->model->obstacles, edge);
+    return obstacles_clearance(&scene->model->obstacles, t, edge);
 }
 
 #endif

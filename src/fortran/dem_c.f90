@@ -348,6 +348,7 @@ module dem_c
     type(c_ptr) :: points = c_null_ptr
     real(c_double) :: restitution = 0, friction = 0
     integer(dem_friction_law) :: friction_law = 0
+    real(c_double) :: velocity(2) = 0
   end type
 
   type, bind(c) :: dem_csr

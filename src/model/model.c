@@ -280,5 +280,5 @@ const double *dem_model_volumes(const dem_model *model)
 
 double dem_model_gap(const dem_model *model, const double x[2])
 {
-    return obstacles_gap(&model->obstacles, vec2_at(x, 0), 0.0, -1, -1).distance;
+    return obstacles_gap(&model->obstacles, 0.0, vec2_at(x, 0), 0.0, -1, -1).distance;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How segments of a set follow one another. */
+/* Where segments and vertices of a set are, and how they follow one another. */
 #include "obstacle/obstacle.h"
 
 static const double straight_below = 1e-9; /* sine of the bend */
@@ -10,10 +10,46 @@ box segment_cover(const segment *s)
                       0.0);
 }
 
-bool obstacles_share(const obstacle_set *o, dem_index s, dem_index other, vec2 *vertex)
+obstacle_motion obstacles_motion_moving(const obstacle_set *o, dem_index obstacle, double t, vec2 x)
+{
+    const pose at = motion_law_pose(&o->laws[obstacle], t);
+    return (obstacle_motion){true, pose_velocity(&at, x), pose_acceleration(&at, x), at.spin};
+}
+
+vec2 obstacles_inside(const obstacle_set *o, dem_index obstacle, double t, vec2 x)
+{
+    if (!o->laws[obstacle].moves) return x;
+    const pose at = motion_law_pose(&o->laws[obstacle], t);
+    return pose_inside(&at, x);
+}
+
+const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, double t, segment *moved)
+{
+    const segment *given = &o->segments[s];
+    const pose at = motion_law_pose(&o->laws[given->obstacle], t);
+    *moved = *given;
+    moved->start = pose_outside(&at, given->start);
+    moved->end = pose_outside(&at, given->end);
+    moved->tangent = pose_turn(&at, given->tangent);
+    moved->normal = pose_turn(&at, given->normal);
+    return moved;
+}
+
+vec2 obstacles_vertex(const obstacle_set *o, dem_index vertex, double t)
+{
+    const obstacle_vertex *v = &o->vertices[vertex];
+    const motion_law *law = &o->laws[o->segments[v->before].obstacle];
+    if (!law->moves) return v->at;
+    const pose at = motion_law_pose(law, t);
+    return pose_outside(&at, v->at);
+}
+
+bool obstacles_share(const obstacle_set *o, double t, dem_index s, dem_index other, vec2 *vertex)
 {
     const bool ends = o->segments[s].after == other, starts = o->segments[s].before == other;
-    *vertex = ends ? o->segments[s].end : o->segments[s].start;
+    segment moved;
+    const segment *here = obstacles_segment(o, s, t, &moved);
+    *vertex = ends ? here->end : here->start;
     return ends || starts;
 }
 

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Obstacles compiled to segments, and how these follow one another. Bodies live on the left. */
+/* Obstacles compiled to segments, and how these follow one another. Bodies live on the left. Segments and vertices are
+ * in the frame of their obstacle, which is where its points were given at t = 0; where they are at t is asked for. */
 #ifndef DEM_OBSTACLE_OBSTACLE_H
 #define DEM_OBSTACLE_OBSTACLE_H
 
 #include "obstacle/box_tree.h"
+#include "obstacle/motion_law.h"
 
 typedef struct segment {
     vec2 start, end;
@@ -26,9 +28,20 @@ typedef struct obstacle_set {
     dem_index *first;          /* [n + 1] segments first[k] .. first[k+1]-1 are of obstacle k */
     segment *segments;         /* [n_segments] obstacle by obstacle, in order */
     obstacle_vertex *vertices; /* [n_vertices] obstacle by obstacle, in the order of the segments that end there */
+    motion_law *laws;          /* [n] how each moves */
+    double speed;              /* m/s, nothing of any is faster; 0: all stand at rest */
     box_tree *trees;           /* [n] of the segments of each */
-    box_tree vertex_tree;
+    box_tree vertex_tree;      /* of the vertices of those at rest; others are in none of its boxes */
+    dem_index *first_vertex;   /* [n + 1] vertices first_vertex[k] .. first_vertex[k+1]-1 are of obstacle k */
+    box_tree *vertex_trees;    /* [n] of the vertices of each that moves */
 } obstacle_set;
+
+/** How a point of an obstacle moves; all 0 at rest. */
+typedef struct obstacle_motion {
+    bool moves;
+    vec2 velocity, acceleration; /* m/s, m/s^2 */
+    double spin;                 /* rad/s */
+} obstacle_motion;
 
 /** How a polyline turns from one segment into the next, seen by a body that slides along it. */
 typedef enum obstacle_bend {
@@ -38,11 +51,58 @@ typedef enum obstacle_bend {
     OBSTACLE_CONCAVE   /* the next segment stands in the way */
 } obstacle_bend;
 
-/** Whether two segments are neighbours, and the vertex that they share. */
-bool obstacles_share(const obstacle_set *o, dem_index s, dem_index other, vec2 *vertex);
+/** Whether two segments are neighbours, and where the vertex that they share is at t. */
+bool obstacles_share(const obstacle_set *o, double t, dem_index s, dem_index other, vec2 *vertex);
 
 /** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond);
+
+/** Whether an obstacle moves: quickly told where none does. */
+static inline bool obstacles_moves(const obstacle_set *o, dem_index obstacle)
+{
+    return o->speed > 0.0 && o->laws[obstacle].moves;
+}
+
+/** How the point of an obstacle moves that is at x at t. */
+obstacle_motion obstacles_motion_moving(const obstacle_set *o, dem_index obstacle, double t, vec2 x);
+
+static inline obstacle_motion obstacles_motion(const obstacle_set *o, dem_index obstacle, double t, vec2 x)
+{
+    return obstacles_moves(o, obstacle) ? obstacles_motion_moving(o, obstacle, t, x) : (obstacle_motion){0};
+}
+
+/** Velocity relative to that point, m/s. */
+static inline vec2 obstacle_motion_relative(const obstacle_motion *m, vec2 v)
+{
+    return vec2_sub(v, m->velocity);
+}
+
+/** And back, from the velocity of that point; zeros keep their signs on what is at rest. */
+static inline vec2 obstacle_motion_carry(vec2 velocity, vec2 relative)
+{
+    return velocity.x != 0.0 || velocity.y != 0.0 ? vec2_add(relative, velocity) : relative;
+}
+
+/** Acceleration of a point with velocity v that stays on the surface there, m/s^2. */
+static inline vec2 obstacle_motion_sliding(const obstacle_motion *m, vec2 v)
+{
+    const vec2 u = vec2_sub(v, m->velocity), coriolis = {-2.0 * m->spin * u.y, 2.0 * m->spin * u.x};
+    return m->moves ? vec2_add(m->acceleration, coriolis) : m->acceleration;
+}
+
+/** A place at t, seen from outside, in the frame of an obstacle. */
+vec2 obstacles_inside(const obstacle_set *o, dem_index obstacle, double t, vec2 x);
+
+/** The segment where it is at t: the compiled one if it is at rest, else `moved`, which is filled. */
+const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, double t, segment *moved);
+
+static inline const segment *obstacles_segment(const obstacle_set *o, dem_index s, double t, segment *moved)
+{
+    return obstacles_moves(o, o->segments[s].obstacle) ? obstacles_segment_moving(o, s, t, moved) : &o->segments[s];
+}
+
+/** Where the vertex is at t. */
+vec2 obstacles_vertex(const obstacle_set *o, dem_index vertex, double t);
 
 /** All that counts as the segment, but for a margin. */
 box segment_cover(const segment *s);

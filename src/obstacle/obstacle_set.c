@@ -31,13 +31,28 @@ static dem_status plant_tree(obstacle_set *set, dem_index o)
     return DEM_OK;
 }
 
+/* Whether two obstacles are different ones that never move against each other. */
+static bool go_together(const obstacle_set *o, dem_index a, dem_index b)
+{
+    return a != b && motion_law_is_same(&o->laws[a], &o->laws[b]);
+}
+
+/* Distance of a place to the obstacles on which one may stand. */
+static double distance_to_others(const obstacle_set *o, vec2 x, dem_index obstacle)
+{
+    double smallest = INFINITY;
+    for (dem_index k = 0; k < o->n; k++)
+        if (go_together(o, k, obstacle)) smallest = fmin(smallest, obstacles_gap_of(o, 0.0, x, 0.0, k).distance);
+    return smallest;
+}
+
 /* Whether the end meets the free end of another obstacle's segment, behind which it would go on: the length of that. */
 static double behind_free_end(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
 {
     double length = 0.0;
     for (dem_index k = 0; k < o->n_segments; k++) {
         const segment *b = &o->segments[k];
-        if (b->obstacle == s->obstacle || vec2_dot(out, b->normal) >= 0.0) continue;
+        if (!go_together(o, b->obstacle, s->obstacle) || vec2_dot(out, b->normal) >= 0.0) continue;
         const double start = b->before < 0 ? vec2_norm(vec2_sub(b->start, end)) : INFINITY;
         const double stop = b->after < 0 ? vec2_norm(vec2_sub(b->end, end)) : INFINITY;
         if (fmin(start, stop) <= 1e-6 * s->length) length = fmax(length, b->length);
@@ -50,9 +65,9 @@ static double behind_free_end(const obstacle_set *o, const segment *s, vec2 end,
 static double buried_length(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
 {
     const double touching = 1e-6 * s->length;
-    if (obstacles_gap(o, end, 0.0, s->obstacle, -1).distance > touching) return 0.0;
+    if (distance_to_others(o, end, s->obstacle) > touching) return 0.0;
     for (double length = s->length; length > touching; length *= 0.5)
-        if (obstacles_gap(o, vec2_along(end, length, out), 0.0, s->obstacle, -1).distance < 0.0) return length;
+        if (distance_to_others(o, vec2_along(end, length, out), s->obstacle) < 0.0) return length;
     return fmin(s->length, behind_free_end(o, s, end, out));
 }
 
@@ -79,10 +94,27 @@ static dem_status find_vertices(obstacle_set *o)
         if (obstacles_bend(o, k, false, &after) == OBSTACLE_CONVEX)
             o->vertices[o->n_vertices++] = (obstacle_vertex){o->segments[k].end, k, after};
     }
+    return DEM_OK;
+}
+
+/* Makes the trees of the vertices, which stand obstacle by obstacle. */
+static dem_status plant_vertices(obstacle_set *o)
+{
     TRY(box_tree_create(&o->vertex_tree, o->n_vertices));
-    for (dem_index k = 0; k < o->n_vertices; k++) {
-        const box around = box_around(o->vertices[k].at, o->vertices[k].at, 0.0);
-        box_tree_cover(&o->vertex_tree, k, &around);
+    dem_index k = 0;
+    for (dem_index q = 0; q < o->n; q++) {
+        const dem_index first = k;
+        while (k < o->n_vertices && o->segments[o->vertices[k].before].obstacle == q) k++;
+        o->first_vertex[q] = first;
+        o->first_vertex[q + 1] = k;
+        if (o->laws[q].moves) TRY(box_tree_create(&o->vertex_trees[q], k - first));
+        for (dem_index v = first; v < k; v++) {
+            const box around = box_around(o->vertices[v].at, o->vertices[v].at, 0.0);
+            if (o->laws[q].moves)
+                box_tree_cover(&o->vertex_trees[q], v - first, &around);
+            else
+                box_tree_cover(&o->vertex_tree, v, &around);
+        }
     }
     return DEM_OK;
 }
@@ -93,7 +125,11 @@ static dem_status reserve(obstacle_set *o, dem_index n)
     o->segments = malloc(((size_t)o->n_segments + 1) * sizeof *o->segments);
     o->first = calloc((size_t)n + 1, sizeof *o->first);
     o->trees = calloc((size_t)n + 1, sizeof *o->trees);
-    CHECK(o->list && o->segments && o->first && o->trees, DEM_ERROR_MEMORY, "out of memory for obstacles");
+    o->laws = calloc((size_t)n + 1, sizeof *o->laws);
+    o->first_vertex = calloc((size_t)n + 1, sizeof *o->first_vertex);
+    o->vertex_trees = calloc((size_t)n + 1, sizeof *o->vertex_trees);
+    CHECK(o->list && o->segments && o->first && o->trees && o->laws && o->first_vertex && o->vertex_trees,
+          DEM_ERROR_MEMORY, "out of memory for obstacles");
     return DEM_OK;
 }
 
@@ -101,6 +137,8 @@ static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
 {
     const dem_index o = set->n;
     TRY(copy_points(&set->list[o], obstacle));
+    set->laws[o] = motion_law_of(obstacle);
+    set->speed = fmax(set->speed, motion_law_speed(&set->laws[o]));
     set->n++;
     polyline_compile(set, o);
     return plant_tree(set, o);
@@ -124,6 +162,7 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
     dem_status status = compile_all(&o, list, n);
     for (dem_index k = 0; k < n && status == DEM_OK; k++) status = polyline_check_crossings(&o, k);
     if (status == DEM_OK) status = find_vertices(&o);
+    if (status == DEM_OK) status = plant_vertices(&o);
     if (status == DEM_OK) bury_ends(&o);
     if (status == DEM_OK)
         *out = o;
@@ -150,12 +189,16 @@ void obstacles_free(obstacle_set *o)
     for (dem_index k = 0; k < o->n; k++) {
         free((void *)(uintptr_t)o->list[k].points);
         box_tree_free(&o->trees[k]);
+        box_tree_free(&o->vertex_trees[k]);
     }
     free(o->list);
     free(o->segments);
     free(o->first);
     free(o->trees);
     free(o->vertices);
+    free(o->laws);
+    free(o->first_vertex);
+    free(o->vertex_trees);
     box_tree_free(&o->vertex_tree);
     *o = (obstacle_set){0};
 }

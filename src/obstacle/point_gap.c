@@ -57,7 +57,8 @@ static inline double clearance(const box *b, vec2 x, double margin)
     return 0.25 * (1.0 - BOX_TREE_ROUNDING) * (dx * dx + dy * dy);
 }
 
-obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
+/* In the obstacle's own frame. */
+static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
 {
     const box_tree *tree = &o->trees[obstacle];
     const double longer = (1.0 + BOX_TREE_ROUNDING) * margin;
@@ -78,12 +79,22 @@ obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_
     return nearest;
 }
 
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, double margin, dem_index without, dem_index without_too)
+obstacle_gap obstacles_gap_of(const obstacle_set *o, double t, vec2 x, double margin, dem_index obstacle)
+{
+    if (!o->laws[obstacle].moves) return gap_inside(o, x, margin, obstacle);
+    const pose at = motion_law_pose(&o->laws[obstacle], t);
+    obstacle_gap gap = gap_inside(o, pose_inside(&at, x), margin, obstacle);
+    gap.normal = pose_turn(&at, gap.normal);
+    return gap;
+}
+
+obstacle_gap obstacles_gap(const obstacle_set *o, double t, vec2 x, double margin, dem_index without,
+                           dem_index without_too)
 {
     obstacle_gap smallest = {INFINITY, -1, {0.0, 0.0}};
     for (dem_index k = 0; k < o->n; k++) {
         if (k == without || k == without_too) continue;
-        const obstacle_gap gap = obstacles_gap_of(o, x, margin, k);
+        const obstacle_gap gap = obstacles_gap_of(o, t, x, margin, k);
         if (gap.distance < smallest.distance) smallest = gap;
     }
     return smallest;
@@ -95,15 +106,17 @@ static bool touches(const segment *s, vec2 x, const obstacle_touch *point)
            on_segment(s, segment_place(s, x), point->tolerance, point->margin);
 }
 
-int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *point, dem_index *hits, int capacity)
+int obstacles_touching(const obstacle_set *o, double t, vec2 x, const obstacle_touch *point, dem_index *hits,
+                       int capacity)
 {
-    const box around = box_around(x, x, 2.0 * point->tolerance + point->margin); /* tolerance along and across */
     int n = 0;
     for (dem_index q = 0; q < o->n; q++) {
         const box_tree *tree = &o->trees[q];
         if (q == point->without) continue;
+        const vec2 inside = obstacles_inside(o, q, t, x);
+        const box around = box_around(inside, inside, 2.0 * point->tolerance + point->margin); /* along and across */
         for (dem_index k = -1; n < capacity && (k = box_tree_seek(tree, k + 1, &around)) < tree->n;)
-            if (touches(&o->segments[o->first[q] + k], x, point)) hits[n++] = o->first[q] + k;
+            if (touches(&o->segments[o->first[q] + k], inside, point)) hits[n++] = o->first[q] + k;
     }
     return n;
 }

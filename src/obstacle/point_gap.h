@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points against segments: signed gap, nearest feature, what a point touches. */
+/* Points against segments: signed gap, nearest feature, what a point touches. Places are those at t, seen from
+ * outside. */
 #ifndef DEM_OBSTACLE_POINT_GAP_H
 #define DEM_OBSTACLE_POINT_GAP_H
 
@@ -12,13 +13,14 @@ typedef struct obstacle_gap {
     vec2 normal;       /* unit, from the nearest point in front: the gradient of the distance */
 } obstacle_gap;
 
-/** Smallest of the signed distances of x to the obstacles, leaving out up to two of them (-1: none). Free ends count as
- *  longer by `margin` (m), so that what touches another obstacle there leaves no gap. */
-obstacle_gap obstacles_gap(const obstacle_set *o, vec2 x, double margin, dem_index without, dem_index without_too);
+/** Smallest of the signed distances of x to the obstacles at t, leaving out up to two of them (-1: none). Free ends
+ *  count as longer by `margin` (m), so that what touches another obstacle there leaves no gap. */
+obstacle_gap obstacles_gap(const obstacle_set *o, double t, vec2 x, double margin, dem_index without,
+                           dem_index without_too);
 
 /** Signed distance of x to one obstacle: to its nearest point. Where two segments meet, a point nearest to the
  *  vertex is in front if it is on the side of the vertex's mean normal; nearest to a free end, it is in front. */
-obstacle_gap obstacles_gap_of(const obstacle_set *o, vec2 x, double margin, dem_index obstacle);
+obstacle_gap obstacles_gap_of(const obstacle_set *o, double t, vec2 x, double margin, dem_index obstacle);
 
 /** How near a point must be to touch. */
 typedef struct obstacle_touch {
@@ -27,7 +29,8 @@ typedef struct obstacle_touch {
     dem_index without; /* obstacle left out, or -1 */
 } obstacle_touch;
 
-/** Segments that x touches, at most `capacity` of them, into hits; returns their number. */
-int obstacles_touching(const obstacle_set *o, vec2 x, const obstacle_touch *point, dem_index *hits, int capacity);
+/** Segments that x touches at t, at most `capacity` of them, into hits; returns their number. */
+int obstacles_touching(const obstacle_set *o, double t, vec2 x, const obstacle_touch *point, dem_index *hits,
+                       int capacity);
 
 #endif

@@ -9,12 +9,16 @@ typedef struct line {
     const obstacle_edge *edge;
     vec2 tangent, normal;
     double length; /* m */
+    bool moves;    /* whether it is in the frame of a moving obstacle, of whose vertices it is asked */
 } line;
 
-static bool out_of_question(const obstacle_set *o, const obstacle_edge *edge, dem_index k)
+/* Of vertices at rest there is one tree, in whose leaves moving ones are, too. */
+static bool out_of_question(const obstacle_set *o, const line *l, dem_index k)
 {
+    const obstacle_edge *edge = l->edge;
     const dem_index obstacle = o->segments[o->vertices[k].before].obstacle;
-    return k == edge->except[0] || k == edge->except[1] || obstacle == edge->without[0] || obstacle == edge->without[1];
+    return k == edge->except[0] || k == edge->except[1] || obstacle == edge->without[0] ||
+           obstacle == edge->without[1] || o->laws[obstacle].moves != l->moves;
 }
 
 /* Signed distance of x in front of the edge from p to q, if its foot is on it; else -infinity. */
@@ -65,7 +69,7 @@ static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obsta
     if (fabs(beyond) > edge->tolerance && !(distance < 0.0 && in_notch(edge, v->at, beyond))) return;
     if (distance > deepest->distance || (distance == deepest->distance && k > deepest->vertex)) return;
     const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
-    if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, edge, k)) return;
+    if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, l, k)) return;
     if (distance < 0.0 && round_corner(edge, v->at, mean, distance)) return;
     *deepest = (obstacle_poke){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
 }
@@ -85,31 +89,63 @@ static double shallowest(const box *b, const line *l)
     return beside || distance + across < -edge->depth ? INFINITY : distance - across;
 }
 
-static line line_along(const obstacle_edge *edge)
+static line line_along(const obstacle_edge *edge, bool moves)
 {
     const vec2 way = vec2_sub(edge->b, edge->a);
     const double length = vec2_norm(way);
     const vec2 tangent = vec2_scale(1.0 / length, way);
-    return (line){edge, tangent, {-tangent.y, tangent.x}, length};
+    return (line){edge, tangent, {-tangent.y, tangent.x}, length, moves};
 }
 
-obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge)
+/* The edge in the frame of an obstacle. */
+static obstacle_edge edge_inside(const obstacle_edge *edge, const pose *at)
 {
-    const box_tree *tree = &o->vertex_tree;
-    const line l = line_along(edge);
-    obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
+    obstacle_edge inside = *edge;
+    inside.a = pose_inside(at, edge->a);
+    inside.b = pose_inside(at, edge->b);
+    inside.previous = pose_inside(at, edge->previous);
+    inside.next = pose_inside(at, edge->next);
+    return inside;
+}
+
+/* Looks in a tree for one that is deeper than the deepest so far; its vertices are those from `first` on. */
+static void look_deeper(const obstacle_set *o, const box_tree *tree, dem_index first, const line *l,
+                        obstacle_poke *deepest)
+{
     box_tree_walk walk;
-    for (dem_index node = box_tree_start(&walk, fmin(edge->reach, DBL_MAX)); node > 0;) {
+    const double limit = deepest->vertex >= 0 ? deepest->distance : fmin(l->edge->reach, DBL_MAX);
+    for (dem_index node = box_tree_start(&walk, limit); node > 0;) {
         if (!box_tree_is_leaf(tree, node)) {
             const box *children = &tree->boxes[2 * node];
-            node = box_tree_down(&walk, node, shallowest(&children[0], &l), shallowest(&children[1], &l));
+            node = box_tree_down(&walk, node, shallowest(&children[0], l), shallowest(&children[1], l));
             continue;
         }
         for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
-            take_deeper(o, k, &l, &deepest);
-        if (deepest.vertex >= 0) walk.limit = deepest.distance;
+            take_deeper(o, first + k, l, deepest);
+        if (deepest->vertex >= 0) walk.limit = deepest->distance;
         node = box_tree_back(&walk);
     }
+}
+
+/* The same of an obstacle that moves. */
+static void look_deeper_moving(const obstacle_set *o, dem_index obstacle, double t, const obstacle_edge *edge,
+                               obstacle_poke *deepest)
+{
+    const pose at = motion_law_pose(&o->laws[obstacle], t);
+    const obstacle_edge inside = edge_inside(edge, &at);
+    const line l = line_along(&inside, true);
+    const dem_index before = deepest->vertex;
+    look_deeper(o, &o->vertex_trees[obstacle], o->first_vertex[obstacle], &l, deepest);
+    if (deepest->vertex != before) deepest->normal = pose_turn(&at, deepest->normal);
+}
+
+obstacle_poke obstacles_poke(const obstacle_set *o, double t, const obstacle_edge *edge)
+{
+    const line l = line_along(edge, false);
+    obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
+    look_deeper(o, &o->vertex_tree, 0, &l, &deepest);
+    for (dem_index k = 0; k < o->n && o->speed > 0.0; k++)
+        if (o->laws[k].moves) look_deeper_moving(o, k, t, edge, &deepest);
     return deepest;
 }
 
@@ -129,25 +165,37 @@ static double distance_of(const obstacle_set *o, dem_index k, const line *l)
 {
     const vec2 from = vec2_sub(o->vertices[k].at, l->edge->a);
     const double place = vec2_dot(from, l->tangent), beyond = place - fmin(fmax(place, 0.0), l->length);
-    return out_of_question(o, l->edge, k) ? INFINITY : hypot(beyond, vec2_dot(from, l->normal));
+    return out_of_question(o, l, k) ? INFINITY : hypot(beyond, vec2_dot(from, l->normal));
 }
 
-double obstacles_clearance(const obstacle_set *o, const obstacle_edge *edge)
+/* The nearest of the vertices of a tree, from `first` on, if nearer than what was nearest so far. */
+static double look_nearer(const obstacle_set *o, const box_tree *tree, dem_index first, const line *l, double nearest)
 {
-    const box_tree *tree = &o->vertex_tree;
-    const line l = line_along(edge);
     box_tree_walk walk;
-    double nearest = edge->reach;
     for (dem_index node = box_tree_start(&walk, nearest); node > 0;) {
         if (!box_tree_is_leaf(tree, node)) {
             const box *children = &tree->boxes[2 * node];
-            node = box_tree_down(&walk, node, apart_by(&children[0], &l), apart_by(&children[1], &l));
+            node = box_tree_down(&walk, node, apart_by(&children[0], l), apart_by(&children[1], l));
             continue;
         }
         for (dem_index k = box_tree_first(tree, node); k < box_tree_first(tree, node + 1); k++)
-            nearest = fmin(nearest, distance_of(o, k, &l));
+            nearest = fmin(nearest, distance_of(o, first + k, l));
         walk.limit = nearest;
         node = box_tree_back(&walk);
+    }
+    return nearest;
+}
+
+double obstacles_clearance(const obstacle_set *o, double t, const obstacle_edge *edge)
+{
+    const line here = line_along(edge, false);
+    double nearest = look_nearer(o, &o->vertex_tree, 0, &here, edge->reach);
+    for (dem_index k = 0; k < o->n && o->speed > 0.0; k++) {
+        if (!o->laws[k].moves) continue;
+        const pose at = motion_law_pose(&o->laws[k], t);
+        const obstacle_edge inside = edge_inside(edge, &at);
+        const line l = line_along(&inside, true);
+        nearest = look_nearer(o, &o->vertex_trees[k], o->first_vertex[k], &l, nearest);
     }
     return nearest;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Edges of bodies against convex vertices of obstacles. */
+/* Edges of bodies against convex vertices of obstacles. Places are those at t, seen from outside. */
 #ifndef DEM_OBSTACLE_VERTEX_GAP_H
 #define DEM_OBSTACLE_VERTEX_GAP_H
 
@@ -24,13 +24,13 @@ typedef struct obstacle_poke {
     vec2 normal;      /* unit, left of the edge: into the body, out of the obstacle */
 } obstacle_poke;
 
-/** Of the convex vertices whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and whose
- *  mean normal points into the body: the one with the smallest distance, the first of equals. One behind the edge that
- *  is nearer to a neighbouring edge, round a convex corner of the body, is not meant; one in a notch of the body,
- *  behind the edge and its neighbour between their feet, is. */
-obstacle_poke obstacles_poke(const obstacle_set *o, const obstacle_edge *edge);
+/** Of the convex vertices at t whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and
+ *  whose mean normal points into the body: the one with the smallest distance, the first of equals. One behind the
+ *  edge that is nearer to a neighbouring edge, round a convex corner of the body, is not meant; one in a notch of
+ *  the body, behind the edge and its neighbour between their feet, is. */
+obstacle_poke obstacles_poke(const obstacle_set *o, double t, const obstacle_edge *edge);
 
-/** Distance of the edge to the nearest convex vertex, at most its `reach`, m. */
-double obstacles_clearance(const obstacle_set *o, const obstacle_edge *edge);
+/** Distance of the edge to the nearest convex vertex at t, at most its `reach`, m. */
+double obstacles_clearance(const obstacle_set *o, double t, const obstacle_edge *edge);
 
 #endif

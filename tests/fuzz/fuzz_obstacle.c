@@ -83,7 +83,7 @@ static void check_side(const dem_obstacle *obstacle, vec2 x, double distance)
 
 static void check_gap(const obstacle_set *o, vec2 x, dem_index obstacle)
 {
-    const obstacle_gap gap = obstacles_gap_of(o, x, 0.0, obstacle);
+    const obstacle_gap gap = obstacles_gap_of(o, 0.0, x, 0.0, obstacle);
     const double size = 1.0 + fabs(x.x) + fabs(x.y);
     require(isfinite(gap.distance) && gap.segment >= o->first[obstacle] && gap.segment < o->first[obstacle + 1]);
     require(fabs(hypot(gap.normal.x, gap.normal.y) - 1.0) < 1e-12);
@@ -108,7 +108,7 @@ static void check_vertices(const obstacle_set *o, bytes *from)
                                 .without = {-1, -1}};
     const double ends[4] = {a.x, a.y, b.x, b.y};
     if (a.x == b.x && a.y == b.y) return;
-    const obstacle_poke poke = obstacles_poke(o, &edge);
+    const obstacle_poke poke = obstacles_poke(o, 0.0, &edge);
     require(poke.vertex >= -1 && poke.vertex < o->n_vertices && poke.place >= 0.0 && poke.place <= 1.0);
     require(poke.vertex < 0 || (poke.distance > -edge.depth && poke.distance < edge.reach));
     double nearest = edge.reach;
@@ -116,7 +116,7 @@ static void check_vertices(const obstacle_set *o, bytes *from)
         const double at[2] = {o->vertices[k].at.x, o->vertices[k].at.y};
         nearest = fmin(nearest, polygon_to_side(at, ends, ends + 2));
     }
-    require(fabs(obstacles_clearance(o, &edge) - nearest) <= 1e-12);
+    require(fabs(obstacles_clearance(o, 0.0, &edge) - nearest) <= 1e-12);
 }
 
 static void query(const obstacle_set *o, bytes *from, bool tame)
@@ -126,10 +126,10 @@ static void query(const obstacle_set *o, bytes *from, bool tame)
         const unsigned kind = bytes_below(from, tame ? 15 : 16);
         const vec2 x = {coordinate(from, kind), coordinate(from, kind)};
         const obstacle_touch point = {.tolerance = 1e-6 * (double)bytes_take(from), .without = -1};
-        const int n = obstacles_touching(o, x, &point, hits, 64);
+        const int n = obstacles_touching(o, 0.0, x, &point, hits, 64);
         if (!tame) continue; /* of points at 1e300 only that they do no harm */
         for (dem_index k = 0; k < o->n; k++) check_gap(o, x, k);
-        require(obstacles_gap(o, x, 0.0, -1, -1).segment >= 0);
+        require(obstacles_gap(o, 0.0, x, 0.0, -1, -1).segment >= 0);
         require(n >= count_touching(o, x, point.tolerance * (1.0 - 1e-9) - 1e-12));
         require(n <= count_touching(o, x, point.tolerance * (1.0 + 1e-9) + 1e-12));
         check_vertices(o, from);

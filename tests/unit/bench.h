@@ -17,6 +17,7 @@ typedef struct bench {
     double mass[BENCH_NODES], inverse_mass[BENCH_NODES], x[2 * BENCH_NODES], v[2 * BENCH_NODES];
     dem_index none[BENCH_NODES + 1]; /* rows of no springs and no triangles */
     dem_obstacle list[BENCH_OBSTACLES];
+    motion_law laws[BENCH_OBSTACLES]; /* at rest */
     segment segments[BENCH_FEATURES];
     obstacle_vertex vertices[BENCH_FEATURES];
     dem_index n_candidates;
@@ -43,6 +44,7 @@ static inline void bench_open(bench *b, dem_index n)
     b->model.triangles.row = b->none;
     b->model.obstacles = (obstacle_set){.n = BENCH_OBSTACLES, .list = b->list, .segments = b->segments};
     b->model.obstacles.vertices = b->vertices;
+    b->model.obstacles.laws = b->laws;
     b->acting = (forces){.model = &b->model};
     b->scene = (contact_scene){
         .model = &b->model, .forces = &b->acting, .rule = {.penetration_tolerance = 1e-6, .max_step = 1e100}};

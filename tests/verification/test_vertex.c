@@ -64,7 +64,8 @@ static outcome run_fall(const fall *f)
     double x[6], v[6];
     const double mass[3] = {mass_a, mass_b, 1e-3};
     const dem_index ends[6] = {0, 1, 0, 2, 1, 2}, corners[3] = {0, 1, 2};
-    const dem_obstacle obstacle = {3, apex, f->restitution, f->friction, f->law};
+    const dem_obstacle obstacle = {
+        .n_points = 3, .points = apex, .restitution = f->restitution, .friction = f->friction, .friction_law = f->law};
     dem_options options = support_options();
     dem_lattice lattice;
     outcome o = {0};
@@ -267,7 +268,11 @@ static verdict run_wedge(const wedge *c, double t_end)
 {
     const double tall = tan(c->flank * M_PI / 180.0);
     const double points[6] = {c->at - 0.2, -0.2 * tall, c->at, 0.0, c->at + 0.2, -0.2 * tall};
-    const dem_obstacle obstacle = {3, points, c->restitution, c->friction, DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = {.n_points = 3,
+                                   .points = points,
+                                   .restitution = c->restitution,
+                                   .friction = c->friction,
+                                   .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
     dem_lattice lattice;
     support_run run;

@@ -46,7 +46,11 @@ static void lay(const rack *r, dem_lattice *lattice)
 
 static void open_block(support_run *run, const dem_lattice *lattice, const rack *r, double damping)
 {
-    const dem_obstacle obstacle = {5, r->points, 0.0, r->friction, DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = {.n_points = 5,
+                                   .points = r->points,
+                                   .restitution = 0.0,
+                                   .friction = r->friction,
+                                   .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
     options.penetration_tolerance = 1e-12;
     options.rtol = 1e-9;
@@ -318,7 +322,11 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
 {
     const double points[6] = {-0.1, -0.1 * steep, 0.0, 0.0, 0.5, -0.5 * slope}, v[2] = {speed, 0.0};
     const double offset[2] = {0.5 * 8 * spacing - 0.004, 0.0};
-    const dem_obstacle obstacle = {3, points, 0.0, friction, DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = {.n_points = 3,
+                                   .points = points,
+                                   .restitution = 0.0,
+                                   .friction = friction,
+                                   .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
     dem_lattice lattice;
     options.rtol = 1e-9;

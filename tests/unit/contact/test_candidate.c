@@ -574,8 +574,9 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
         const candidate_positions here = candidate_place(&candidate, 0.0, x);
         const double clear = candidate_clearance(world, &candidate, &here, &nearest) - 10.0 * penetration_tolerance;
-        assert_int_equal(nearest,
-                         obstacles_gap(&world->model->obstacles, here.a, 10.0 * penetration_tolerance, -1, -1).segment);
+        assert_int_equal(
+            nearest,
+            obstacles_gap(&world->model->obstacles, 0.0, here.a, 10.0 * penetration_tolerance, -1, -1).segment);
         for (int q = 0; q < 50; q++) {
             const double way = uniform(&seed, 0.0, 0.4), angle = uniform(&seed, 0.0, 6.28);
             const vec2 to = {x[0] + way * cos(angle), x[1] + way * sin(angle)};

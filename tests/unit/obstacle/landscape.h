@@ -34,9 +34,22 @@ static inline obstacle_set compile_both(void)
     return o;
 }
 
+/* The valley at rest, and the block with this velocity; or where it is after a time, at rest. */
+static inline obstacle_set compile_moving(vec2 velocity, vec2 way)
+{
+    double there[10];
+    for (int k = 0; k < 5; k++) vec2_put(there, k, vec2_add(vec2_at(block, k), way));
+    const dem_obstacle list[2] = {
+        {.n_points = 4, .points = valley, .restitution = 0.25},
+        {.n_points = 5, .points = there, .restitution = 0.5, .velocity = {velocity.x, velocity.y}}};
+    obstacle_set o;
+    assert_ok(obstacles_compile(&o, list, 2));
+    return o;
+}
+
 static inline obstacle_gap gap_at(const obstacle_set *o, double x, double y)
 {
-    return obstacles_gap(o, (vec2){x, y}, 0.0, -1, -1);
+    return obstacles_gap(o, 0.0, (vec2){x, y}, 0.0, -1, -1);
 }
 
 static inline void refuse(const dem_obstacle *list, dem_index n, const char *message)

@@ -47,12 +47,51 @@ static void a_bend_below_1e_9_is_straight(void **state)
     obstacles_free(&o);
 }
 
+static void segments_and_vertices_are_where_their_obstacle_has_gone(void **state)
+{
+    const vec2 velocity = {-3.0, -0.5};
+    segment moved;
+    vec2 shared;
+    (void)state;
+    obstacle_set o = compile_moving(velocity, (vec2){0.0, 0.0});
+    assert_ptr_equal(obstacles_segment(&o, 1, 2.0, &moved), &o.segments[1]);
+    const segment *left = obstacles_segment(&o, 3, 2.0, &moved);
+    assert_ptr_equal(left, &moved);
+    assert_true(left->start.x == -1.0 && left->start.y == -1.0 && left->end.x == -1.0 && left->end.y == 0.0);
+    assert_true(left->normal.x == -1.0 && left->after == 4);
+    assert_true(obstacles_vertex(&o, 0, 2.0).x == 0.0 && obstacles_vertex(&o, 1, 2.0).x == -1.0);
+    assert_true(obstacles_share(&o, 2.0, 3, 4, &shared));
+    assert_true(shared.x == -1.0 && shared.y == 0.0);
+    const obstacle_motion rest = obstacles_motion(&o, 0, 2.0, shared), moves = obstacles_motion(&o, 1, 2.0, shared);
+    assert_true(!rest.moves && rest.velocity.x == 0.0 && moves.moves && moves.velocity.x == -3.0);
+    assert_close(o.speed, vec2_norm(velocity), 0.0);
+    obstacles_free(&o);
+}
+
+/* The foot of a wall that stands on the valley's floor is buried in it only if both go the same way. */
+static void ends_are_buried_in_what_goes_along(void **state)
+{
+    const double wall[4] = {2.0, 1.0, 2.0, -1.0};
+    dem_obstacle list[2] = {{.n_points = 4, .points = valley}, {.n_points = 2, .points = wall}};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        obstacle_set o;
+        list[1].velocity[0] = k > 0 ? 1.0 : 0.0;
+        list[0].velocity[0] = k > 1 ? 1.0 : 0.0;
+        assert_ok(obstacles_compile(&o, list, 2));
+        assert_true((o.segments[3].buried[1] > 0.0) == (k != 1));
+        obstacles_free(&o);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(height_and_place_are_measured_from_the_start),
         cmocka_unit_test(bends_are_told_from_both_sides_alike),
         cmocka_unit_test(a_bend_below_1e_9_is_straight),
+        cmocka_unit_test(segments_and_vertices_are_where_their_obstacle_has_gone),
+        cmocka_unit_test(ends_are_buried_in_what_goes_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

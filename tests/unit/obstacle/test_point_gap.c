@@ -99,13 +99,13 @@ static void obstacles_can_be_left_out_or_asked_alone(void **state)
     const vec2 x = {4.5, -0.25}; /* 0.56 m from the block's corner, 1.68 m from the valley's end */
     (void)state;
     obstacle_set o = compile_both();
-    assert_int_equal(obstacles_gap(&o, x, 0.0, -1, -1).segment, 3);
-    assert_int_equal(obstacles_gap(&o, x, 0.0, 1, -1).segment, 2);
-    assert_int_equal(obstacles_gap(&o, x, 0.0, -1, 1).segment, 2);
-    assert_int_equal(obstacles_gap(&o, x, 0.0, 1, 0).segment, -1);
-    assert_close(obstacles_gap(&o, x, 0.0, 1, -1).distance, hypot(1.5, 0.75), 1e-15);
-    assert_close(obstacles_gap_of(&o, x, 0.0, 0).distance, hypot(1.5, 0.75), 1e-15);
-    assert_close(obstacles_gap_of(&o, x, 0.0, 1).distance, hypot(0.5, 0.25), 1e-15);
+    assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, -1, -1).segment, 3);
+    assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, 1, -1).segment, 2);
+    assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, -1, 1).segment, 2);
+    assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, 1, 0).segment, -1);
+    assert_close(obstacles_gap(&o, 0.0, x, 0.0, 1, -1).distance, hypot(1.5, 0.75), 1e-15);
+    assert_close(obstacles_gap_of(&o, 0.0, x, 0.0, 0).distance, hypot(1.5, 0.75), 1e-15);
+    assert_close(obstacles_gap_of(&o, 0.0, x, 0.0, 1).distance, hypot(0.5, 0.25), 1e-15);
     obstacles_free(&o);
 }
 
@@ -241,12 +241,12 @@ static void compare_gaps(const obstacle_set *o, vec2 x, double margin)
     obstacle_gap smallest = {(double)INFINITY, -1, {0.0, 0.0}}, but_first = smallest;
     for (dem_index k = 0; k < o->n; k++) {
         const obstacle_gap gap = gap_by_loop(o, x, margin, k);
-        assert_same_gap(obstacles_gap_of(o, x, margin, k), gap);
+        assert_same_gap(obstacles_gap_of(o, 0.0, x, margin, k), gap);
         if (gap.distance < smallest.distance) smallest = gap;
         if (k > 0 && gap.distance < but_first.distance) but_first = gap;
     }
-    assert_same_gap(obstacles_gap(o, x, margin, -1, -1), smallest);
-    assert_same_gap(obstacles_gap(o, x, margin, -1, 0), but_first);
+    assert_same_gap(obstacles_gap(o, 0.0, x, margin, -1, -1), smallest);
+    assert_same_gap(obstacles_gap(o, 0.0, x, margin, -1, 0), but_first);
 }
 
 /* Returns how many are touched. */
@@ -260,7 +260,7 @@ static int compare_touching(const obstacle_set *o, vec2 x, const obstacle_touch 
         if (s->obstacle == point->without || fabs(segment_height(s, x)) > point->tolerance) continue;
         if (reaches(s, segment_place(s, x), point->tolerance, point->margin)) expected[n++] = k;
     }
-    assert_int_equal(obstacles_touching(o, x, point, hits, capacity), n);
+    assert_int_equal(obstacles_touching(o, 0.0, x, point, hits, capacity), n);
     for (int k = 0; k < n; k++) assert_int_equal(hits[k], expected[k]);
     return n;
 }
@@ -325,9 +325,9 @@ static void a_free_end_is_longer_by_the_margin_where_another_part_is_nearer(void
             vec2_put(points, k, vec2_along(vec2_scale(hook[2 * k], axis), hook[2 * k + 1], (vec2){-axis.y, axis.x}));
         const vec2 x = vec2_along(vec2_scale(1.5, axis), 0.2, (vec2){-axis.y, axis.x});
         obstacle_set o = compile(points, 8, 0.0);
-        assert_int_equal(obstacles_gap(&o, x, 2.0, -1, -1).segment, 0);
-        assert_close(obstacles_gap(&o, x, 2.0, -1, -1).distance, -0.2, 1e-15);
-        assert_int_equal(obstacles_gap(&o, x, 1.4, -1, -1).segment, 4);
+        assert_int_equal(obstacles_gap(&o, 0.0, x, 2.0, -1, -1).segment, 0);
+        assert_close(obstacles_gap(&o, 0.0, x, 2.0, -1, -1).distance, -0.2, 1e-15);
+        assert_int_equal(obstacles_gap(&o, 0.0, x, 1.4, -1, -1).segment, 4);
         obstacles_free(&o);
     }
 }
@@ -360,19 +360,49 @@ static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_
     dem_index hits[4] = {-1, -1, -1, -1};
     (void)state;
     obstacle_set o = compile_both();
-    assert_int_equal(obstacles_touching(&o, vertex, &all, hits, 4), 2);
+    assert_int_equal(obstacles_touching(&o, 0.0, vertex, &all, hits, 4), 2);
     assert_int_equal(hits[0], 0);
     assert_int_equal(hits[1], 1);
-    assert_int_equal(obstacles_touching(&o, vertex, &all, hits, 1), 1);
-    assert_int_equal(obstacles_touching(&o, vertex, &other, hits, 4), 0);
-    assert_int_equal(obstacles_touching(&o, on_one, &all, hits, 4), 1);
-    assert_int_equal(obstacles_touching(&o, above, &all, hits, 4), 0);
-    assert_int_equal(obstacles_touching(&o, beyond, &all, hits, 4), 1);
-    assert_int_equal(obstacles_touching(&o, further, &all, hits, 4), 0);
-    assert_int_equal(obstacles_touching(&o, further, &longer, hits, 4), 1); /* past a free end */
-    assert_int_equal(obstacles_touching(&o, past, &all, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, 0.0, vertex, &all, hits, 1), 1);
+    assert_int_equal(obstacles_touching(&o, 0.0, vertex, &other, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, 0.0, on_one, &all, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, 0.0, above, &all, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, 0.0, beyond, &all, hits, 4), 1);
+    assert_int_equal(obstacles_touching(&o, 0.0, further, &all, hits, 4), 0);
+    assert_int_equal(obstacles_touching(&o, 0.0, further, &longer, hits, 4), 1); /* past a free end */
+    assert_int_equal(obstacles_touching(&o, 0.0, past, &all, hits, 4), 1);
     assert_int_equal(hits[0], 2);
     obstacles_free(&o);
+}
+
+/* 1e-14: rounding of coordinates of order 10 m. */
+static void what_moves_is_met_where_it_is(void **state)
+{
+    const vec2 velocity = {-3.0, -0.5};
+    const double t = 1.25;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_hits = 0;
+    (void)state;
+    obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
+                 there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
+    for (int k = 0; k < 2000; k++) {
+        const vec2 x = {uniform(rng, -3.0, 7.0), uniform(rng, -2.0, 2.0)};
+        const obstacle_gap a = obstacles_gap(&moving, t, x, 0.1, -1, -1),
+                           b = obstacles_gap(&there, 0.0, x, 0.1, -1, -1);
+        const obstacle_touch point = {0.2, 0.1, -1};
+        dem_index hits[2][8];
+        assert_close(a.distance, b.distance, 1e-14);
+        assert_int_equal(a.segment, b.segment);
+        assert_close(vec2_norm(vec2_sub(a.normal, b.normal)), 0.0, 1e-12);
+        const int n = obstacles_touching(&moving, t, x, &point, hits[0], 8);
+        assert_int_equal(n, obstacles_touching(&there, 7.0, x, &point, hits[1], 8));
+        for (int h = 0; h < n; h++) assert_int_equal(hits[0][h], hits[1][h]);
+        n_hits += n;
+    }
+    assert_true(n_hits > 50);
+    obstacles_free(&moving);
+    obstacles_free(&there);
+    gsl_rng_free(rng);
 }
 
 int main(void)
@@ -393,6 +423,7 @@ int main(void)
         cmocka_unit_test(a_free_end_is_longer_by_the_margin_where_another_part_is_nearer),
         cmocka_unit_test(of_equally_near_segments_the_first_counts),
         cmocka_unit_test(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends),
+        cmocka_unit_test(what_moves_is_met_where_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where a rigid body is at one time and how it moves: the frame in which its geometry is given, seen from outside. With
+ * c the centre, q the angle and r = x - c, a point of the body at x moves with
+ *   w = c' + q' z x r,    w' = c'' + q'' z x r - q'^2 r. */
+#ifndef DEM_OBSTACLE_POSE_H
+#define DEM_OBSTACLE_POSE_H
+
+#include "base/vec2.h"
+
+typedef struct pose {
+    vec2 centre, velocity, acceleration; /* c m, c' m/s, c'' m/s^2 */
+    vec2 axis;                           /* (cos q, sin q) */
+    double spin, spin_rate;              /* q' rad/s, q'' rad/s^2 */
+} pose;
+
+/** A direction of the body, seen from outside. */
+static inline vec2 pose_turn(const pose *p, vec2 d)
+{
+    return (vec2){p->axis.x * d.x - p->axis.y * d.y, p->axis.y * d.x + p->axis.x * d.y};
+}
+
+/** A place in the body, seen from outside. */
+static inline vec2 pose_outside(const pose *p, vec2 x)
+{
+    return vec2_add(p->centre, pose_turn(p, x));
+}
+
+/** A place seen from outside, in the body's own frame. */
+static inline vec2 pose_inside(const pose *p, vec2 x)
+{
+    const vec2 r = vec2_sub(x, p->centre);
+    return (vec2){p->axis.x * r.x + p->axis.y * r.y, p->axis.x * r.y - p->axis.y * r.x};
+}
+
+/** w, m/s. */
+static inline vec2 pose_velocity(const pose *p, vec2 x)
+{
+    const vec2 r = vec2_sub(x, p->centre);
+    return vec2_add(p->velocity, (vec2){-p->spin * r.y, p->spin * r.x});
+}
+
+/** w', m/s^2: what a point has that goes with the body. */
+static inline vec2 pose_acceleration(const pose *p, vec2 x)
+{
+    const vec2 r = vec2_sub(x, p->centre), turned = {-p->spin_rate * r.y, p->spin_rate * r.x};
+    return vec2_along(vec2_add(p->acceleration, turned), -p->spin * p->spin, r);
+}
+
+#endif

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* pose.h, motion_law.c: places and directions go in and out, velocities and accelerations are what differences say. */
+#include "verification/support.h"
+
+#include "obstacle/motion_law.h"
+
+/* c = (1 + 2 t - t^2, t^3), q = 0.3 + 0.7 t + 0.2 t^2. */
+static pose turning(double t)
+{
+    const double angle = 0.3 + t * (0.7 + 0.2 * t);
+    return (pose){.centre = {1.0 + t * (2.0 - t), t * t * t},
+                  .velocity = {2.0 - 2.0 * t, 3.0 * t * t},
+                  .acceleration = {-2.0, 6.0 * t},
+                  .axis = {cos(angle), sin(angle)},
+                  .spin = 0.7 + 0.4 * t,
+                  .spin_rate = 0.4};
+}
+
+static void assert_near(vec2 actual, vec2 expected, double tolerance)
+{
+    assert_close(actual.x, expected.x, tolerance);
+    assert_close(actual.y, expected.y, tolerance);
+}
+
+static void what_goes_in_comes_out_where_it_was(void **state)
+{
+    const pose at = turning(0.8);
+    const vec2 x = {0.4, -1.7};
+    (void)state;
+    assert_near(pose_outside(&at, pose_inside(&at, x)), x, 1e-15);
+    assert_near(pose_inside(&at, at.centre), (vec2){0.0, 0.0}, 0.0);
+    const vec2 turned = pose_turn(&at, (vec2){1.0, 0.0});
+    assert_near(turned, at.axis, 0.0);
+    assert_near(vec2_sub(pose_outside(&at, (vec2){2.0, 1.0}), pose_outside(&at, (vec2){1.0, 1.0})), turned, 1e-15);
+}
+
+/* A point of the body, followed over 2e-4 s; differences are of second order: 1e-8 of the third derivatives, rounding
+ * 1e-16/1e-8 of the second. */
+static void velocity_and_acceleration_are_those_of_a_point_of_the_body(void **state)
+{
+    const double t = 0.8, h = 1e-4;
+    const vec2 of_body = {0.4, -1.7};
+    const pose before = turning(t - h), at = turning(t), after = turning(t + h);
+    const vec2 a = pose_outside(&before, of_body), b = pose_outside(&at, of_body), c = pose_outside(&after, of_body);
+    (void)state;
+    assert_near(pose_velocity(&at, b), vec2_scale(0.5 / h, vec2_sub(c, a)), 1e-7);
+    assert_near(pose_acceleration(&at, b), vec2_scale(1.0 / (h * h), vec2_sub(vec2_add(a, c), vec2_scale(2.0, b))),
+                1e-6);
+}
+
+static void a_constant_velocity_carries_everything_along(void **state)
+{
+    const dem_obstacle obstacle = {.velocity = {3.0, -4.0}}, rest = {.n_points = 0}, same = {.velocity = {3.0, -4.0}};
+    const motion_law law = motion_law_of(&obstacle), none = motion_law_of(&rest), other = motion_law_of(&same);
+    const pose at = motion_law_pose(&law, 0.5);
+    (void)state;
+    assert_true(law.moves && !none.moves);
+    assert_close(motion_law_speed(&law), 5.0, 0.0);
+    assert_close(motion_law_speed(&none), 0.0, 0.0);
+    assert_true(motion_law_is_same(&law, &other) && !motion_law_is_same(&law, &none));
+    assert_near(pose_outside(&at, (vec2){1.0, 1.0}), (vec2){2.5, -1.0}, 0.0);
+    assert_near(pose_velocity(&at, (vec2){7.0, 7.0}), (vec2){3.0, -4.0}, 0.0);
+    assert_near(pose_acceleration(&at, (vec2){7.0, 7.0}), (vec2){0.0, 0.0}, 0.0);
+    assert_near(pose_outside(&(pose){.axis = {1.0, 0.0}}, (vec2){1.0, 1.0}), (vec2){1.0, 1.0}, 0.0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_goes_in_comes_out_where_it_was),
+        cmocka_unit_test(velocity_and_acceleration_are_those_of_a_point_of_the_body),
+        cmocka_unit_test(a_constant_velocity_carries_everything_along),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
