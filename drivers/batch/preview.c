@@ -30,6 +30,18 @@ static void print_friction(FILE *out, const dem_model *model)
     if (n_rough > most_listed) (void)fprintf(out, "friction   on %lld obstacles in all\n", (long long)n_rough);
 }
 
+static void print_motion(FILE *out, const dem_model *model)
+{
+    dem_index n = 0, n_moving = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    for (dem_index o = 0; o < n; o++) {
+        const double *v = obstacles[o].velocity;
+        if ((v[0] == 0.0 && v[1] == 0.0) || ++n_moving > most_listed) continue;
+        (void)fprintf(out, "motion     obstacle %lld: velocity (%g, %g) m/s\n", (long long)o + 1, v[0], v[1]);
+    }
+    if (n_moving > most_listed) (void)fprintf(out, "motion     of %lld obstacles in all\n", (long long)n_moving);
+}
+
 /* The longest damping time of the springs, s. */
 static double damping_time(const dem_lattice *lattice)
 {
@@ -56,6 +68,7 @@ static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
     else
         (void)fprintf(out, "off\n");
     print_friction(out, model);
+    print_motion(out, model);
     print_damping(out, o->mass_damping, damping_time(dem_model_lattice(model)));
 }
 

@@ -370,6 +370,7 @@ static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *e
                                .restitution = schema_real(group, "restitution"),
                                .friction = schema_real(group, "friction"),
                                .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        memcpy(made->velocity, schema_value_of(group, "velocity")->reals, sizeof made->velocity);
         if (good && !check_crossings(made, k + 1, schema_place(group, "points"), errors)) return false;
     }
     return d->obstacles != NULL;

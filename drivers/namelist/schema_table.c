@@ -192,6 +192,8 @@ static const schema_key obstacle_keys[] = {
      "Coefficient of friction; 0 is none. By law 'paper' 1 is none: it must be given there, in [0, 1].", NULL},
     {"friction_law", SCHEMA_CHOICE, 1, 1, "-", "'coulomb'", ANY, "coulomb|paper", PHYSICS,
      "Coulomb's dry friction, or the paper's: an impact leaves `friction` of the tangential velocity.", NULL},
+    {"velocity", SCHEMA_REAL, 2, 2, "m/s", "0, 0", ANY, NULL, PHYSICS,
+     "Constant velocity with which it moves, x and y; its points are where it is at t = 0.", NULL},
 };
 
 static const schema_key contact_keys[] = {
@@ -293,7 +295,7 @@ static const schema_group groups[] = {
      KEYS(inclusion_keys)},
     {"boundary", false, true, "Nodes that are held, moved or loaded; prescribed ones touch no obstacle.",
      KEYS(boundary_keys)},
-    {"obstacle", false, true, "A rigid obstacle that never moves; one group for each.", KEYS(obstacle_keys)},
+    {"obstacle", false, true, "A rigid obstacle, at rest or moving; one group for each.", KEYS(obstacle_keys)},
     {"contact", false, false,
      "How nodes and edges of bodies touch obstacles; free ends of open polylines touch no edges.", KEYS(contact_keys)},
     {"solver", false, false, "Integration in time.", KEYS(solver_keys)},

@@ -137,9 +137,10 @@ static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
     const dem_obstacle *obstacles = dem_film_obstacles(s->film, &n);
     for (dem_index k = 0; k < n; k++) {
         obstacle_fill solid;
-        if (!obstacle_fill_outline(&obstacles[k], p->view, &solid)) return false;
+        const double x = s->t * obstacles[k].velocity[0], y = s->t * obstacles[k].velocity[1]; /* how far it has gone */
+        if (!obstacle_fill_outline(&obstacles[k], box_moved(p->view, -x, -y), &solid)) return false;
         for (size_t i = 0; i < solid.n; i++)
-            place(p, (const double[]){solid.xy[2 * i], solid.xy[2 * i + 1]}, solid.xy + 2 * i);
+            place(p, (const double[]){solid.xy[2 * i] + x, solid.xy[2 * i + 1] + y}, solid.xy + 2 * i);
         c->fills(c, canvas_dark, solid.n, 1, solid.xy);
         free(solid.xy);
     }

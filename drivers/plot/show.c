@@ -162,8 +162,10 @@ static strip plan(show *s, size_t n)
     s->hash = digest_add(s->hash, s->shown.name, strlen(s->shown.name));
     s->hash = digest_add(s->hash, &s->look.range, 2 * sizeof(double));
     s->hash = digest_add(s->hash, &planned.view, sizeof planned.view);
-    for (dem_index k = 0; k < n_obstacles; k++)
+    for (dem_index k = 0; k < n_obstacles; k++) {
         s->hash = digest_add(s->hash, obstacles[k].points, 2 * (size_t)obstacles[k].n_points * sizeof(double));
+        s->hash = digest_add(s->hash, obstacles[k].velocity, sizeof obstacles[k].velocity);
+    }
     return planned;
 }
 

@@ -233,6 +233,18 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
     reduce_rates(scene_layout(&c->set.scene), a);
 }
 
+double automaton_work_rate(const automaton *c, double t, const double *y)
+{
+    const scene_state state = automaton_state(c, t, y);
+    const contact_forces *r = &c->set.forces;
+    double power = 0.0;
+    for (dem_index g = 0; g < r->n_groups && surface_speed(&c->set.scene) > 0.0; g++)
+        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
+            for (int q = 0; q < c->set.list[k].n_closed; q++)
+                power += contact_set_contribution(&c->set, k, q, state).work;
+    return power;
+}
+
 dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list)
 {
     dem_index n = 0;

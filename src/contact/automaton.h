@@ -55,6 +55,9 @@ void automaton_constrain(automaton *c, double t, const double *y, double *a);
  *  takes, W. */
 void automaton_add_rates(const automaton *c, double t, const double *y, double *a);
 
+/** Power of moving obstacles on the bodies by closed contacts, W, after automaton_constrain() in the same state. */
+double automaton_work_rate(const automaton *c, double t, const double *y);
+
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.
  *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first

@@ -56,7 +56,7 @@ static bool come_round(contact_set *c, dem_index k, const candidate_positions *s
     const contact_candidate *candidate = &c->list[k];
     dem_index nearest;
     if (candidate_is_edge(candidate) || candidate->n_closed > 0 || candidate->behind[0] >= 0) return false;
-    if (!(candidate_moved(candidate, spot) < candidate->clearance.distance) ||
+    if (!(candidate_moved(&c->scene, candidate, spot) < candidate->clearance.distance) ||
         candidate_clearance(&c->scene, candidate, spot, &nearest) >= 0.0)
         return false;
     contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, nearest}));

@@ -28,7 +28,7 @@ double broad_phase_speed(const contact_set *c, const double *v)
         const vec2 vi = vec2_at(v, c->list[k].node);
         square = fmax(square, vec2_dot(vi, vi));
     }
-    return reduce_max(sqrt(square));
+    return reduce_max(sqrt(square)) + surface_speed(&c->scene);
 }
 
 /* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */
@@ -46,7 +46,7 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state sta
     double clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
     const bool untouched = candidate->clearance.inactive
                                ? candidate->clearance.active_from > w->travelled
-                               : candidate_moved(candidate, &spot) < candidate->clearance.distance;
+                               : candidate_moved(&c->scene, candidate, &spot) < candidate->clearance.distance;
     if (clear < 0.0 && untouched && candidate->n_closed == 0 && !candidate_is_edge(candidate)) {
         contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, nearest}));
         clear = candidate_clearance(&c->scene, candidate, &spot, &nearest);
@@ -55,16 +55,18 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state sta
     candidate->clearance.inactive = clear > reach;
     candidate->clearance.active_from = w->travelled + clear;
     candidate->clearance.distance = fmax(0.0, clear);
+    candidate->clearance.t = state.t;
     candidate->clearance.at[0] = spot.a;
     candidate->clearance.at[1] = spot.b;
 }
 
 /* What sleeps until it may wake, and what is awake until it has moved half as far as it was clear. */
-static bool worth_a_look(const broad_phase *w, const contact_candidate *candidate, scene_state state, double reach)
+static bool worth_a_look(const broad_phase *w, const contact_scene *scene, const contact_candidate *candidate,
+                         scene_state state, double reach)
 {
     if (candidate->clearance.inactive) return candidate->clearance.active_from <= w->travelled + reach;
     const candidate_positions spot = candidate_place(candidate, state.t, state.x);
-    return candidate_moved(candidate, &spot) >= 0.5 * candidate->clearance.distance;
+    return candidate_moved(scene, candidate, &spot) >= 0.5 * candidate->clearance.distance;
 }
 
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
@@ -77,7 +79,7 @@ void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
         if (c->list[k].behind[0] >= 0) come_back(c, k, (surface_query){state.t, vec2_at(state.x, c->list[k].node)});
     for (dem_index k = 0; k < c->n; k++) {
         const contact_candidate *candidate = &c->list[k];
-        if (worth_a_look(w, candidate, state, reach)) look_at(w, c, k, state, reach);
+        if (worth_a_look(w, &c->scene, candidate, state, reach)) look_at(w, c, k, state, reach);
         if (candidate->n_closed > 0 || !candidate->clearance.inactive)
             w->active[w->n++] = k;
         else

@@ -18,7 +18,7 @@ typedef struct broad_phase {
 dem_status broad_phase_create(broad_phase *out, dem_index n_candidates);
 void broad_phase_destroy(broad_phase *w);
 
-/** Fastest of the nodes that may touch, m/s. */
+/** Fastest of the nodes that may touch and of the obstacles, together, m/s. */
 double broad_phase_speed(const contact_set *c, const double *v);
 
 /** Looks again at what has woken, before a step from a state. A node found inside an obstacle that it cannot have

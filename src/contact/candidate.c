@@ -59,18 +59,32 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_candidate 
     return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
 }
 
-double candidate_moved(const contact_candidate *candidate, const candidate_positions *spot)
+double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot)
 {
+    const double wall = surface_speed(scene) * fabs(spot->t - candidate->clearance.t);
     const double a = vec2_norm(vec2_sub(spot->a, candidate->clearance.at[0]));
-    return candidate_is_edge(candidate) ? fmax(a, vec2_norm(vec2_sub(spot->b, candidate->clearance.at[1]))) : a;
+    return wall +
+           (candidate_is_edge(candidate) ? fmax(a, vec2_norm(vec2_sub(spot->b, candidate->clearance.at[1]))) : a);
+}
+
+vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
+                          const candidate_positions *spot, vec2 v)
+{
+    if (gap->feature < 0 || surface_speed(scene) == 0.0) return v;
+    const vec2 at = candidate_is_edge(candidate) ? surface_vertex_at(scene, gap->feature, spot->t)
+                                                 : vec2_along(spot->a, -gap->distance, gap->normal);
+    const dem_index id = surface_segment(scene, contact_point_feature(candidate, gap->feature));
+    const obstacle_motion wall = surface_motion(scene, id, (surface_query){spot->t, at});
+    return obstacle_motion_relative(&wall, v);
 }
 
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot)
 {
     if (candidate->n_closed == 2 || candidate->clearance.inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
-    const double left =
-        candidate->clearance.distance > 0.0 ? candidate->clearance.distance - candidate_moved(candidate, spot) : 0.0;
+    const double left = candidate->clearance.distance > 0.0
+                            ? candidate->clearance.distance - candidate_moved(scene, candidate, spot)
+                            : 0.0;
     if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
     return candidate_is_edge(candidate) ? edge_gap(scene, candidate, spot)
                                         : node_gap(scene, candidate, (surface_query){spot->t, spot->a});
@@ -143,6 +157,7 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
     const bool rests = speed == 0.0;
     for (int p = 0; p < f.n && rests; p++) /* then it heads where it is driven */
         speed += f.weight[p] * vec2_dot(forces_acceleration(scene->forces, f.node[p], state.x, state.v), f.tangent);
+    if (rests) speed -= f.carried;
     const double heading =
         candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge against the body */
     return end * heading > 0.0 ? end : 0;

@@ -27,14 +27,18 @@ typedef struct candidate_positions {
 candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x);
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t);
 
-/** How far a site has moved since it was seen to be clear, m. */
-double candidate_moved(const contact_candidate *candidate, const candidate_positions *spot);
+/** How far a site and obstacles have moved towards each other at most since it was seen to be clear, m. */
+double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot);
 
 /** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it
  *  is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
  *  themselves; of an edge its vertex. */
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot);
+
+/** A velocity v of the point of a site that is nearest to what its gap is to, relative to that. */
+vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
+                          const candidate_positions *spot, vec2 v);
 
 /** The nearest vertex within reach (m) of an edge, in front of it, behind it or beside it. */
 contact_gap candidate_around(const contact_scene *scene, const contact_candidate *candidate,

@@ -93,11 +93,12 @@ static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact
     if (bend == OBSTACLE_CONCAVE) return impact_solve(c, k, (impact_target){2, {next.feature[0], here}}, now);
     if (bend != OBSTACLE_STRAIGHT) return release(c, k, 0, now);
     const surface_line line = surface_line_at(&c->scene, next.feature[0], now->t);
-    const vec2 v = vec2_at(now->v, candidate->node);
+    const vec2 v = vec2_at(now->v, candidate->node), x = vec2_at(now->x, candidate->node);
+    const obstacle_motion wall = surface_motion(&c->scene, next.feature[0], (surface_query){now->t, x});
     candidate->closed[0].feature = next.feature[0];
-    contact_set_move(c, candidate->node,
-                     vec2_scale(-surface_height(&line, vec2_at(now->x, candidate->node)), line.normal), now->x);
-    vec2_put(now->v, candidate->node, vec2_along(v, -vec2_dot(v, line.normal), line.normal));
+    contact_set_move(c, candidate->node, vec2_scale(-surface_height(&line, x), line.normal), now->x);
+    vec2_put(now->v, candidate->node,
+             vec2_along(v, -vec2_dot(obstacle_motion_relative(&wall, v), line.normal), line.normal));
     return DEM_OK;
 }
 

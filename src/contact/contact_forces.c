@@ -234,35 +234,57 @@ static double sliding_friction(const contact_forces *r, const contact_candidate 
     return candidate->closed[q].slide * contact_point_friction(r->scene, candidate, candidate->closed[q].feature);
 }
 
-/* A node on one segment: what holds it is minus the force towards the segment, and friction on that. */
-static void hold_node(contact_forces *r, dem_index k, double t, double *a)
+/* Acceleration of a node that stays on a segment that moves. */
+static vec2 carried_by(const contact_scene *scene, dem_index feature, dem_index node, const scene_state *state)
+{
+    const surface_query at = {state->t, vec2_at(state->x, node)};
+    const obstacle_motion wall = surface_motion(scene, feature, at);
+    return obstacle_motion_sliding(&wall, vec2_at(state->v, node));
+}
+
+/* A node on one segment: what holds it is minus the force towards the segment, and friction on that, both of them
+ * relative to what the segment carries. */
+static inline void hold_node(contact_forces *r, dem_index k, const scene_state *state, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
-    const surface_line line = surface_line_at(r->scene, candidate->closed[0].feature, t);
+    const dem_index feature = candidate->closed[0].feature;
+    const surface_line line = surface_line_at(r->scene, feature, state->t);
+    const bool moves = surface_moves(r->scene, feature);
+    const vec2 carried = moves ? carried_by(r->scene, feature, candidate->node, state) : (vec2){0.0, 0.0};
     const double m = r->scene->model->lattice.mass[candidate->node];
-    const vec2 free_a = vec2_at(a, candidate->node);
+    const vec2 free_a = vec2_sub(vec2_at(a, candidate->node), carried);
     contact_force *f = &r->force[k][0];
     f->normal = -m * vec2_dot(free_a, line.normal);
     if (candidate->closed[0].slide == 0) {
         f->tangent = -m * vec2_dot(free_a, line.tangent);
-        vec2_put(a, candidate->node, (vec2){0.0, 0.0});
+        vec2_put(a, candidate->node, carried);
         return;
     }
     f->tangent = -sliding_friction(r, candidate, 0) * f->normal;
     const vec2 along = vec2_along(free_a, -vec2_dot(free_a, line.normal), line.normal);
-    vec2_put(a, candidate->node, vec2_along(along, f->tangent / m, line.tangent));
+    const vec2 held = vec2_along(along, f->tangent / m, line.tangent);
+    vec2_put(a, candidate->node, moves ? vec2_add(held, carried) : held);
 }
 
-/* A node in a corner of two segments: at rest. */
-static void hold_corner(contact_forces *r, dem_index k, double t, double *a)
+static obstacle_motion corner_motion(const contact_forces *r, const contact_candidate *candidate,
+                                     const scene_state *state)
+{
+    const dem_index features[2] = {candidate->closed[0].feature, candidate->closed[1].feature};
+    return surface_corner_motion(r->scene, features, (surface_query){state->t, vec2_at(state->x, candidate->node)});
+}
+
+/* A node in a corner of two segments: at rest in it. */
+static void hold_corner(contact_forces *r, dem_index k, const scene_state *state, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
     double part[2];
-    const vec2 f = vec2_scale(-r->scene->model->lattice.mass[candidate->node], vec2_at(a, candidate->node));
-    vec2_parts(f, surface_line_at(r->scene, candidate->closed[0].feature, t).normal,
-               surface_line_at(r->scene, candidate->closed[1].feature, t).normal, part);
+    const vec2 carried = corner_motion(r, candidate, state).acceleration;
+    const vec2 f =
+        vec2_scale(-r->scene->model->lattice.mass[candidate->node], vec2_sub(vec2_at(a, candidate->node), carried));
+    vec2_parts(f, surface_line_at(r->scene, candidate->closed[0].feature, state->t).normal,
+               surface_line_at(r->scene, candidate->closed[1].feature, state->t).normal, part);
     for (int q = 0; q < 2; q++) r->force[k][q] = (contact_force){part[q], 0.0};
-    vec2_put(a, candidate->node, (vec2){0.0, 0.0});
+    vec2_put(a, candidate->node, carried);
 }
 
 /* ---- the banded system of a group ---- */
@@ -278,6 +300,12 @@ static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const c
     row->direction = row->push = tangential ? f->tangent : f->normal;
 }
 
+/* How fast an obstacle moves along a direction. */
+static double along(const contact_forces *r, vec2 wall, vec2 direction)
+{
+    return surface_speed(r->scene) > 0.0 ? vec2_dot(wall, direction) : 0.0;
+}
+
 /* The unknowns of a group and what they are asked for; u [n][2]: accelerations or velocities as they are. */
 static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_state state, const double *u)
 {
@@ -287,12 +315,12 @@ static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_stat
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(r->scene, candidate, q, state);
             add_row(r, &n, k, q, &f, false);
-            r->rows[n - 1].wanted = to == FORCE ? f.keep[0] : (to == SHIFT ? -f.gap : 0.0);
+            r->rows[n - 1].wanted = to == FORCE ? f.keep[0] : (to == SHIFT ? -f.gap : along(r, f.wall, f.normal));
             if (to == SHIFT) continue;
             if (to == FORCE) r->rows[n - 1].push = vec2_along(f.normal, -sliding_friction(r, candidate, q), f.tangent);
             if (!resists(candidate, q)) continue;
             add_row(r, &n, k, q, &f, true);
-            r->rows[n - 1].wanted = to == FORCE ? f.keep[1] : 0.0;
+            r->rows[n - 1].wanted = to == FORCE ? f.keep[1] : along(r, f.wall, f.tangent);
         }
     }
     for (dem_index j = 0; j < n && to != SHIFT; j++)
@@ -386,22 +414,22 @@ static bool alone(const contact_forces *r, dem_index group)
     return r->next[first] < 0 && !candidate_is_edge(&r->candidates[first]);
 }
 
-static void hold(contact_forces *r, dem_index group, scene_state state, double *a)
+static inline void hold(contact_forces *r, dem_index group, const scene_state *state, double *a)
 {
     const dem_index k = contact_forces_first(r, group);
     if (!alone(r, group))
-        solve(r, group, FORCE, state, a);
+        solve(r, group, FORCE, *state, a);
     else if (r->candidates[k].n_closed == 2)
-        hold_corner(r, k, state.t, a);
+        hold_corner(r, k, state, a);
     else
-        hold_node(r, k, state.t, a);
+        hold_node(r, k, state, a);
 }
 
 /* ---- public ---- */
 
 void contact_forces_hold(contact_forces *r, scene_state state, double *a)
 {
-    for (dem_index g = 0; g < r->n_groups; g++) hold(r, r->groups[g], state, a);
+    for (dem_index g = 0; g < r->n_groups; g++) hold(r, r->groups[g], &state, a);
 }
 
 /* The free acceleration of a node, once for all contacts that share it. */
@@ -424,17 +452,21 @@ void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
         set_free(r, candidate->node, state);
         if (candidate_is_edge(candidate)) set_free(r, candidate->other, state);
     }
-    hold(r, group, state, r->a);
+    hold(r, group, &state, r->a);
 }
 
 /* A node by itself stops exactly. */
-static void stop_node(contact_forces *r, dem_index k, double t, double *v)
+static void stop_node(contact_forces *r, dem_index k, scene_state state, double *v)
 {
     const contact_candidate *candidate = &r->candidates[k];
-    const surface_line line = surface_line_at(r->scene, candidate->closed[0].feature, t);
+    const dem_index feature = candidate->closed[0].feature;
+    const surface_line line = surface_line_at(r->scene, feature, state.t);
     const vec2 vi = vec2_at(v, candidate->node);
-    const bool rests = candidate->n_closed == 2 || candidate->closed[0].slide == 0;
-    const vec2 after = rests ? (vec2){0.0, 0.0} : vec2_along(vi, -vec2_dot(vi, line.normal), line.normal);
+    const bool cornered = candidate->n_closed == 2, rests = cornered || candidate->closed[0].slide == 0;
+    const surface_query at = {state.t, vec2_at(state.x, candidate->node)};
+    const obstacle_motion wall = cornered ? corner_motion(r, candidate, &state) : surface_motion(r->scene, feature, at);
+    const double towards = vec2_dot(obstacle_motion_relative(&wall, vi), line.normal);
+    const vec2 after = rests ? wall.velocity : vec2_along(vi, -towards, line.normal);
     const vec2 impulse = vec2_scale(r->scene->model->lattice.mass[candidate->node], vec2_sub(after, vi));
     r->force[k][0] = (contact_force){vec2_dot(impulse, line.normal), vec2_dot(impulse, line.tangent)};
     r->force[k][1] = (contact_force){0.0, 0.0};
@@ -444,7 +476,7 @@ static void stop_node(contact_forces *r, dem_index k, double t, double *v)
 void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, double *v)
 {
     if (alone(r, group))
-        stop_node(r, contact_forces_first(r, group), state.t, v);
+        stop_node(r, contact_forces_first(r, group), state, v);
     else
         solve(r, group, IMPULSE, state, v);
 }

@@ -12,30 +12,35 @@ double contact_point_friction(const contact_scene *scene, const contact_candidat
     return contact_law_friction(contact_point_law(scene, candidate, feature));
 }
 
-static contact_frame node_frame(const contact_scene *scene, const contact_candidate *candidate, dem_index feature,
-                                scene_state state)
+static inline contact_frame node_frame(const contact_scene *scene, const contact_candidate *candidate,
+                                       const surface_line *line, scene_state state)
 {
-    const surface_line line = surface_line_at(scene, feature, state.t);
     const vec2 at = vec2_at(state.x, candidate->node);
     return (contact_frame){.n = 1,
                            .node = {candidate->node, -1},
                            .weight = {1.0, 0.0},
-                           .normal = line.normal,
-                           .tangent = line.tangent,
+                           .normal = line->normal,
+                           .tangent = line->tangent,
                            .velocity = vec2_at(state.v, candidate->node),
-                           .gap = surface_height(&line, at),
-                           .place = surface_place(&line, at),
+                           .gap = surface_height(line, at),
+                           .place = surface_place(line, at),
                            .mobility = scene->model->inverse_mass[candidate->node]};
 }
 
+typedef struct vertex_motion {
+    bool moves; /* else only the place is given */
+    vec2 at, velocity, acceleration;
+} vertex_motion;
+
 /* Vertex V on the edge from a to b, P = (1 - s) a + s b the point of the edge nearest to it, N normal and t tangent of
  * the edge, gap g = (P - V).N. With v_P the velocity of the point of the body at P and omega = (v_b - v_a).N/L,
- *   g' = v_P.N,  s' = -v_P.t/L,  g'' = a_P.N - 2 omega v_P.t  (at g = 0):  a_P.N = 2 omega v_P.t keeps it closed. */
-static contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
-                                const contact_point *point, scene_state state)
+ *   g' = v_P.N,  s' = -v_P.t/L,  g'' = a_P.N - 2 omega v_P.t  (at g = 0):  a_P.N = 2 omega v_P.t keeps it closed.
+ * Of a vertex that moves it is the velocity and the acceleration less its own that count. */
+static inline contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
+                                       const contact_point *point, const vertex_motion *vertex, scene_state state)
 {
     const double *inverse_mass = scene->model->inverse_mass;
-    const vec2 at = surface_vertex_at(scene, point->feature, state.t);
+    const vec2 at = vertex->at;
     const vec2 a = vec2_at(state.x, candidate->node), b = vec2_at(state.x, candidate->other), ab = vec2_sub(b, a);
     const vec2 va = vec2_at(state.v, candidate->node), vb = vec2_at(state.v, candidate->other);
     const double length = vec2_norm(ab);
@@ -47,14 +52,53 @@ static contact_frame edge_frame(const contact_scene *scene, const contact_candid
     const double beta = draw_back / scene->rule.max_step;
     const vec2 off = vec2_sub(vec2_along(a, place, ab), at);
     f.velocity = vec2_add(vec2_scale(wa, va), vec2_scale(wb, vb));
+    if (vertex->moves) f.wall = vertex->velocity;
+    if (vertex->moves) f.velocity = vec2_sub(f.velocity, f.wall);
     f.gap = vec2_dot(off, n);
     f.place = place;
     const double vn = vec2_dot(f.velocity, n), vt = vec2_dot(f.velocity, t);
     f.turning = point->slide == 0 ? 0.0 : 2.0 * turn * vt;
+    if (vertex->moves) f.carried = vec2_dot(vertex->acceleration, t);
+    if (vertex->moves) f.turning += vec2_dot(vertex->acceleration, n);
     f.keep[0] = f.turning - beta * (2.0 * vn + beta * f.gap);
     f.keep[1] = -beta * (2.0 * vt + beta * vec2_dot(off, t));
+    if (vertex->moves) f.keep[1] += f.carried;
     f.mobility = wa * wa * inverse_mass[candidate->node] + wb * wb * inverse_mass[candidate->other];
     return f;
+}
+
+contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
+                                   scene_state state)
+{
+    const contact_point *point = &candidate->closed[q];
+    const dem_index id = surface_segment(scene, contact_point_feature(candidate, point->feature));
+    if (candidate_is_edge(candidate)) {
+        const vec2 at = surface_vertex_at(scene, point->feature, state.t);
+        const obstacle_motion wall = surface_motion(scene, id, (surface_query){state.t, at});
+        const vertex_motion vertex = {wall.moves, at, wall.velocity, wall.acceleration};
+        return edge_frame(scene, candidate, point, &vertex, state);
+    }
+    const surface_line line = surface_line_at(scene, id, state.t);
+    const obstacle_motion wall = surface_motion(scene, id, (surface_query){state.t, vec2_at(state.x, candidate->node)});
+    contact_frame f = node_frame(scene, candidate, &line, state);
+    const vec2 carried = obstacle_motion_sliding(&wall, f.velocity);
+    f.wall = wall.velocity;
+    f.velocity = obstacle_motion_relative(&wall, f.velocity);
+    f.turning = f.keep[0] = vec2_dot(carried, f.normal);
+    f.carried = f.keep[1] = vec2_dot(carried, f.tangent);
+    return f;
+}
+
+contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
+{
+    const contact_point *point = &candidate->closed[q];
+    if (surface_speed(scene) > 0.0) return contact_frame_moving(scene, candidate, q, state);
+    if (candidate_is_edge(candidate)) {
+        const vertex_motion vertex = {.at = scene->model->obstacles.vertices[point->feature].at};
+        return edge_frame(scene, candidate, point, &vertex, state);
+    }
+    const surface_line line = surface_line_of(&scene->model->obstacles.segments[point->feature]);
+    return node_frame(scene, candidate, &line, state);
 }
 
 /* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2; here it is the rounding of the
@@ -66,18 +110,18 @@ double contact_point_slack(const contact_scene *scene, const contact_frame *f, c
     return 32.0 * DBL_EPSILON * extent * omega * omega / f->mobility;
 }
 
-double contact_point_noise(const contact_frame *f, const double *v)
+vec2 contact_frame_velocity(const contact_frame *f, const double *v)
 {
-    double speed = 0.0;
-    for (int p = 0; p < f->n && f->n > 1; p++) speed += fabs(f->weight[p]) * vec2_norm(vec2_at(v, f->node[p]));
-    return 64.0 * DBL_EPSILON * speed;
+    const vec2 first = vec2_at(v, f->node[0]);
+    return f->n == 1 ? first
+                     : vec2_add(vec2_scale(f->weight[0], first), vec2_scale(f->weight[1], vec2_at(v, f->node[1])));
 }
 
-contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
+double contact_point_noise(const contact_frame *f, const double *v)
 {
-    const contact_point *point = &candidate->closed[q];
-    return candidate_is_edge(candidate) ? edge_frame(scene, candidate, point, state)
-                                        : node_frame(scene, candidate, point->feature, state);
+    double speed = vec2_norm(f->wall);
+    for (int p = 0; p < f->n && f->n > 1; p++) speed += fabs(f->weight[p]) * vec2_norm(vec2_at(v, f->node[p]));
+    return 64.0 * DBL_EPSILON * speed;
 }
 
 dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q, double t,

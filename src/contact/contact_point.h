@@ -19,7 +19,8 @@ typedef struct contact_point {
 typedef struct contact_clearance {
     bool inactive;      /* it is so far, */
     double active_from; /* m, until the bodies may have gone this far since the start */
-    vec2 at[2];         /* m, where its nodes were when it was */
+    double t;           /* s, when it was */
+    vec2 at[2];         /* m, where its nodes were then, */
     double distance;    /* m, this far away */
 } contact_clearance;
 
@@ -46,10 +47,13 @@ typedef struct contact_frame {
     dem_index node[2];
     double weight[2];     /* sum 1 */
     vec2 normal, tangent; /* unit; out of the obstacle; tangent = (normal.y, -normal.x) */
-    vec2 velocity;        /* m/s, of the point */
+    vec2 wall;            /* m/s, velocity of the obstacle there */
+    vec2 velocity;        /* m/s, of the point relative to that */
     double gap;           /* m, along the normal */
     double place;         /* m along a segment from its start; fraction of an edge from its start */
-    double turning;       /* m/s^2, acceleration of the point along the normal that keeps it touching: 2 omega v_t */
+    double turning;       /* m/s^2, acceleration of the point along the normal that keeps it touching: 2 omega v_t, and
+                             that of what stays on the obstacle there and slides as the point does */
+    double carried;       /* m/s^2, along the tangent, of the latter */
     double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
                              what the integrator's error has opened */
     double mobility;      /* 1/kg, sum of weight^2/m */
@@ -80,10 +84,18 @@ double contact_point_friction(const contact_scene *scene, const contact_candidat
 contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q,
                                scene_state state);
 
+/** The same where some obstacles move: apart, so that those at rest cost nothing more. */
+contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
+                                   scene_state state);
+
 /** What rounding of the coordinates may make of the force of a contact, N. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
 
-/** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node, whose velocity is set. */
+/** Velocity of the point seen from outside, m/s. */
+vec2 contact_frame_velocity(const contact_frame *f, const double *v);
+
+/** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node on an obstacle at rest, whose velocity
+ *  is set. */
 double contact_point_noise(const contact_frame *f, const double *v);
 
 /** What the library tells of it at t. */

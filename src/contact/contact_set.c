@@ -246,11 +246,13 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
     const contact_frame f = contact_frame_at(&c->scene, candidate, q, state);
     const vec2 along = vec2_scale(force->tangent, f.tangent);
     const bool slides = candidate->closed[q].slide != 0;
-    return (contact_contribution){
+    contact_contribution out = {
         .obstacle = surface_obstacle(&c->scene, contact_point_feature(candidate, candidate->closed[q].feature)),
         .force = vec2_along(along, force->normal, f.normal),
         .friction = along,
         .power = slides ? -force->tangent * vec2_dot(f.velocity, f.tangent) : 0.0};
+    if (surface_speed(&c->scene) > 0.0) out.work = vec2_dot(out.force, f.wall);
+    return out;
 }
 
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
@@ -261,6 +263,7 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
     alone.closed[0] = (contact_point){.feature = feature, .slide = 1};
     const contact_frame f = contact_frame_at(&c->scene, &alone, 0, instant_state(now));
     const surface_feature on = contact_point_feature(candidate, feature);
+    const vec2 v = contact_frame_velocity(&f, now->v);
     const vec2 at =
         candidate_is_edge(candidate) ? surface_vertex_at(&c->scene, feature, now->t) : vec2_at(now->x, candidate->node);
     dem_event event = {.t = now->t,
@@ -272,8 +275,8 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
                        .segment = surface_segment_index(&c->scene, on),
                        .x = {at.x, at.y},
                        .normal = {f.normal.x, f.normal.y},
-                       .before = {f.velocity.x, f.velocity.y},
-                       .after = {f.velocity.x, f.velocity.y}};
+                       .before = {v.x, v.y},
+                       .after = {v.x, v.y}};
     for (int q = 0; q < candidate->n_closed; q++)
         if (candidate->closed[q].feature == feature)
             event.state =
@@ -288,12 +291,13 @@ void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse
                  vec2_along(vec2_at(v, f->node[p]), f->weight[p] * c->scene.model->inverse_mass[f->node[p]], impulse));
 }
 
-void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal)
+void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal, vec2 carried)
 {
     const contact_law law = contact_law_of(&c->scene, obstacle);
     const bool smooth = law.friction == 0.0 && law.friction_law == DEM_FRICTION_COULOMB;
     const vec2 along = smooth ? impulse : vec2_scale(vec2_dot(impulse, normal), normal);
     ledger_add_impulse(&c->ledger, obstacle, impulse, vec2_sub(impulse, along));
+    c->ledger.work += vec2_dot(impulse, carried);
 }
 
 void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now)

@@ -107,6 +107,7 @@ typedef struct contact_contribution {
     dem_index obstacle;
     vec2 force, friction; /* N, on the body: all of it, and the part along the surface */
     double power;         /* W, that friction takes */
+    double work;          /* W, that the obstacle does as it moves */
 } contact_contribution;
 
 contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, scene_state state);
@@ -124,8 +125,9 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
 /** Gives the nodes that carry a contact an impulse (N s) at it. */
 void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse, double *v);
 
-/** Adds an impulse (N s) to those that an obstacle gave: what is not along the normal is friction's, if it has any. */
-void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal);
+/** Adds an impulse (N s) to those that an obstacle gave: what is not along the normal is friction's, if it has any.
+ *  \param carried  m/s, velocity of the obstacle there, with which it does work */
+void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal, vec2 carried);
 
 /** Tells of an impact and books its energy, J, and the impulse (N s) that the features gave together. */
 void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now);

@@ -18,10 +18,9 @@ void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, co
     contact_set_push(c, &f, impulse, now->v);
     event.normal[0] = f.normal.x;
     event.normal[1] = f.normal.y;
-    event.after[0] = after.x;
-    event.after[1] = after.y;
+    vec2_put(event.after, 0, obstacle_motion_carry(f.wall, after));
     c->ledger.counts.early++;
-    contact_set_add_impulse(c, event.obstacle, impulse, f.normal);
+    contact_set_add_impulse(c, event.obstacle, impulse, f.normal, f.wall);
     contact_set_enter_impact(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
 }
 
@@ -29,8 +28,8 @@ void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, co
 static bool may_arrive(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
                        const candidate_positions *v)
 {
-    const double way = c->scene.rule.window * fmax(vec2_norm(v->a), vec2_norm(v->b));
-    return candidate->clearance.distance - candidate_moved(candidate, x) < way;
+    const double way = c->scene.rule.window * (fmax(vec2_norm(v->a), vec2_norm(v->b)) + surface_speed(&c->scene));
+    return candidate->clearance.distance - candidate_moved(&c->scene, candidate, x) < way;
 }
 
 /* Whether a site comes to touch within the window if it goes on straight: near a vertex it may pass by. */
@@ -55,7 +54,7 @@ void early_reflection(contact_set *c, contact_instant *now)
         const contact_gap gap = candidate_gap(&c->scene, &candidate, &spot);
         if (gap.feature < 0) continue;
         const vec2 at = vec2_add(vec2_scale(1.0 - gap.place, v.a), vec2_scale(gap.place, v.b));
-        const double speed = -vec2_dot(at, gap.normal);
+        const double speed = -vec2_dot(contact_gap_velocity(&c->scene, &candidate, &gap, &spot, at), gap.normal);
         if (speed > 0.0 && gap.distance + c->scene.rule.penetration_tolerance < speed * c->scene.rule.window &&
             arrives(c, &candidate, &spot, &v))
             early_reflection_of(c, k, &gap, now);

@@ -57,6 +57,7 @@ static sample sample_at(const contact_scene *scene, const contact_candidate *can
     if (candidate_is_edge(candidate))
         v = vec2_add(vec2_scale(1.0 - gap.place, v),
                      vec2_scale(gap.place, node_motion_velocity(p, t, candidate->other)));
+    v = contact_gap_velocity(scene, candidate, &gap, &spot, v);
     return (sample){t, fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance, vec2_dot(gap.normal, v)};
 }
 
@@ -119,7 +120,7 @@ static double fastest(const dense_output *p, double t, const contact_candidate *
 
 /* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
  * its nodes there, four times what a constant one does, and its turn. */
-static double bend(const contact_candidate *candidate, const dense_output *p)
+static double bend(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
     const dem_index v = state_velocities(&p->layout), a0 = candidate->node, b0 = candidate->other;
@@ -130,7 +131,8 @@ static double bend(const contact_candidate *candidate, const dense_output *p)
                vb = node_motion_velocity(p, p->end, candidate->other);
     const double length = vec2_norm(
         vec2_sub(node_motion_position(p, p->end, candidate->other), node_motion_position(p, p->end, candidate->node)));
-    const double turn = 2.0 * vec2_norm(vec2_sub(vb, va)) / length * fmax(vec2_norm(va), vec2_norm(vb));
+    const double turn =
+        2.0 * vec2_norm(vec2_sub(vb, va)) / length * (fmax(vec2_norm(va), vec2_norm(vb)) + surface_speed(scene));
     return 0.5 * h * h * (a + turn);
 }
 
@@ -144,15 +146,16 @@ static bool edge_is_clear(const contact_scene *scene, const contact_candidate *c
     if (around.feature < 0) return true;
     const double va = vec2_dot(node_motion_velocity(p, p->end, candidate->node), around.normal),
                  vb = vec2_dot(node_motion_velocity(p, p->end, candidate->other), around.normal);
-    const double way = (p->end - from) * fmax(0.0, fmax(va, vb));
-    return around.distance + scene->rule.penetration_tolerance > way + bend(candidate, p);
+    const double way = (p->end - from) * fmax(0.0, fmax(va, vb) + surface_speed(scene));
+    return around.distance + scene->rule.penetration_tolerance > way + bend(scene, candidate, p);
 }
 
 /* Whether a site ends the step so near to where it was clear that it was so all the way. */
-static bool stays_clear(const contact_candidate *candidate, const dense_output *p, double reach)
+static bool stays_clear(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                        double reach)
 {
     const candidate_positions spot = candidate_place_at(candidate, p, p->end);
-    return candidate_moved(candidate, &spot) + reach < candidate->clearance.distance;
+    return candidate_moved(scene, candidate, &spot) + reach < candidate->clearance.distance;
 }
 
 /* The first crossing of a site whose gap is the true one. */
@@ -184,9 +187,10 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
                                double from)
 {
     const double h = p->end - from;
-    const double reach =
-        2.0 * h * fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)); /* no site goes further */
-    if (stays_clear(candidate, p, reach)) return INFINITY;
+    const double reach = 2.0 * h *
+                         (fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)) +
+                          surface_speed(scene)); /* no site goes further */
+    if (stays_clear(scene, candidate, p, reach)) return INFINITY;
     contact_candidate near = *candidate;
     near.clearance.distance = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
     return crossing_within(scene, &near, p, from, reach);

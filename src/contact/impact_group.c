@@ -42,7 +42,7 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
             contact_impact *impact = &c->impacts[m].of[q];
-            *impact = (contact_impact){.fresh = impact->fresh, .before = f.velocity};
+            *impact = (contact_impact){.fresh = impact->fresh, .before = contact_frame_velocity(&f, now->v)};
             candidate->closed[q].held = false;
             scale = fmax(scale, vec2_norm(f.velocity));
         }
@@ -168,7 +168,7 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
             const surface_feature on = contact_point_feature(candidate, candidate->closed[q].feature);
-            contact_set_add_impulse(c, surface_obstacle(&c->scene, on), c->impacts[m].of[q].stop, f.normal);
+            contact_set_add_impulse(c, surface_obstacle(&c->scene, on), c->impacts[m].of[q].stop, f.normal, f.wall);
         }
     }
 }
@@ -215,7 +215,9 @@ static void tell_party(contact_set *c, dem_index k, contact_instant *now)
         const bool kept = q < candidate->n_closed;
         dem_event event = contact_set_event(c, k, feature, DEM_EVENT_IMPACT, now);
         c->ledger.counts.closings += impact->fresh && kept;
-        contact_set_add_impulse(c, event.obstacle, impact->impulse, vec2_at(event.normal, 0));
+        const dem_index id = surface_segment(&c->scene, contact_point_feature(candidate, feature));
+        const obstacle_motion wall = surface_motion(&c->scene, id, (surface_query){now->t, vec2_at(event.x, 0)});
+        contact_set_add_impulse(c, event.obstacle, impact->impulse, vec2_at(event.normal, 0), wall.velocity);
         if (impact->struck) {
             event.before[0] = impact->before.x;
             event.before[1] = impact->before.y;

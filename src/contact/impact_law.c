@@ -35,7 +35,7 @@ static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
 static vec2 rub(const impact_surface *s, vec2 v, double kick)
 {
     const vec2 t = {s->normal.y, -s->normal.x};
-    const double vt = vec2_dot(v, t), limit = s->friction * kick;
+    const double vt = vec2_dot(vec2_sub(v, s->drift), t), limit = s->friction * kick;
     double after = s->friction * vt; /* (10) */
     if (s->law == DEM_FRICTION_COULOMB) after = fabs(vt) <= limit ? 0.0 : vt - copysign(limit, vt);
     return vec2_along(v, after - vt, t);

@@ -11,6 +11,7 @@ typedef struct impact_surface {
     double restitution; /* eta, 0 to 1 */
     double friction;    /* mu */
     dem_friction_law law;
+    vec2 drift; /* m/s, how it moves along itself, where velocities are not relative to it but to a corner */
 } impact_surface;
 
 /** Velocity after an impact with one or two surfaces. For one it is (9), v - (1 + eta) n (n.v) if n.v < 0, with (8)

@@ -9,14 +9,41 @@
 
 static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
 
-/* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
-static vec2 way_back(const contact_set *c, impact_target hit, double t, vec2 x)
+/* What a node strikes: its walls, how they move, and how that moves relative to which the laws of an impact hold: the
+ * wall, or the corner of two. */
+typedef struct struck_walls {
+    surface_line line[2];
+    vec2 velocity[2]; /* m/s */
+    obstacle_motion frame;
+} struck_walls;
+
+static void find_walls(const contact_set *c, impact_target hit, surface_query at, struck_walls *out)
 {
-    const surface_line a = surface_line_at(&c->scene, hit.feature[0], t),
-                       b = surface_line_at(&c->scene, hit.feature[hit.n - 1], t);
+    for (int q = 0; q < hit.n; q++) {
+        const obstacle_motion motion = surface_motion(&c->scene, hit.feature[q], at);
+        out->line[q] = surface_line_at(&c->scene, hit.feature[q], at.t);
+        out->velocity[q] = motion.velocity;
+        out->frame = motion;
+    }
+    if (hit.n == 2) out->frame = surface_corner_motion(&c->scene, hit.feature, at);
+}
+
+/* An impact of a node: velocities relative to the frame, m/s. */
+typedef struct node_impact {
+    impact_target hit;
+    struck_walls walls;
+    impact_surface surface[2];
+    vec2 before, after, kick[2];
+} node_impact;
+
+/* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
+static vec2 way_back(const contact_set *c, impact_target hit, const struck_walls *walls, surface_query at)
+{
+    const surface_line a = walls->line[0], b = walls->line[hit.n - 1];
     vec2 vertex;
-    if (hit.n == 2 && surface_share(&c->scene, hit.feature[0], hit.feature[1], t, &vertex)) return vec2_sub(vertex, x);
-    const double h0 = surface_height(&a, x), h1 = surface_height(&b, x), place = surface_place(&a, x);
+    if (hit.n == 2 && surface_share(&c->scene, hit.feature[0], hit.feature[1], at.t, &vertex))
+        return vec2_sub(vertex, at.x);
+    const double h0 = surface_height(&a, at.x), h1 = surface_height(&b, at.x), place = surface_place(&a, at.x);
     if (hit.n == 2) /* n0.shift = -h0 and n1.shift = -h1 */
         return vec2_scale(1.0 / vec2_cross(a.tangent, b.tangent),
                           vec2_along(vec2_scale(h1, a.tangent), -h0, b.tangent));
@@ -25,21 +52,32 @@ static vec2 way_back(const contact_set *c, impact_target hit, double t, vec2 x)
     return vec2_along(vec2_scale(-h0, a.normal), -beyond, a.tangent);
 }
 
-/* Of the segments struck, those on which a node with velocity v stays. At rest it is all that push it; in a corner at
- * rest means that it would not get further out than a hop before the corner has it back. Otherwise it is the one
- * segment it moves along. */
-static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, vec2 v, const contact_instant *now)
+/* The surfaces as the laws of an impact see them. */
+static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, const struck_walls *walls,
+                          impact_surface on[2])
+{
+    for (int q = 0; q < hit.n; q++) {
+        on[q] = impact_rest_surface(c, k, hit.feature[q], walls->line[q].normal);
+        on[q].drift = vec2_sub(walls->velocity[q], walls->frame.velocity);
+    }
+}
+
+/* Of the segments struck, those on which a node with relative velocity v stays. At rest it is all that push it; in
+ * a corner at rest means that it would not get further out than a hop before the corner has it back. Otherwise it
+ * is the one segment it moves along. */
+static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const struck_walls *walls, vec2 v,
+                             const contact_instant *now)
 {
     const dem_index i = c->list[k].node;
-    const vec2 a = forces_acceleration(c->scene.forces, i, now->x, now->v), at = vec2_at(now->x, i);
+    const vec2 at = vec2_at(now->x, i);
+    const vec2 carried = obstacle_motion_sliding(&walls->frame, obstacle_motion_carry(walls->frame.velocity, v));
+    const vec2 a = vec2_sub(forces_acceleration(c->scene.forces, i, now->x, now->v), carried);
     const double speed = vec2_norm(v);
     impact_surface wall[2];
     double push[2], away[2];
     impact_target held = {0};
-    for (int q = 0; q < hit.n; q++) {
-        wall[q] = impact_rest_surface(c, k, hit.feature[q], surface_line_at(&c->scene, hit.feature[q], now->t).normal);
-        away[q] = vec2_dot(v, wall[q].normal);
-    }
+    list_surfaces(c, k, hit, walls, wall);
+    for (int q = 0; q < hit.n; q++) away[q] = vec2_dot(v, wall[q].normal);
     const int holding = impact_law_holding(wall, hit.n, a, push);
     const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
     if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= impact_rest_speed(c, at, back, &wall[0], false)))) {
@@ -71,7 +109,9 @@ static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const
     if (stays_free) return DEM_OK;
     for (int q = 0; q < held.n; q++) {
         const vec2 tangent = surface_line_at(&c->scene, held.feature[q], now->t).tangent;
-        const double speed = vec2_dot(vec2_at(now->v, candidate->node), tangent);
+        const surface_query at = {now->t, vec2_at(now->x, candidate->node)};
+        const obstacle_motion wall = surface_motion(&c->scene, held.feature[q], at);
+        const double speed = vec2_dot(obstacle_motion_relative(&wall, vec2_at(now->v, candidate->node)), tangent);
         candidate->closed[candidate->n_closed++] =
             (contact_point){.feature = held.feature[q], .slide = impact_rest_slide(c, k, held.feature[q], speed)};
     }
@@ -90,43 +130,52 @@ static void tell_change(contact_set *c, dem_index k, int was_closed, dem_index f
     ledger_enter(&c->ledger, &event, now);
 }
 
+/* Books an impact by which the relative velocity has changed, each surface having added its kick. */
+static void enter(contact_set *c, dem_index k, const node_impact *impact, contact_instant *now)
+{
+    const double m = c->scene.model->lattice.mass[c->list[k].node];
+    const impact_target hit = impact->hit;
+    vec2 kick[2] = {impact->kick[0], impact->kick[1]};
+    double energy = 0.5 * m * (vec2_dot(impact->before, impact->before) - vec2_dot(impact->after, impact->after));
+    vec2 rest =
+        vec2_sub(impact->after, impact->before); /* what rounding and closing add goes with the first that acts */
+    for (int q = 0; q < hit.n; q++) rest = vec2_sub(rest, kick[q]);
+    const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
+    kick[first] = vec2_add(kick[first], rest);
+    for (int q = 0; q < hit.n; q++) {
+        const vec2 impulse = vec2_scale(m, kick[q]);
+        energy += vec2_dot(impulse, impact->surface[q].drift);
+        contact_set_add_impulse(c, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, hit.feature[q]}),
+                                impulse, impact->surface[q].normal, impact->walls.velocity[q]);
+    }
+    dem_event event = contact_set_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
+    vec2_put(event.before, 0, obstacle_motion_carry(impact->walls.frame.velocity, impact->before));
+    contact_set_enter_impact(c, &event, energy, vec2_scale(m, vec2_sub(impact->after, impact->before)), now);
+}
+
 dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now)
 {
     const dem_index i = c->list[k].node;
     const int was_closed = c->list[k].n_closed;
-    const vec2 before = vec2_at(now->v, i);
-    impact_surface wall[2];
-    vec2 kick[2];
-    for (int q = 0; q < hit.n; q++)
-        wall[q] = impact_rest_surface(c, k, hit.feature[q], surface_line_at(&c->scene, hit.feature[q], now->t).normal);
-    contact_set_move(c, i, way_back(c, hit, now->t, vec2_at(now->x, i)), now->x);
-    vec2 after = impact_law_rebound(wall, hit.n, before, kick);
-    if (vec2_norm(after) <= noise * vec2_norm(before)) after = (vec2){0.0, 0.0};
-    const impact_target held = lasting(c, k, hit, after, now);
+    const surface_query at = {now->t, vec2_at(now->x, i)};
+    node_impact p = {.hit = hit};
+    find_walls(c, hit, at, &p.walls);
+    list_surfaces(c, k, hit, &p.walls, p.surface);
+    p.before = obstacle_motion_relative(&p.walls.frame, vec2_at(now->v, i));
+    contact_set_move(c, i, way_back(c, hit, &p.walls, at), now->x);
+    p.after = impact_law_rebound(p.surface, hit.n, p.before, p.kick);
+    if (vec2_norm(p.after) <= noise * vec2_norm(p.before)) p.after = (vec2){0.0, 0.0};
+    const impact_target held = lasting(c, k, hit, &p.walls, p.after, now);
     if (held.n > 0) { /* what stays has not rebounded, and friction goes with the impulse given */
         for (int q = 0; q < hit.n; q++)
             for (int h = 0; h < held.n; h++)
-                if (held.feature[h] == hit.feature[q]) wall[q].restitution = 0.0;
-        after = without_normals(c, held, now->t, impact_law_rebound(wall, hit.n, before, kick));
+                if (held.feature[h] == hit.feature[q]) p.surface[q].restitution = 0.0;
+        p.after = without_normals(c, held, now->t, impact_law_rebound(p.surface, hit.n, p.before, p.kick));
     }
-    vec2_put(now->v, i, after);
+    vec2_put(now->v, i, obstacle_motion_carry(p.walls.frame.velocity, p.after));
     TRY(hold_on(c, k, held, now));
-    const bool struck = after.x != before.x || after.y != before.y;
-    if (struck) {
-        const double m = c->scene.model->lattice.mass[i];
-        vec2 rest = vec2_sub(after, before); /* what rounding and closing add goes with the first that acts */
-        for (int q = 0; q < hit.n; q++) rest = vec2_sub(rest, kick[q]);
-        const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
-        kick[first] = vec2_add(kick[first], rest);
-        for (int q = 0; q < hit.n; q++)
-            contact_set_add_impulse(c, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, hit.feature[q]}),
-                                    vec2_scale(m, kick[q]), wall[q].normal);
-        dem_event event = contact_set_event(c, k, hit.feature[0], DEM_EVENT_IMPACT, now);
-        event.before[0] = before.x;
-        event.before[1] = before.y;
-        contact_set_enter_impact(c, &event, 0.5 * m * (vec2_dot(before, before) - vec2_dot(after, after)),
-                                 vec2_scale(m, vec2_sub(after, before)), now);
-    }
+    const bool struck = p.after.x != p.before.x || p.after.y != p.before.y;
+    if (struck) enter(c, k, &p, now);
     tell_change(c, k, was_closed, hit.feature[0], struck, now);
     return DEM_OK;
 }

@@ -9,7 +9,8 @@ static const double noise = 64.0 * DBL_EPSILON; /* what rounding leaves, as a sh
 impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index feature, vec2 normal)
 {
     const contact_law law = contact_point_law(&c->scene, &c->list[k], feature);
-    return (impact_surface){normal, law.restitution, law.friction, law.friction_law};
+    return (impact_surface){
+        .normal = normal, .restitution = law.restitution, .friction = law.friction, .law = law.friction_law};
 }
 
 int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, double speed)
@@ -43,13 +44,16 @@ bool impact_rest_in_notch(const contact_set *c, dem_index edge, dem_index next, 
 {
     const contact_candidate *here = &c->list[edge], *there = &c->list[next];
     const dem_index node = here->node == there->other ? here->node : here->other, feature = here->closed[0].feature;
-    const vec2 a = forces_acceleration(c->scene.forces, node, now->x, now->v);
+    const obstacle_motion wall =
+        surface_motion(&c->scene, surface_segment(&c->scene, contact_point_feature(here, feature)),
+                       (surface_query){now->t, surface_vertex_at(&c->scene, feature, now->t)});
+    const vec2 a = vec2_sub(forces_acceleration(c->scene.forces, node, now->x, now->v), wall.acceleration);
     const impact_surface sides[2] = {impact_rest_surface(c, edge, feature, edge_normal(here, now->x)),
                                      impact_rest_surface(c, edge, feature, edge_normal(there, now->x))};
     double push_on[2];
     vec2 kick;
     if (impact_law_holding(sides, 2, a, push_on) != 3) return false;
-    const vec2 after = impact_law_rebound(&sides[1], 1, vec2_at(now->v, node), &kick);
+    const vec2 after = impact_law_rebound(&sides[1], 1, obstacle_motion_relative(&wall, vec2_at(now->v, node)), &kick);
     const double speed = vec2_norm(after), back = speed > 0.0 ? -vec2_dot(a, after) / speed : 0.0;
     return speed == 0.0 || speed <= impact_rest_speed(c, vec2_at(now->x, node), back, &sides[0], true);
 }

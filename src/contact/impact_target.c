@@ -10,20 +10,33 @@ double impact_target_depth(const contact_set *c, dem_index k, const contact_inst
     const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
     const double speed = vec2_norm(vec2_at(now->v, candidate->node));
     const double other = candidate_is_edge(candidate) ? vec2_norm(vec2_at(now->v, candidate->other)) : 0.0;
-    return 2.0 * c->scene.rule.penetration_tolerance + c->straightened + located * fmax(speed, other);
+    return 2.0 * c->scene.rule.penetration_tolerance + c->straightened +
+           located * (fmax(speed, other) + surface_speed(&c->scene));
+}
+
+/* A node that comes near. */
+typedef struct approaching {
+    surface_query at;
+    vec2 v;
+} approaching;
+
+/* How fast it leaves the line of a segment. */
+static double receding(const contact_set *c, dem_index s, const approaching *node)
+{
+    const obstacle_motion wall = surface_motion(&c->scene, s, node->at);
+    return vec2_dot(obstacle_motion_relative(&wall, node->v), surface_line_at(&c->scene, s, node->at.t).normal);
 }
 
 /* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the
  * one approached faster, on a tie the one that ends there. */
-static bool yields(const contact_set *c, dem_index s, dem_index to, double t, vec2 v)
+static bool yields(const contact_set *c, dem_index s, dem_index to, const approaching *node)
 {
     dem_index after, before;
     const obstacle_bend ahead = surface_bend(&c->scene, s, false, &after);
     const obstacle_bend behind = surface_bend(&c->scene, s, true, &before);
     const bool follows = before == to && behind != OBSTACLE_CONCAVE, leads = after == to && ahead != OBSTACLE_CONCAVE;
     if (!follows && !leads) return false;
-    const double mine = vec2_dot(v, surface_line_at(&c->scene, s, t).normal),
-                 other = vec2_dot(v, surface_line_at(&c->scene, to, t).normal);
+    const double mine = receding(c, s, node), other = receding(c, to, node);
     return mine > other || (mine == other && follows);
 }
 
@@ -35,9 +48,9 @@ bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other,
                            surface_line_at(&c->scene, other, at.t).tangent)) > 0.01;
 }
 
-static double approach(const contact_set *c, dem_index s, double t, vec2 v)
+static double approach(const contact_set *c, dem_index s, const approaching *node)
 {
-    return -vec2_dot(v, surface_line_at(&c->scene, s, t).normal);
+    return -receding(c, s, node);
 }
 
 impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now)
@@ -46,23 +59,20 @@ impact_target impact_target_of_node(const contact_set *c, dem_index k, const con
     dem_index hits[capacity];
     impact_target out = {0};
     const contact_candidate *candidate = &c->list[k];
-    const surface_query at = {now->t, vec2_at(now->x, candidate->node)};
-    const vec2 v = vec2_at(now->v, candidate->node);
+    const approaching node = {{now->t, vec2_at(now->x, candidate->node)}, vec2_at(now->v, candidate->node)};
     const obstacle_touch point = {impact_target_depth(c, k, now), scene_margin(&c->scene), candidate->behind[0]};
-    const int n = surface_touching(&c->scene, at, &point, hits, capacity);
+    const int n = surface_touching(&c->scene, node.at, &point, hits, capacity);
     for (int h = 0; h < n; h++) {
         bool meets = true;
-        for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[h], hits[q], now->t, v);
+        for (int q = 0; q < n && meets; q++) meets = !yields(c, hits[h], hits[q], &node);
         if (!meets) continue;
-        const int place =
-            out.n > 0 && approach(c, hits[h], now->t, v) <= approach(c, out.feature[0], now->t, v) ? 1 : 0;
-        if (place == 1 && out.n == 2 && approach(c, hits[h], now->t, v) <= approach(c, out.feature[1], now->t, v))
-            continue;
+        const int place = out.n > 0 && approach(c, hits[h], &node) <= approach(c, out.feature[0], &node) ? 1 : 0;
+        if (place == 1 && out.n == 2 && approach(c, hits[h], &node) <= approach(c, out.feature[1], &node)) continue;
         if (place == 0) out.feature[1] = out.feature[0];
         out.feature[place] = hits[h];
         out.n = out.n < 2 ? out.n + 1 : 2;
     }
-    if (out.n == 2 && !impact_target_is_corner(c, out.feature[0], out.feature[1], at, point.tolerance)) out.n = 1;
+    if (out.n == 2 && !impact_target_is_corner(c, out.feature[0], out.feature[1], node.at, point.tolerance)) out.n = 1;
     return out;
 }
 
@@ -78,11 +88,11 @@ dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_in
         const candidate_positions spot = candidate_place(&c->list[e], now->t, now->x);
         const contact_gap gap = candidate_gap(&c->scene, &c->list[e], &spot);
         if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
-        const vec2 at = surface_vertex_at(&c->scene, gap.feature, now->t);
+        const vec2 at = surface_vertex_at(&c->scene, gap.feature, now->t), v = vec2_at(now->v, node);
         if (vec2_norm(vec2_sub(at, vec2_at(now->x, node))) > 2.0 * tolerance ||
             !surface_in_cone(&c->scene, gap.feature, now->t, gap.normal))
             continue;
-        const double speed = -vec2_dot(vec2_at(now->v, node), gap.normal);
+        const double speed = -vec2_dot(contact_gap_velocity(&c->scene, &c->list[e], &gap, &spot, v), gap.normal);
         if (speed <= fastest) continue;
         fastest = speed;
         best = e;

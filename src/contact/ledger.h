@@ -7,6 +7,7 @@
 
 typedef struct contact_ledger {
     double impact, projection;          /* J, taken by impacts, put in by projection */
+    double work;                        /* J, put in by moving obstacles at impacts */
     double *impulse, *friction_impulse; /* [n_obstacles][2] N s, given to the bodies by impacts */
     dem_counts counts;                  /* those of contacts */
 } contact_ledger;

@@ -197,8 +197,8 @@ static double furthest(const contact_source *s, const event_place *at)
     for (dem_index j = 0; j < n_moving(at); j++) {
         const dem_index i = at->near->nodes[j].i;
         if (s->automaton->set.of_node[i] < 0) continue;
-        way =
-            fmax(way, 2.0 * (step->t1 - step->t0) * vec2_norm(vec2_at(step->y1 + state_velocities(&step->layout), i)));
+        const double speed = vec2_norm(vec2_at(step->y1 + state_velocities(&step->layout), i));
+        way = fmax(way, 2.0 * (step->t1 - step->t0) * (speed + surface_speed(&s->automaton->set.scene)));
     }
     return way;
 }

@@ -141,6 +141,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, scene_s
                 TRY(add_rate(p, state_impulse(l, of.obstacle), stage, sign, of.force));
                 TRY(add_rate(p, state_friction_impulse(l, of.obstacle), stage, sign, of.friction));
                 totals[STATE_FRICTION] += of.power;
+                totals[STATE_WORK] += of.work;
             }
     }
     for (dem_index j = 0; j < p->near.end[rings] && forces_have_power(acting(p)); j++) {

@@ -15,6 +15,7 @@ typedef struct numbers {
     double next_step;    /* s; 0: fixed ones */
     double impact;       /* J, books of contacts */
     double projection;   /* J */
+    double work;         /* J, done by obstacles at impacts */
     double straightened; /* m */
     dem_index events, unlooked, idle;
 } numbers;
@@ -154,6 +155,17 @@ static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem
     return record_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
+static dem_status put_velocities(const dem_model *model, dem_record *record)
+{
+    const obstacle_set *o = &model->obstacles;
+    double *list = malloc((2 * (size_t)o->n + 1) * sizeof *list);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the obstacles of a record");
+    for (dem_index k = 0; k < o->n; k++) memcpy(list + 2 * k, o->list[k].velocity, sizeof o->list[k].velocity);
+    const dem_status status = dem_record_put(record, "velocities", list, 2 * (size_t)o->n * sizeof *list);
+    free(list);
+    return status;
+}
+
 dem_status checkpoint_take(dem_simulation *s, dem_record *record)
 {
     const contact_ledger *books = &s->automaton.set.ledger;
@@ -161,14 +173,22 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
     const dem_counts of_engine = integrator_counts(&s->integrator);
     dem_counts counts = books->counts;
     sizes size = sizes_of(s);
-    numbers n = {s->t,          s->step,           integrator_next_step(&s->integrator),
-                 books->impact, books->projection, s->automaton.set.straightened,
-                 s->events,     s->unlooked,       s->automaton.idle};
+    numbers n = {s->t,
+                 s->step,
+                 integrator_next_step(&s->integrator),
+                 books->impact,
+                 books->projection,
+                 books->work,
+                 s->automaton.set.straightened,
+                 s->events,
+                 s->unlooked,
+                 s->automaton.idle};
     counts.steps = of_engine.steps;
     counts.rejected = of_engine.rejected;
     counts.evaluations = of_engine.evaluations;
     counts.retries = of_engine.retries;
     TRY(record_pass(&way, "sizes", &size, sizeof size));
+    TRY(put_velocities(s->model, record));
     TRY(pass(s, &way, &n, &counts));
     TRY(put_contacts(&s->automaton.set, record));
     return record_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
@@ -199,9 +219,28 @@ static dem_status check_sizes(const dem_simulation *s, const dem_record *record)
     return DEM_OK;
 }
 
+/* Where obstacles are follows from how they move: the record is of those that move alike. */
+static dem_status check_velocities(const dem_simulation *s, const dem_record *record)
+{
+    const obstacle_set *o = &s->model->obstacles;
+    size_t size;
+    const double *there = dem_record_find(record, "velocities", &size);
+    CHECK(there != NULL && size == 2 * (size_t)o->n * sizeof *there, DEM_ERROR_IO,
+          "the record has %zu bytes of the velocities of obstacles, %zu are expected", there != NULL ? size : 0,
+          2 * (size_t)o->n * sizeof *there);
+    for (dem_index k = 0; k < o->n; k++) {
+        const double *here = o->list[k].velocity;
+        CHECK(here[0] == there[2 * k] && here[1] == there[2 * k + 1], DEM_ERROR_IO,
+              "in the record obstacle %lld moves at (%g, %g) m/s, not at (%g, %g) m/s", (long long)k, there[2 * k],
+              there[2 * k + 1], here[0], here[1]);
+    }
+    return DEM_OK;
+}
+
 static dem_status check_numbers(const numbers *n)
 {
-    const bool finite = isfinite(n->impact) && isfinite(n->projection) && isfinite(n->straightened);
+    const bool finite =
+        isfinite(n->impact) && isfinite(n->projection) && isfinite(n->work) && isfinite(n->straightened);
     const bool timely = isfinite(n->t) && n->t >= 0.0 && isfinite(n->step) && n->step >= 0.0;
     CHECK(finite && timely && isfinite(n->next_step) && n->next_step >= 0.0, DEM_ERROR_IO,
           "the record's time %g s, step %g s or next step %g s is impossible", n->t, n->step, n->next_step);
@@ -215,6 +254,7 @@ static dem_status get(dem_simulation *s, const dem_record *record, numbers *n, c
 {
     const record_way way = {.from = record};
     TRY(check_sizes(s, record));
+    TRY(check_velocities(s, record));
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
     TRY(find_state(s, record, y));
@@ -229,6 +269,7 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
     TRY(reduce_status(get(s, record, &n, &y), 0.0));
     c->ledger.impact = n.impact;
     c->ledger.projection = n.projection;
+    c->ledger.work = n.work;
     c->straightened = n.straightened;
     s->automaton.idle = n.idle;
     s->t = n.t;

@@ -35,13 +35,13 @@ dem_status options_check(const dem_options *o)
     return DEM_OK;
 }
 
-/* Largest of the initial speed, the speed after the drop to the nearest obstacle, and 1e-3 of the speed of sound,
- * which is omega_max a/2 in a chain of spacing a. */
+/* Largest of the initial speed, that of boundaries and obstacles, the speed after the drop to the nearest obstacle,
+ * and 1e-3 of the speed of sound, which is omega_max a/2 in a chain of spacing a. */
 static double default_v_scale(const dem_options *o, const dem_model *model, const boundary_conditions *b)
 {
     const dem_lattice *l = &model->lattice;
     double speed = 1e-3 * 0.5 * model->omega_max * o->spacing, drop = INFINITY;
-    speed = fmax(speed, boundary_conditions_speed(b));
+    speed = fmax(speed, fmax(boundary_conditions_speed(b), model->obstacles.speed));
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
     for (dem_index k = 0; k < model->n_contact_nodes; k++)
         drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->contact_nodes[k]]));

@@ -66,7 +66,8 @@ dem_energy dem_simulation_energy(const dem_simulation *s)
     m->energy.impact = reduce_rounded_sum(contact_of(s)->set.ledger.impact);
     m->energy.friction = state_total_of(&s->layout, seen_of(s), STATE_FRICTION);
     m->energy.damping = state_total_of(&s->layout, seen_of(s), STATE_DAMPING);
-    m->energy.boundary = state_total_of(&s->layout, seen_of(s), STATE_WORK);
+    m->energy.boundary =
+        state_total_of(&s->layout, seen_of(s), STATE_WORK) + reduce_rounded_sum(contact_of(s)->set.ledger.work);
     m->energy.projection = reduce_rounded_sum(contact_of(s)->set.ledger.projection);
     return m->energy;
 }

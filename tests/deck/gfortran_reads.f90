@@ -84,10 +84,11 @@ contains
 
   subroutine read_obstacle()
     real(dp), save :: points(100000)
-    real(dp) :: resolution, roughness, correlation, restitution, friction
+    real(dp) :: resolution, roughness, correlation, restitution, friction, velocity(2)
     integer(selected_int_kind(18)) :: seed
     character(4096) :: profile, friction_law
-    namelist /obstacle/ points, profile, resolution, roughness, correlation, seed, restitution, friction, friction_law
+    namelist /obstacle/ points, profile, resolution, roughness, correlation, seed, restitution, friction, friction_law, &
+      velocity
     read (unit, nml=obstacle, iostat=status, iomsg=message)
   end subroutine
 

@@ -48,6 +48,10 @@ DECKS = [
     ("repeated optional group", BASE + "&solver rtol = 1e-6 /\n&solver rtol = 1e-7 /\n",
      ["28:1 &solver is given twice, first in line 27"]),
     # types
+    ("velocity that is no number", edit(BASE, "restitution = 0.5 -> velocity = 1, nan"),
+     ["21:19 'velocity': 'nan' is not a finite number"]),
+    ("velocity without y", edit(BASE, "restitution = 0.5 -> velocity = 1"),
+     ["21:5 'velocity' in &obstacle expects 2 values, got 1"]),
     ("string for a real", edit(BASE, "t_end = 1e-3 -> t_end = '1e-3'"),
      ["2:13 't_end' in &run expects a real, got '1e-3'"]),
     ("word for a real", edit(BASE, "t_end = 1e-3 -> t_end = 1ms"),

@@ -31,7 +31,7 @@ DECK = """
 &material youngs_modulus = 1e6, density = 1000, damping_time = 1e-6 /
 &body shape = 'rectangle', size = 0.04, 0.02, spacing = 5e-3, velocity = 3, -2, clearance = 1e-5, position = -0.02, 0 /
 &obstacle points = -0.3, 0.03, 0.3, -0.03, profile = 'rough', roughness = 1e-4, correlation = 2e-2, resolution = 2e-3,
-          restitution = 0.6, friction = 0.4 /
+          restitution = 0.6, friction = 0.4, velocity = 0.5, 0.1 /
 &solver record_steps = 7 /
 &probe name = 'corner', number = 0, every = 3 /
 &output name = 'a', frame_interval = 2.5e-4, precision = 'double', events = .true., peak_every = 3 /

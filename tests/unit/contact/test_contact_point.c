@@ -72,6 +72,47 @@ static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void 
     assert_close(f.mobility, 0.5625 / 3.0 + 0.0625 / 0.5, 1e-15); /* rounding */
 }
 
+/* The segment of the node, 5 m long, has gone (2, -3) m in 0.5 s. */
+static void on_an_obstacle_that_moves_velocities_are_relative_to_it(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 2);
+    b.segments[2] = (segment){.start = {1.0, 2.0}, .normal = {-0.6, 0.8}, .tangent = {0.8, 0.6}, .length = 5.0};
+    b.laws[0] = (motion_law){true, {4.0, -6.0}};
+    b.model.obstacles.speed = hypot(4.0, 6.0);
+    b.candidates[0].n_closed = 1;
+    b.candidates[0].closed[0] = (contact_point){.feature = 2, .slide = 1};
+    vec2_put(b.x, 0, (vec2){3.0 + 2.0 * 0.8 - 0.25 * 0.6, -1.0 + 2.0 * 0.6 + 0.25 * 0.8});
+    vec2_put(b.v, 0, (vec2){5.0, 1.0});
+    const contact_frame f = contact_frame_at(&b.scene, &b.candidates[0], 0, (scene_state){0.5, b.x, b.v});
+    assert_close(f.gap, 0.25, 1e-15);
+    assert_close(f.place, 2.0, 1e-15);
+    const vec2 seen = contact_frame_velocity(&f, b.v);
+    assert_true(seen.x == 5.0 && seen.y == 1.0 && f.velocity.x == 1.0 && f.velocity.y == 7.0);
+    assert_true(f.wall.x == 4.0 && f.wall.y == -6.0);
+    assert_true(f.turning == 0.0 && f.keep[0] == 0.0 && f.keep[1] == 0.0); /* nothing accelerates it */
+}
+
+/* A floor that moves along and a wall that comes: the corner has the floor's height and the wall's speed. */
+static void the_corner_of_two_obstacles_moves_along_the_normals_as_they_do(void **state)
+{
+    bench b;
+    const dem_index both[2] = {0, 1};
+    (void)state;
+    bench_open(&b, 1);
+    b.segments[0] = (segment){.normal = {0.0, 1.0}, .tangent = {1.0, 0.0}, .length = 1.0};
+    b.segments[1] = (segment){.normal = {1.0, 0.0}, .tangent = {0.0, -1.0}, .length = 1.0, .obstacle = 1};
+    assert_false(surface_corner_motion(&b.scene, both, (surface_query){0.5, {0.0, 0.0}}).moves);
+    b.laws[0] = (motion_law){true, {4.0, 0.5}};
+    b.laws[1] = (motion_law){true, {3.0, -6.0}};
+    b.model.obstacles.speed = hypot(3.0, 6.0);
+    const obstacle_motion corner = surface_corner_motion(&b.scene, both, (surface_query){0.5, {0.0, 0.0}});
+    assert_true(corner.moves);
+    assert_close(corner.velocity.x, 3.0, 0.0);
+    assert_close(corner.velocity.y, 0.5, 0.0);
+}
+
 static void a_fixed_node_has_no_mobility(void **state)
 {
     bench b;
@@ -342,6 +383,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_frame_of_a_node_is_that_of_its_segment),
         cmocka_unit_test(the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body),
+        cmocka_unit_test(on_an_obstacle_that_moves_velocities_are_relative_to_it),
+        cmocka_unit_test(the_corner_of_two_obstacles_moves_along_the_normals_as_they_do),
         cmocka_unit_test(a_fixed_node_has_no_mobility),
         cmocka_unit_test(a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps),
         cmocka_unit_test(a_sliding_contact_stays_closed_under_the_acceleration_asked_for),

@@ -27,7 +27,7 @@ static impact_surface smooth(double nx, double ny, double restitution)
 
 static impact_surface rough(vec2 normal, double restitution, double friction, dem_friction_law law)
 {
-    return (impact_surface){normal, restitution, friction, law};
+    return (impact_surface){.normal = normal, .restitution = restitution, .friction = friction, .law = law};
 }
 
 /* The velocity after; what the surfaces add must be the change, to the rounding of velocities up to 5 m/s and of the

@@ -33,9 +33,13 @@ static int remove_folder(void **state)
 static dem_model *make_model(void)
 {
     const double x[2] = {0.0, 1.0}, mass = 1.0;
-    const dem_obstacle obstacles[2] = {
-        {.n_points = 3, .points = bent, .restitution = 0.5, .friction = 0.3},
-        {.n_points = 2, .points = flat, .restitution = 0.25, .friction = 0.75, .friction_law = DEM_FRICTION_PAPER}};
+    const dem_obstacle obstacles[2] = {{.n_points = 3, .points = bent, .restitution = 0.5, .friction = 0.3},
+                                       {.n_points = 2,
+                                        .points = flat,
+                                        .restitution = 0.25,
+                                        .friction = 0.75,
+                                        .friction_law = DEM_FRICTION_PAPER,
+                                        .velocity = {1.5, -2.0}}};
     dem_lattice lattice;
     dem_model *model;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
@@ -68,6 +72,8 @@ static void the_group_has_points_and_laws(void **state)
     expect_number(&file, "/obstacles/1", "friction", 0.75);
     found_text(&file, "/obstacles/0", "friction_law", "coulomb");
     found_text(&file, "/obstacles/1", "friction_law", "paper");
+    found_reals(&file, "/obstacles/1/velocity", (const double[2]){1.5, -2.0}, 2);
+    assert_true(H5Lexists(file.id, "/obstacles/0/velocity", H5P_DEFAULT) == 0); /* it is at rest */
     assert_ok(hdf5_close(&file, DEM_OK));
     dem_model_destroy(model);
 }
@@ -88,6 +94,7 @@ static void they_are_read_back(void **state)
         assert_int_equal(found[o].n_points, given[o].n_points);
         assert_memory_equal(found[o].points, given[o].points, 2 * (size_t)found[o].n_points * sizeof(double));
         assert_close(found[o].restitution, given[o].restitution, 0.0);
+        assert_memory_equal(found[o].velocity, given[o].velocity, sizeof found[o].velocity);
         assert_close(found[o].friction, given[o].friction, 0.0);
         assert_int_equal(found[o].friction_law, given[o].friction_law);
     }

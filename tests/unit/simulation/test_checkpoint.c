@@ -125,7 +125,7 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     pair p;
     size_t n;
     const double before = -1.0;
-    dem_index sizes[8], numbers[9];
+    dem_index sizes[8], numbers[10];
     (void)state;
     open_pair(&p);
     assert_ok(checkpoint_take(p.from, p.record));
@@ -142,6 +142,13 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     (void)snprintf(text, sizeof text, "the record's time -1 s, step 0 s or next step %g s is impossible",
                    integrator_next_step(&p.from->integrator));
     refuse(&p, "numbers", numbers, sizeof numbers, text);
+    double velocities[2 * 16] = {0.0};
+    const size_t size = 2 * (size_t)p.model->obstacles.n * sizeof *velocities;
+    assert_true(size <= sizeof velocities);
+    velocities[1] = 2.5;
+    refuse(&p, "velocities", velocities, size, "in the record obstacle 0 moves at (0, 2.5) m/s, not at (0, 0) m/s");
+    (void)snprintf(text, sizeof text, "the record has 8 bytes of the velocities of obstacles, %zu are expected", size);
+    refuse(&p, "velocities", velocities, 8, text);
     double *y = malloc((size_t)state_size(&p.from->layout) * sizeof *y);
     const void *stored = dem_record_find(p.record, "state", &n);
     assert_non_null(y);

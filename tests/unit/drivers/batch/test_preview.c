@@ -249,7 +249,7 @@ static void the_preview_tells_friction_and_damping(void **state)
 {
     (void)state;
     dem_obstacle floors[4] = {{.friction = 0.3},
-                              {.friction = 0.0},
+                              {.friction = 0.0, .velocity = {0.5, -2.0}},
                               {.friction = 0.5, .friction_law = DEM_FRICTION_PAPER},
                               {.friction = 1.0, .friction_law = DEM_FRICTION_PAPER}};
     dem_options options = dem_options_default();
@@ -257,6 +257,7 @@ static void the_preview_tells_friction_and_damping(void **state)
     logged *l = new_floors(4, floors, &options);
     print_header(l);
     assert_non_null(strstr(l->text, "\nfriction   obstacle 1: 0.3 (Coulomb)\nfriction   obstacle 3: 0.5 (paper)\n"
+                                    "motion     obstacle 2: velocity (0.5, -2) m/s\n"
                                     "damping    of masses: 0.75 1/s\n"));
     drop_logged(l);
 }
@@ -284,11 +285,13 @@ static void of_many_obstacles_only_the_first_are_listed(void **state)
 {
     (void)state;
     dem_obstacle floors[20];
-    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25};
+    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25, .velocity = {1.0, 0.0}};
     const dem_options options = dem_options_default();
     logged *l = new_floors(20, floors, &options);
     print_header(l);
     assert_non_null(strstr(l->text, "\nfriction   obstacle 16: 0.25 (Coulomb)\nfriction   on 20 obstacles in all\n"));
+    assert_non_null(
+        strstr(l->text, "\nmotion     obstacle 16: velocity (1, 0) m/s\nmotion     of 20 obstacles in all\n"));
     drop_logged(l);
 }
 
