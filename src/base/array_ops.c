@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops for the compiler to make vector instructions of. ARRAY_OPS is the name of the table, one for each set of them.
- * */
+/* Loops for the compiler to make vector instructions of. ARRAY_OPS is the name of the table, one for each set of
+ * them. */
 #include "base/array_ops.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All sites of a model: at the start, at an event, and between events. */
+/* All candidates of a model: at the start, at an event, and between events. */
 #include "contact/automaton.h"
 
 #include <float.h>
@@ -19,9 +19,9 @@ void automaton_root_functions(automaton *c, double t, const double *y, double *g
     for (dem_index k = 0; k < CANDIDATE_ROOTS * s->n; k++) g[k] = 1.0;
     for (dem_index a = 0; a < c->broad_phase.n; a++) {
         const dem_index k = c->broad_phase.active[a];
-        double *of_site = &g[CANDIDATE_ROOTS * k];
-        candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], state, of_site);
-        for (int q = 0; q < CANDIDATE_ROOTS; q++) c->quiet = c->quiet && of_site[q] > 0.0;
+        double *of_candidate = &g[CANDIDATE_ROOTS * k];
+        candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], state, of_candidate);
+        for (int q = 0; q < CANDIDATE_ROOTS; q++) c->quiet = c->quiet && of_candidate[q] > 0.0;
     }
 }
 
@@ -46,7 +46,7 @@ void automaton_destroy(automaton *c)
     contact_set_destroy(&c->set);
 }
 
-/* The sites at a node: itself and its edges. */
+/* The candidates at a node: itself and its edges. */
 static dem_status settle_node(contact_set *c, dem_index node, contact_instant *now, bool *changed)
 {
     const surface *s = &c->scene.model->surface;
@@ -69,7 +69,7 @@ static dem_status settle_around(contact_set *c, dem_index k, contact_instant *no
     return candidate_is_edge(candidate) ? settle_node(c, candidate->other, now, changed) : DEM_OK;
 }
 
-/* Makes the changes that are due, of all sites or around one, until there are none. */
+/* Makes the changes that are due, of all candidates or around one, until there are none. */
 static dem_status settle_until_done(automaton *c, dem_index around, contact_instant *now)
 {
     contact_set *s = &c->set;
@@ -90,11 +90,11 @@ dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y
 {
     contact_instant now = {t, y, y + state_velocities(scene_layout(&c->set.scene)), listener, DEM_OK};
     TRY(settle_until_done(c, k, &now));
-    return now.told;
+    return now.listener_status;
 }
 
 /* Puts closed nodes back where rounding has taken them from. */
-static void straighten_nodes(contact_set *c, double t, double *x)
+static void project_nodes(contact_set *c, double t, double *x)
 {
     for (dem_index k = 0; k < c->scene.model->n_contact_nodes; k++) {
         const contact_candidate *candidate = &c->list[k];
@@ -113,11 +113,11 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     const dem_index impacts = s->ledger.counts.impacts;
     TRY(settle_until_done(c, -1, &now));
     if (s->scene.rule.window > 0.0 && reduce_any(s->ledger.counts.impacts > impacts)) early_reflection(s, &now);
-    straighten_nodes(s, t, now.x);
+    project_nodes(s, t, now.x);
     contact_set_solve_all(s, instant_state(&now));
     contact_set_store_all(s);
     broad_phase_update(&c->broad_phase, s, instant_state(&now));
-    return now.told;
+    return now.listener_status;
 }
 
 dem_status automaton_check_start(const automaton *c, double t, const double *x)
@@ -171,7 +171,7 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     TRY(reduce_status(touch_all(s, &now), 0.0));
     const dem_status status = automaton_resolve(c, t, y, listener);
-    return now.told != DEM_OK ? now.told : status;
+    return now.listener_status != DEM_OK ? now.listener_status : status;
 }
 
 dem_status automaton_open_all(automaton *c)

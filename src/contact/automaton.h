@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contact automaton FREE - SLIP - STICK of all sites: what changes when one touches an obstacle, leaves it, stops
- * or begins to slide, passes an end or is stopped in a corner. Guards (candidate.c) and resets depend on (t, x, v) and
- * the forces that follow from them, and on nothing of the integrator. What an impact does to a velocity is
+/* The contact automaton FREE - SLIP - STICK of all candidates: what changes when one touches an obstacle, leaves it,
+ * stops or begins to slide, passes an end or is stopped in a corner. Guards (candidate.c) and resets depend on (t, x,
+ * v) and the forces that follow from them, and on nothing of the integrator. What an impact does to a velocity is
  * impact_law.c's. */
 #ifndef DEM_CONTACT_AUTOMATON_H
 #define DEM_CONTACT_AUTOMATON_H
@@ -13,8 +13,8 @@ typedef struct automaton {
     broad_phase broad_phase;
     double solved;  /* s, time of the state for which the reactions' forces are known; NAN: none */
     bool quiet;     /* and all guards were > 0 in that state, so that nothing is due */
-    double way;     /* m, no site goes further in the step that was checked last */
-    bool all;       /* so that all sites are to be asked, not only those awake */
+    double way;     /* m, no candidate goes further in the step that was checked last */
+    bool all;       /* so that all candidates are to be asked, not only the active ones */
     dem_index idle; /* events in a row that changed nothing */
 } automaton;
 
@@ -28,7 +28,7 @@ static inline scene_state automaton_state(const automaton *c, double t, const do
 dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule);
 void automaton_destroy(automaton *c);
 
-/** Whether no site without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
+/** Whether no candidate without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
  *  names the node.
  *  \param x  [n][2] */
 dem_status automaton_check_start(const automaton *c, double t, const double *x);
@@ -40,7 +40,8 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_open_all(automaton *c);
 
-/** Takes up the contacts that sites are said to have in the state y at t: what follows from them is worked out anew.
+/** Takes up the contacts that candidates are said to have in the state y at t: what follows from them is worked out
+ *  anew.
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_restore(automaton *c, double t, const double *y);
 
@@ -64,11 +65,12 @@ double automaton_work_rate(const automaton *c, double t, const double *y);
  *  status other than DEM_OK that the listener returned */
 dem_status automaton_resolve(automaton *c, double t, double *y, const event_listener *listener);
 
-/** The same at one site and those that share nodes with it, where nothing else is known to be due: reads and changes
- *  only what is near them, and leaves the rest of what follows from a change to the caller. */
+/** The same at one candidate and those that share nodes with it, where nothing else is known to be due: reads and
+ *  changes only what is near them, and leaves the rest of what follows from a change to the caller. */
 dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener);
 
-/** Closed contacts at positions x at t, in the order of sites, into list [2 n_candidates]; returns their number. */
+/** Closed contacts at positions x at t, in the order of candidates, into list [2 n_candidates]; returns their
+ *  number. */
 dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list);
 
 #endif

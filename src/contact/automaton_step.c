@@ -26,7 +26,7 @@ void automaton_solve_group(automaton *c, const dense_output *p, dem_index group,
     contact_forces_solve(&c->set.forces, group, end_of(c, group, p, state));
 }
 
-/* First time at which closed contacts of a site have to change that have to at the end of the step. */
+/* First time at which closed contacts of a candidate have to change that have to at the end of the step. */
 static double next_due(automaton *c, const dense_output *p, dem_index k, double from, double *state)
 {
     contact_forces *r = &c->set.forces;
@@ -122,11 +122,11 @@ bool automaton_project(automaton *c, double t, double *y)
     for (dem_index g = 0; g < s->forces.n_groups; g++) {
         const dem_index group = s->forces.groups[g];
         if (!has_opened(s, group, &now)) continue;
-        s->straightened = fmax(s->straightened, impact_group_project(s, group, &now));
+        s->projected = fmax(s->projected, impact_group_project(s, group, &now));
         impact_group_stop(s, group, &now);
         any = true;
     }
-    s->straightened = reduce_max(s->straightened);
+    s->projected = reduce_max(s->projected);
     any = reduce_any(any);
     if (any) c->solved = NAN;
     return any;

@@ -10,7 +10,7 @@
 dem_status broad_phase_create(broad_phase *out, dem_index n_candidates)
 {
     broad_phase w = {.active = malloc(((size_t)n_candidates + 1) * sizeof *w.active)};
-    CHECK(w.active != NULL, DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_candidates);
+    CHECK(w.active != NULL, DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)n_candidates);
     *out = w;
     return DEM_OK;
 }
@@ -37,7 +37,7 @@ static void come_back(contact_set *c, dem_index k, surface_query at)
     if (surface_gap_of(&c->scene, at, c->list[k].behind[0]).distance > 0.0) contact_set_pass_behind(c, k, -1);
 }
 
-/* Looks how far a site is from everything else, and lets it sleep if that is further than `reach`. */
+/* Looks how far a candidate is from everything else, and lets it sleep if that is further than `reach`. */
 static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state state, double reach)
 {
     contact_candidate *candidate = &c->list[k];
@@ -60,7 +60,7 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state sta
     candidate->clearance.at[1] = spot.b;
 }
 
-/* What sleeps until it may wake, and what is awake until it has moved half as far as it was clear. */
+/* What is inactive until it may touch, and what is active until it has moved half as far as it was clear. */
 static bool worth_a_look(const broad_phase *w, const contact_scene *scene, const contact_candidate *candidate,
                          scene_state state, double reach)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gaps and guards of one contact site. */
+/* Gaps and guards of one contact candidate. */
 #include "contact/candidate.h"
 
 #include "contact/node_motion.h"
@@ -55,8 +55,8 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_candidate 
                             const candidate_positions *spot)
 {
     const obstacle_edge edge = edge_query(scene, candidate, spot);
-    const obstacle_poke poke = surface_poke(scene, spot->t, &edge);
-    return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
+    const obstacle_vertex_gap nearest = surface_vertex_gap(scene, spot->t, &edge);
+    return (contact_gap){nearest.distance, nearest.vertex, nearest.place, nearest.normal};
 }
 
 double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot)
@@ -97,8 +97,8 @@ contact_gap candidate_around(const contact_scene *scene, const contact_candidate
     edge.tolerance = edge.depth = edge.reach = reach;
     edge.previous = edge.a;
     edge.next = edge.b;
-    const obstacle_poke poke = surface_poke(scene, spot->t, &edge);
-    return (contact_gap){poke.distance, poke.vertex, poke.place, poke.normal};
+    const obstacle_vertex_gap nearest = surface_vertex_gap(scene, spot->t, &edge);
+    return (contact_gap){nearest.distance, nearest.vertex, nearest.place, nearest.normal};
 }
 
 /* An edge that no vertex is near is as far from all as its node is from the obstacles, less its length. */

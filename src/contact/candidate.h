@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a site can touch, and the guards that tell when its contacts change. Pure functions of (t, x, v) and of the
+/* What a candidate can touch, and the guards that tell when its contacts change. Pure functions of (t, x, v) and of the
  * forces that follow from them; nothing here changes a state. */
 #ifndef DEM_CONTACT_CANDIDATE_H
 #define DEM_CONTACT_CANDIDATE_H
@@ -7,10 +7,10 @@
 #include "contact/contact_forces.h"
 #include "time/dense_output.h"
 
-/** Guard functions per site; each is > 0 while nothing happens and falls through 0 when something does. */
+/** Guard functions per candidate; each is > 0 while nothing happens and falls through 0 when something does. */
 enum { CANDIDATE_ROOTS = 4 };
 
-/** Distance to what a site is not in contact with. */
+/** Distance to what a candidate is not in contact with. */
 typedef struct contact_gap {
     double distance;   /* m, > 0 in front; infinity: nothing there */
     dem_index feature; /* segment, or vertex; -1: none, or the distance is a lower bound */
@@ -18,7 +18,7 @@ typedef struct contact_gap {
     vec2 normal;       /* unit, the way in which the distance grows */
 } contact_gap;
 
-/** Where the nodes of a site are at a time: a, an edge's second b, and an edge's neighbours on the boundary. */
+/** Where the nodes of a candidate are at a time: a, an edge's second b, and an edge's neighbours on the boundary. */
 typedef struct candidate_positions {
     double t; /* s */
     vec2 a, b, previous, next;
@@ -27,16 +27,16 @@ typedef struct candidate_positions {
 candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x);
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t);
 
-/** How far a site and obstacles have moved towards each other at most since it was seen to be clear, m. */
+/** How far a candidate and obstacles have moved towards each other at most since it was seen to be clear, m. */
 double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot);
 
-/** Gap of a site, infinity for one that sleeps, a lower bound while it has not moved as far as it was clear. What it
- *  is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
+/** Gap of a candidate, infinity for an inactive one, a lower bound while it has not moved as far as it was clear. What
+ *  it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
  *  themselves; of an edge its vertex. */
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot);
 
-/** A velocity v of the point of a site that is nearest to what its gap is to, relative to that. */
+/** A velocity v of the point of a candidate that is nearest to what its gap is to, relative to that. */
 vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
                           const candidate_positions *spot, vec2 v);
 
@@ -44,7 +44,7 @@ vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *c
 contact_gap candidate_around(const contact_scene *scene, const contact_candidate *candidate,
                              const candidate_positions *spot, double reach);
 
-/** How far at least a site is from everything else that it can touch, m; < 0 inside.
+/** How far at least a candidate is from everything else that it can touch, m; < 0 inside.
  *  \param[out] nearest  of a node, the nearest segment */
 double candidate_clearance(const contact_scene *scene, const contact_candidate *candidate,
                            const candidate_positions *spot, dem_index *nearest);
@@ -69,7 +69,7 @@ double candidate_grip(const contact_scene *scene, const contact_candidate *candi
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
                               const contact_force force[2], scene_state state, double *g);
 
-/** Whether a closed site's contacts have to change in a state. */
+/** Whether a closed candidate's contacts have to change in a state. */
 bool candidate_due(const contact_scene *scene, const contact_candidate *candidate, const contact_force force[2],
                    scene_state state);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which reset of a site is due, in which order. */
+/* Which reset of a candidate is due, in which order. */
 #include "contact/candidate_resolve.h"
 
 #include "base/status.h"
@@ -10,7 +10,7 @@
 /* Of the penetration tolerance: as deep counts as touching, so that near ties are taken together. */
 static const double touch_share = 0.99;
 
-/* ---- free sites ---- */
+/* ---- free candidates ---- */
 
 /* A node deeper inside than an impact can be has passed round the free end that it is at; else something is wrong. */
 static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, double depth, const contact_instant *now)
@@ -27,7 +27,7 @@ static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, doub
     return DEM_OK;
 }
 
-/* A node that touches: what it strikes; right on an apex it is the side that comes down on it. */
+/* A node that touches: what it hits; right on an apex it is the side that comes down on it. */
 static dem_status touch_node(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
     dem_index at;
@@ -38,7 +38,7 @@ static dem_status touch_node(contact_set *c, dem_index k, const contact_gap *gap
     return side >= 0 ? impact_solve(c, side, (impact_target){1, {at}}, now) : impact_solve(c, k, with, now);
 }
 
-/* An edge that touches a vertex strikes it. */
+/* An edge that touches a vertex hits it. */
 static dem_status touch_edge(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -66,7 +66,7 @@ static dem_status settle_free(contact_set *c, dem_index k, contact_instant *now,
     return candidate_resolve_touch(c, k, &gap, now);
 }
 
-/* ---- closed sites ---- */
+/* ---- closed candidates ---- */
 
 static dem_status enter(contact_set *c, dem_index k, dem_index feature, dem_event_kind kind, contact_instant *now)
 {
@@ -114,7 +114,7 @@ static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, 
 }
 
 /* A vertex that has come to the end of an edge: its node is put there, and the next edge takes over. The vertex
- * strikes that if the body bends in there, and comes to rest in the notch if it would not get far out of it; it glides
+ * hits that if the body bends in there, and comes to rest in the notch if it would not get far out of it; it glides
  * on, or leaves if the body bends away faster than a hop that counts. */
 static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, contact_instant *now)
 {
@@ -169,7 +169,7 @@ static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_ins
     return DEM_OK;
 }
 
-/* Something else in the way of a site with one closed contact. */
+/* Something else in the way of a candidate with one closed contact. */
 static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];

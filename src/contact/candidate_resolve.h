@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is due at one site in a state: it touches, lets go, stops or begins to slide, passes an end or is stopped in a
- * corner. */
+/* What is due at one candidate in a state: it touches, lets go, stops or begins to slide, passes an end or is stopped
+ * in a corner. */
 #ifndef DEM_CONTACT_CANDIDATE_RESOLVE_H
 #define DEM_CONTACT_CANDIDATE_RESOLVE_H
 
 #include "contact/contact_set.h"
 
-/** Makes the first change that is due at a site, if there is one: then `changed` becomes true.
+/** Makes the first change that is due at a candidate, if there is one: then `changed` becomes true.
  *  \return DEM_ERROR_CONTACT on a storm, or for what is found deep inside */
 dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, bool *changed);
 
-/** A site with this gap touches: it strikes what is there, or has passed round a free end. */
+/** A candidate with this gap touches: it hits what is there, or has passed round a free end. */
 dem_status candidate_resolve_touch(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now);
 
 #endif

@@ -10,7 +10,7 @@
 /* Of a row's own mobility: what is left of it, below which the others hold the contact already. */
 static const double redundant = 1e-10;
 
-/* In place of the group of a site: it is among those whose groups are found next. */
+/* In place of the group of a candidate: it is among those whose groups are found next. */
 enum { collected = -2 };
 
 /* What the system is solved for. */
@@ -34,23 +34,23 @@ static void join(contact_forces *r, dem_index a, dem_index b)
         r->root[ra] = rb;
 }
 
-/* Every site in the order of the boundaries: a node before the edge that starts there. */
-static void sort_sites(contact_forces *r)
+/* Every candidate in the order of the boundaries: a node before the edge that starts there. */
+static void sort_candidates(contact_forces *r)
 {
     const dem_model *model = r->scene->model;
     const dem_index n_nodes = model->n_contact_nodes;
     dem_index n = 0;
-    dem_index *site_of = r->root; /* of a node, -1: none or done */
-    for (dem_index i = 0; i < model->lattice.n_nodes; i++) site_of[i] = -1;
-    for (dem_index k = 0; k < n_nodes; k++) site_of[r->candidates[k].node] = k;
+    dem_index *candidate_of = r->root; /* of a node, -1: none or done */
+    for (dem_index i = 0; i < model->lattice.n_nodes; i++) candidate_of[i] = -1;
+    for (dem_index k = 0; k < n_nodes; k++) candidate_of[r->candidates[k].node] = k;
     for (dem_index k = n_nodes; k < r->n_candidates; k++) {
         const dem_index a = r->candidates[k].node;
-        if (site_of[a] >= 0) r->order[n++] = site_of[a];
-        site_of[a] = -1;
+        if (candidate_of[a] >= 0) r->order[n++] = candidate_of[a];
+        candidate_of[a] = -1;
         r->order[n++] = k;
     }
     for (dem_index k = 0; k < n_nodes; k++)
-        if (site_of[r->candidates[k].node] >= 0) r->order[n++] = k;
+        if (candidate_of[r->candidates[k].node] >= 0) r->order[n++] = k;
     for (dem_index p = 0; p < n; p++) r->rank[r->order[p]] = p;
 }
 
@@ -117,14 +117,14 @@ static void delist_group(contact_forces *r, dem_index group)
     memmove(&r->groups[at], &r->groups[at + 1], (size_t)(--r->n_groups - at) * sizeof *r->groups);
 }
 
-/* Sets the group at the nodes of a site. */
+/* Sets the group at the nodes of a candidate. */
 static void set_at_nodes(contact_forces *r, dem_index k, dem_index group)
 {
     r->at_node[r->candidates[k].node] = group;
     if (candidate_is_edge(&r->candidates[k])) r->at_node[r->candidates[k].other] = group;
 }
 
-/* Puts a site among the n whose groups are to be found, unless it is there or is not closed. */
+/* Puts a candidate among the n whose groups are to be found, unless it is there or is not closed. */
 static dem_index collect(contact_forces *r, dem_index k, dem_index n)
 {
     if (r->candidates[k].n_closed == 0 || r->group[k] == collected) return n;
@@ -146,7 +146,7 @@ static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
     return n;
 }
 
-/* Joins the nodes of the sites that were collected; a group has one root. */
+/* Joins the nodes of the candidates that were collected; a group has one root. */
 static void join_nodes(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) {
@@ -160,8 +160,8 @@ static void join_nodes(contact_forces *r, dem_index n)
     }
 }
 
-/* Makes groups of the sites that were collected, from the last to the first, so that each takes the place of the one
- * that was the first of its group. */
+/* Makes groups of the candidates that were collected, from the last to the first, so that each takes the place of the
+ * one that was the first of its group. */
 static void make_groups(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[r->order[r->ranks[p]]].node)] = -1;
@@ -185,7 +185,7 @@ static int by_rank(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds the groups of the n sites that were collected. */
+/* Finds the groups of the n candidates that were collected. */
 static dem_status group_collected(contact_forces *r, dem_index n)
 {
     if (n > 1) qsort(r->ranks, (size_t)n, sizeof *r->ranks, by_rank);
@@ -512,9 +512,9 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
     const bool grouped = r.order && r.rank && r.groups && r.group && r.next && r.at_node && r.ranks;
     if (!(grouped && r.force && r.root && r.first && r.a && r.rows)) {
         contact_forces_destroy(&r);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)n_candidates);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)n_candidates);
     }
-    sort_sites(&r);
+    sort_candidates(&r);
     for (dem_index k = 0; k < n_candidates; k++) r.group[k] = -1;
     for (size_t i = 0; i < n_nodes; i++) r.at_node[i] = -1;
     *out = r;

@@ -29,25 +29,26 @@ typedef struct contact_forces {
     const contact_scene *scene;
     const contact_candidate *candidates; /* [n_candidates] nodes first, then edges */
     dem_index n_candidates;
-    dem_index *order, *rank;     /* [n_candidates] along the boundaries; where a site comes in it */
-    dem_index n_groups, *groups; /* [n_groups] the groups, ascending: the number of one is the rank of its first site */
-    dem_index *group, *next;     /* [n_candidates] of a closed site, else -1; the next of its group by rank, or -1 */
-    dem_index *at_node;          /* [n_nodes] the group that has closed contacts at a node, or -1 */
-    dem_index *ranks;            /* [n_candidates] scratch: sites whose groups are found again */
-    contact_force (*force)[2];   /* [n_candidates] of each closed contact, as last solved for */
-    dem_index *root, *first;     /* [n_nodes] scratch: union-find; first row that touches the node */
-    double *a;                   /* [2 n_nodes] scratch */
-    contact_equation *rows;      /* [4 n_candidates] scratch */
-    double *band;                /* [capacity] scratch */
+    dem_index *order, *rank; /* [n_candidates] along the boundaries; where a candidate comes in it */
+    dem_index n_groups,
+        *groups; /* [n_groups] the groups, ascending: the number of one is the rank of its first candidate */
+    dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group by rank, or -1 */
+    dem_index *at_node;        /* [n_nodes] the group that has closed contacts at a node, or -1 */
+    dem_index *ranks;          /* [n_candidates] scratch: candidates whose groups are found again */
+    contact_force (*force)[2]; /* [n_candidates] of each closed contact, as last solved for */
+    dem_index *root, *first;   /* [n_nodes] scratch: union-find; first row that touches the node */
+    double *a;                 /* [2 n_nodes] scratch */
+    contact_equation *rows;    /* [4 n_candidates] scratch */
+    double *band;              /* [capacity] scratch */
     size_t capacity;
 } contact_forces;
 
-/** Borrows scene and sites. Free with contact_forces_destroy. */
+/** Borrows scene and candidates. Free with contact_forces_destroy. */
 dem_status contact_forces_create(contact_forces *out, const contact_scene *scene, const contact_candidate *candidates,
                                  dem_index n_candidates);
 void contact_forces_destroy(contact_forces *r);
 
-/** The sites of a group, all closed, in the order of the boundaries: first this one, then next[] until -1. */
+/** The candidates of a group, all closed, in the order of the boundaries: first this one, then next[] until -1. */
 static inline dem_index contact_forces_first(const contact_forces *r, dem_index group)
 {
     return r->order[group];
@@ -56,8 +57,8 @@ static inline dem_index contact_forces_first(const contact_forces *r, dem_index 
 /** Finds all groups.  \return DEM_ERROR_MEMORY */
 dem_status contact_forces_regroup(contact_forces *r);
 
-/** Finds the groups again when these sites have opened or closed contacts, and no others: costs what the groups have
- *  that they were in and that they come to.  \return DEM_ERROR_MEMORY, with the groups as they should be */
+/** Finds the groups again when these candidates have opened or closed contacts, and no others: costs what the groups
+ *  have that they were in and that they come to.  \return DEM_ERROR_MEMORY, with the groups as they should be */
 dem_status contact_forces_regroup_some(contact_forces *r, const dem_index *changed, dem_index n);
 
 /** Takes from the free accelerations a [n][2] what all closed contacts hold; fills force. */

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sites that may touch -- nodes, and edges of bodies -- and the contacts that they have closed: a node on a segment
- * of an obstacle, an edge on a convex vertex of it. Kinematics of a closed contact as functions of the state. */
+/* Candidates that may touch -- nodes, and edges of bodies -- and the contacts that they have closed: a node on a
+ * segment of an obstacle, an edge on a convex vertex of it. Kinematics of a closed contact as functions of the
+ * state. */
 #ifndef DEM_CONTACT_CONTACT_POINT_H
 #define DEM_CONTACT_CONTACT_POINT_H
 
 #include "contact/surface_feature.h"
 
-/** A closed contact of a site. */
+/** A closed contact of a candidate. */
 typedef struct contact_point {
     dem_index feature;      /* the segment on which a node is, or the vertex on which an edge is */
     int slide;              /* the body slides along the tangent: 1, against it: -1; sticks: 0 */
@@ -15,7 +16,7 @@ typedef struct contact_point {
     double force, friction; /* N, along normal and tangent, at the last accepted step */
 } contact_point;
 
-/** How far a site is known to be from all that it could touch besides its closed contacts. */
+/** How far a candidate is known to be from all that it could touch besides its closed contacts. */
 typedef struct contact_clearance {
     bool inactive;      /* it is so far, */
     double active_from; /* m, until the bodies may have gone this far since the start */
@@ -24,7 +25,7 @@ typedef struct contact_clearance {
     double distance;    /* m, this far away */
 } contact_clearance;
 
-/** Changes of a site in a short time. */
+/** Changes of a candidate in a short time. */
 typedef struct contact_storm {
     double start; /* s */
     dem_index n;  /* changes since then */
@@ -64,13 +65,13 @@ static inline bool candidate_is_edge(const contact_candidate *candidate)
     return candidate->other >= 0;
 }
 
-/** What a site touches under this number: a node touches segments, an edge vertices. */
+/** What a candidate touches under this number: a node touches segments, an edge vertices. */
 static inline surface_feature contact_point_feature(const contact_candidate *candidate, dem_index id)
 {
     return (surface_feature){candidate_is_edge(candidate) ? SURFACE_VERTEX : SURFACE_SEGMENT, id};
 }
 
-/** The law between a site and what it touches under this number. */
+/** The law between a candidate and what it touches under this number. */
 static inline contact_law contact_point_law(const contact_scene *scene, const contact_candidate *candidate,
                                             dem_index id)
 {
@@ -80,7 +81,7 @@ static inline contact_law contact_point_law(const contact_scene *scene, const co
 /** Coefficient of the sustained friction of Coulomb's law; 0 where there is none. */
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature);
 
-/** Frame of closed contact q of a site in a state. */
+/** Frame of closed contact q of a candidate in a state. */
 contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q,
                                scene_state state);
 

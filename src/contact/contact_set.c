@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of sites, and the bookkeeping of contacts that open and close. */
+/* The list of candidates, and the bookkeeping of contacts that open and close. */
 #include "contact/contact_set.h"
 
 #include <stdlib.h>
@@ -29,7 +29,7 @@ dem_status contact_set_create(contact_set *c, const forces *acting, const contac
     c->impacts = calloc((size_t)c->n + 1, sizeof *c->impacts);
     if (c->list == NULL || c->of_node == NULL || c->involved == NULL || c->impacts == NULL) {
         contact_set_destroy(c);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact sites", (long long)c->n);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)c->n);
     }
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) c->of_node[i] = -1;
     for (dem_index k = 0; k < model->n_contact_nodes; k++) {
@@ -71,7 +71,7 @@ dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes,
     return n;
 }
 
-/* Whether an edge at the node, other than site k, has closed contacts. */
+/* Whether an edge at the node, other than candidate k, has closed contacts. */
 static bool edge_closed(const contact_set *c, dem_index node, dem_index k)
 {
     const surface *s = &c->scene.model->surface;
@@ -109,7 +109,7 @@ void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle)
     }
 }
 
-/* Whether an edge at the node, other than site k, has closed a contact with the vertex. */
+/* Whether an edge at the node, other than candidate k, has closed a contact with the vertex. */
 static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index feature)
 {
     const surface *s = &c->scene.model->surface;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All contact sites of a model with the forces in their contacts and the books: how contacts begin and end. */
+/* All contact candidates of a model with the forces in their contacts and the ledger: how contacts begin and end. */
 #ifndef DEM_CONTACT_CONTACT_SET_H
 #define DEM_CONTACT_CONTACT_SET_H
 
@@ -8,18 +8,18 @@
 
 /** What the impact under way does to a contact. */
 typedef struct contact_impact {
-    bool fresh;    /* the contact was not closed before */
-    bool opens;    /* and will not be after */
-    bool struck;   /* it approached */
-    bool rests;    /* what it gets away is no more than a hop that counts as rest */
-    bool plastic;  /* it does not rebound, for it will last */
-    vec2 before;   /* m/s, of the point of the body */
-    vec2 impulse;  /* N s, given to the body */
-    vec2 stop;     /* N s, of which last to stop it with its group; m/s, its velocity until then */
-    double energy; /* J, taken by it */
+    bool fresh;      /* the contact was not closed before */
+    bool opens;      /* and will not be after */
+    bool approached; /* it approached */
+    bool rests;      /* what it gets away is no more than a hop that counts as rest */
+    bool plastic;    /* it does not rebound, for it will last */
+    vec2 before;     /* m/s, of the point of the body */
+    vec2 impulse;    /* N s, given to the body */
+    vec2 stop;       /* N s, of which last to stop it with its group; m/s, its velocity until then */
+    double energy;   /* J, taken by it */
 } contact_impact;
 
-/** And to those of a site: all zero when no impact is under way, but for `stop`. */
+/** And to those of a candidate: all zero when no impact is under way, but for `stop`. */
 typedef struct candidate_impact {
     int n; /* contacts that take part: behind the closed ones are those that have opened */
     contact_impact of[2];
@@ -31,18 +31,18 @@ typedef struct contact_set {
     contact_candidate *list; /* [n] the model's nodes that may touch, then its edges */
     contact_forces forces;
     contact_ledger ledger;
-    dem_index *of_node; /* [n_nodes] site of a node, or -1 */
+    dem_index *of_node; /* [n_nodes] candidate of a node, or -1 */
     dem_index n_involved;
-    dem_index *involved;       /* [n_involved] sites that take part in the impact under way; room for all */
+    dem_index *involved;       /* [n_involved] candidates that take part in the impact under way; room for all */
     candidate_impact *impacts; /* [n] scratch of the impact under way */
-    double straightened;       /* m, the furthest that nodes were moved after a step to put closed contacts back */
+    double projected;          /* m, the furthest that nodes were moved after a step to put closed contacts back */
 } contact_set;
 
 /** `c` must stay where it is. */
 dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule);
 void contact_set_destroy(contact_set *c);
 
-/** A site of the same nodes without contacts, of which nothing is known but behind what it is. */
+/** A candidate of the same nodes without contacts, of which nothing is known but behind what it is. */
 static inline contact_candidate candidate_reset(const contact_candidate *candidate)
 {
     return (contact_candidate){.node = candidate->node,
@@ -52,24 +52,24 @@ static inline contact_candidate candidate_reset(const contact_candidate *candida
                                .behind = {candidate->behind[0], candidate->behind[1]}};
 }
 
-/** What was known of a site's distance to other things holds no more. */
+/** What was known of a candidate's distance to other things holds no more. */
 static inline void candidate_forget_clearance(contact_candidate *candidate)
 {
     candidate->clearance.inactive = false;
     candidate->clearance.distance = 0.0;
 }
 
-/** The site of the k-th edge of the surface. */
+/** The candidate of the k-th edge of the surface. */
 static inline dem_index contact_set_of_edge(const contact_set *c, dem_index edge)
 {
     return c->scene.model->n_contact_nodes + edge;
 }
 
-/** The nodes that an event of a site may change at once: its own, and where obstacles have vertices those of the edges
- *  at them; some come more than once.  \return how many there are, of which up to `capacity` are in `nodes` */
+/** The nodes that an event of a candidate may change at once: its own, and where obstacles have vertices those of the
+ *  edges at them; some come more than once.  \return how many there are, of which up to `capacity` are in `nodes` */
 dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity);
 
-/** Whether other closed contacts share a node with the site. */
+/** Whether other closed contacts share a node with the candidate. */
 bool contact_set_coupled(const contact_set *c, dem_index k);
 
 /** A node has passed round the free end of an obstacle, or come back (-1); its edges know as well. */
@@ -78,20 +78,20 @@ void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle);
 /** Finds the groups of all contacts, and which of them are corners. */
 dem_status contact_set_regroup(contact_set *c);
 
-/** The same when these sites have opened or closed contacts, and no others. */
+/** The same when these candidates have opened or closed contacts, and no others. */
 dem_status contact_set_regroup_some(contact_set *c, const dem_index *changed, dem_index n);
 
 /** Adds or takes away a closed contact. */
 dem_status contact_set_close(contact_set *c, dem_index k, contact_point point);
 dem_status contact_set_open(contact_set *c, dem_index k, int q);
 
-/** Moves node i by `shift` and books the energy that this puts in. */
+/** Moves node i by `shift` and enters the energy that this puts in. */
 void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x);
 
-/** Stores the forces of a site's contacts as last solved for. */
+/** Stores the forces of a candidate's contacts as last solved for. */
 void contact_set_store_forces(contact_set *c, dem_index k);
 
-/** Solves for the forces of the site's group and stores them in the site's contacts. */
+/** Solves for the forces of the candidate's group and stores them in the candidate's contacts. */
 void contact_set_solve_forces(contact_set *c, dem_index k, scene_state state);
 
 /** Solves for the forces of all groups; stores those of all closed contacts. */
@@ -118,7 +118,7 @@ static inline dem_index contact_set_group_at(const contact_set *c, dem_index nod
     return c->forces.at_node[node];
 }
 
-/** An event of a site at a feature: what is known without the impact. */
+/** An event of a candidate at a feature: what is known without the impact. */
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
                             const contact_instant *now);
 
@@ -129,7 +129,7 @@ void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse
  *  \param carried  m/s, velocity of the obstacle there, with which it does work */
 void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal, vec2 carried);
 
-/** Tells of an impact and books its energy, J, and the impulse (N s) that the features gave together. */
+/** Tells of an impact and enters its energy, J, and the impulse (N s) that the features gave together. */
 void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free sites that would touch within the window of an impact. */
+/* Free candidates that would touch within the window of an impact. */
 #include "contact/early_reflection.h"
 
 #include "contact/impact_rest.h"
@@ -24,7 +24,8 @@ void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, co
     contact_set_enter_impact(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
 }
 
-/* Whether a site may come to touch within the window: what it is known to be clear of may be further than it gets. */
+/* Whether a candidate may come to touch within the window: what it is known to be clear of may be further than it
+ * gets. */
 static bool may_arrive(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
                        const candidate_positions *v)
 {
@@ -32,7 +33,7 @@ static bool may_arrive(const contact_set *c, const contact_candidate *candidate,
     return candidate->clearance.distance - candidate_moved(&c->scene, candidate, x) < way;
 }
 
-/* Whether a site comes to touch within the window if it goes on straight: near a vertex it may pass by. */
+/* Whether a candidate comes to touch within the window if it goes on straight: near a vertex it may pass by. */
 static bool arrives(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
                     const candidate_positions *v)
 {

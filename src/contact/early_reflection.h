@@ -5,11 +5,11 @@
 
 #include "contact/contact_set.h"
 
-/** Reflects now, where they are, the free sites that would touch within the window: no contact closes. One that shares
- *  nodes with closed contacts is left alone. */
+/** Reflects now, where they are, the free candidates that would touch within the window: no contact closes. One that
+ *  shares nodes with closed contacts is left alone. */
 void early_reflection(contact_set *c, contact_instant *now);
 
-/** Reflects one free site at its gap to a surface. */
+/** Reflects one free candidate at its gap to a surface. */
 void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now);
 
 #endif

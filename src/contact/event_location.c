@@ -44,7 +44,7 @@ static void bracket_close(bracket *b, double t, double value, bool beyond)
     }
 }
 
-/* The guard of a free site at one time, and how fast it grows. */
+/* The guard of a free candidate at one time, and how fast it grows. */
 typedef struct sample {
     double t, guard, slope;
 } sample;
@@ -150,7 +150,7 @@ static bool edge_is_clear(const contact_scene *scene, const contact_candidate *c
     return around.distance + scene->rule.penetration_tolerance > way + bend(scene, candidate, p);
 }
 
-/* Whether a site ends the step so near to where it was clear that it was so all the way. */
+/* Whether a candidate ends the step so near to where it was clear that it was so all the way. */
 static bool stays_clear(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                         double reach)
 {
@@ -158,7 +158,7 @@ static bool stays_clear(const contact_scene *scene, const contact_candidate *can
     return candidate_moved(scene, candidate, &spot) + reach < candidate->clearance.distance;
 }
 
-/* The first crossing of a site whose gap is the true one. */
+/* The first crossing of a candidate whose gap is the true one. */
 static double crossing_within(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                               double from, double reach)
 {
@@ -189,7 +189,7 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
     const double h = p->end - from;
     const double reach = 2.0 * h *
                          (fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)) +
-                          surface_speed(scene)); /* no site goes further */
+                          surface_speed(scene)); /* no candidate goes further */
     if (stays_clear(scene, candidate, p, reach)) return INFINITY;
     contact_candidate near = *candidate;
     near.clearance.distance = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
@@ -231,7 +231,8 @@ static void solve_at(contact_forces *r, dem_index group, const dense_output *p, 
     contact_forces_solve(r, group, scene_state_at(r->scene, t, state));
 }
 
-/* Forces and guards of a site in the state at t: the lowest of the guards, each in units of what it was at first. */
+/* Forces and guards of a candidate in the state at t: the lowest of the guards, each in units of what it was at
+ * first. */
 static double lowest_guard(contact_forces *r, dem_index k, double t, const double *state, const double *scale)
 {
     double guard[CANDIDATE_ROOTS], low = INFINITY;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The first change of a site's contacts within an accepted step. */
+/* The first change of a candidate's contacts within an accepted step. */
 #ifndef DEM_CONTACT_EVENT_LOCATION_H
 #define DEM_CONTACT_EVENT_LOCATION_H
 
@@ -8,12 +8,12 @@
 /** Width to which a time in the step is located, s: what ARKODE's root finder uses. */
 double event_location_resolution(const dense_output *p);
 
-/** First time in the step, after `from`, at which a free site is as deep as the penetration tolerance; infinity if
+/** First time in the step, after `from`, at which a free candidate is as deep as the penetration tolerance; infinity if
  *  never. The rest of the step is sampled eight times, and every dip between samples followed to its bottom. */
 double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                                double from);
 
-/** First time in the step, after `from`, at which a site of a group, due at its end, is due. It stays the only one
+/** First time in the step, after `from`, at which a candidate of a group, due at its end, is due. It stays the only one
  *  looked at.  \param[out] state  [4 n] scratch */
 double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,
                              double *state);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The impact of a group of contacts that share nodes: they strike one another in turn. */
+/* The impact of a group of contacts that share nodes: their impacts are resolved in turn. */
 #include "contact/impact_group.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "base/status.h"
 #include "contact/impact_rest.h"
 
-/* Sweeps over a group of contacts that strike one another in turn; after half of them they do so without rebound. */
+/* Sweeps over a group of contacts that are resolved in turn; after half of them they do so without rebound. */
 enum { most_sweeps = 200 };
 
 static const double group_noise = 1e-11; /* of the speeds at hand: what is left to the closing of a group */
@@ -50,8 +50,8 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
     return scale;
 }
 
-/* One contact of the group by itself: whether it strikes. */
-static bool strike(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
+/* One contact of the group by itself: whether it approaches, and is resolved. */
+static bool resolve_approach(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
 {
     contact_impact *impact = &c->impacts[k].of[q];
     const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
@@ -62,26 +62,28 @@ static bool strike(contact_set *c, dem_index k, int q, double tolerance, bool pl
     const vec2 after = impact_law_rebound(&wall, 1, f.velocity, &kick);
     const vec2 impulse = vec2_scale(1.0 / f.mobility, kick);
     contact_set_push(c, &f, impulse, now->v);
-    impact->struck = true;
+    impact->approached = true;
     impact->impulse = vec2_add(impact->impulse, impulse);
     impact->energy -= 0.5 * vec2_dot(impulse, vec2_add(f.velocity, after));
     return true;
 }
 
-/* The contacts of a group strike in turn, those of site k first. Returns false if that has not come to an end. */
+/* The contacts of a group are resolved in turn, those of candidate k first. Returns false if that has not come to an
+ * end. */
 static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
     const dem_index group = r->group[k];
-    bool struck = true;
-    for (int q = 0; q < c->list[k].n_closed; q++) (void)strike(c, k, q, tolerance, false, now); /* it is the first */
-    for (int s = 0; s < most_sweeps && struck; s++) {
-        struck = false;
+    bool approached = true;
+    for (int q = 0; q < c->list[k].n_closed; q++)
+        (void)resolve_approach(c, k, q, tolerance, false, now); /* it is the first */
+    for (int s = 0; s < most_sweeps && approached; s++) {
+        approached = false;
         for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
             for (int q = 0; q < c->list[m].n_closed; q++)
-                struck |= strike(c, m, q, tolerance, 2 * s >= most_sweeps, now);
+                approached |= resolve_approach(c, m, q, tolerance, 2 * s >= most_sweeps, now);
     }
-    return !struck;
+    return !approached;
 }
 
 /* Which contacts of the group last, and how they slide. */
@@ -119,7 +121,7 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
             contact_impact *impact = &c->impacts[m].of[q];
-            impact->plastic = impact->struck && impact->rests;
+            impact->plastic = impact->approached && impact->rests;
             any |= impact->plastic;
         }
     for (dem_index m = contact_forces_first(r, group); m >= 0 && any; m = r->next[m])
@@ -129,19 +131,19 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
             contact_set_push(c, &f, vec2_scale(-1.0, impact->impulse), now->v);
             impact->impulse = (vec2){0.0, 0.0};
             impact->energy = 0.0;
-            impact->struck = false;
+            impact->approached = false;
         }
     return any;
 }
 
-/* What still strikes after all sweeps is held for now: it stops exactly with the others, and opens if nothing
+/* What still approaches after all sweeps is held for now: it stops exactly with the others, and opens if nothing
  * presses. */
-static void keep_struck(contact_set *c, dem_index group)
+static void keep_approaching(contact_set *c, dem_index group)
 {
     const contact_forces *r = &c->forces;
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++)
-            if (c->impacts[m].of[q].struck) c->impacts[m].of[q].opens = false;
+            if (c->impacts[m].of[q].approached) c->impacts[m].of[q].opens = false;
 }
 
 /* Takes the contacts that open out of the closed ones, but keeps them behind these. */
@@ -173,8 +175,8 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
     }
 }
 
-/* Stops the groups that have a node in common with a site: what the integrator's error has left them of velocity is no
- * approach. */
+/* Stops the groups that have a node in common with a candidate: what the integrator's error has left them of velocity
+ * is no approach. */
 static void stop_around(contact_set *c, dem_index k, contact_instant *now)
 {
     const surface *s = &c->scene.model->surface;
@@ -205,7 +207,7 @@ static void settle_velocities(contact_set *c, contact_instant *now)
     }
 }
 
-/* Books and tells what the contacts of a site got. */
+/* Ledger and tells what the contacts of a candidate got. */
 static void tell_party(contact_set *c, dem_index k, contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -218,19 +220,19 @@ static void tell_party(contact_set *c, dem_index k, contact_instant *now)
         const dem_index id = surface_segment(&c->scene, contact_point_feature(candidate, feature));
         const obstacle_motion wall = surface_motion(&c->scene, id, (surface_query){now->t, vec2_at(event.x, 0)});
         contact_set_add_impulse(c, event.obstacle, impact->impulse, vec2_at(event.normal, 0), wall.velocity);
-        if (impact->struck) {
+        if (impact->approached) {
             event.before[0] = impact->before.x;
             event.before[1] = impact->before.y;
             contact_set_enter_impact(c, &event, impact->energy, impact->impulse, now);
         }
-        if (kept == !impact->fresh || (impact->struck && kept)) continue;
+        if (kept == !impact->fresh || (impact->approached && kept)) continue;
         event = contact_set_event(c, k, feature, kept ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
         ledger_enter(&c->ledger, &event, now);
     }
     c->impacts[k] = (candidate_impact){0};
 }
 
-/* Takes up the hit among the closed contacts of the site, in place of those it does not go with. */
+/* Takes up the hit among the closed contacts of the candidate, in place of those it does not go with. */
 static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
 {
     contact_candidate *candidate = &c->list[k];
@@ -264,7 +266,7 @@ dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, co
         done = sweep(c, k, tolerance, now);
         judge(c, group, tolerance, now);
     }
-    if (!done) keep_struck(c, group);
+    if (!done) keep_approaching(c, group);
     for (dem_index p = 0; p < c->n_involved; p++) part(&c->list[c->involved[p]], &c->impacts[c->involved[p]]);
     TRY(contact_set_regroup_some(c, c->involved, c->n_involved));
     settle_velocities(c, now);

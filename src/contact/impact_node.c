@@ -9,15 +9,15 @@
 
 static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
 
-/* What a node strikes: its walls, how they move, and how that moves relative to which the laws of an impact hold: the
+/* What a node hits: its walls, how they move, and how that moves relative to which the laws of an impact hold: the
  * wall, or the corner of two. */
-typedef struct struck_walls {
+typedef struct hit_walls {
     surface_line line[2];
     vec2 velocity[2]; /* m/s */
     obstacle_motion frame;
-} struck_walls;
+} hit_walls;
 
-static void find_walls(const contact_set *c, impact_target hit, surface_query at, struck_walls *out)
+static void find_walls(const contact_set *c, impact_target hit, surface_query at, hit_walls *out)
 {
     for (int q = 0; q < hit.n; q++) {
         const obstacle_motion motion = surface_motion(&c->scene, hit.feature[q], at);
@@ -31,13 +31,13 @@ static void find_walls(const contact_set *c, impact_target hit, surface_query at
 /* An impact of a node: velocities relative to the frame, m/s. */
 typedef struct node_impact {
     impact_target hit;
-    struck_walls walls;
+    hit_walls walls;
     impact_surface surface[2];
     vec2 before, after, kick[2];
 } node_impact;
 
 /* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
-static vec2 way_back(const contact_set *c, impact_target hit, const struck_walls *walls, surface_query at)
+static vec2 way_back(const contact_set *c, impact_target hit, const hit_walls *walls, surface_query at)
 {
     const surface_line a = walls->line[0], b = walls->line[hit.n - 1];
     vec2 vertex;
@@ -53,7 +53,7 @@ static vec2 way_back(const contact_set *c, impact_target hit, const struck_walls
 }
 
 /* The surfaces as the laws of an impact see them. */
-static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, const struck_walls *walls,
+static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls,
                           impact_surface on[2])
 {
     for (int q = 0; q < hit.n; q++) {
@@ -62,10 +62,10 @@ static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, 
     }
 }
 
-/* Of the segments struck, those on which a node with relative velocity v stays. At rest it is all that push it; in
+/* Of the segments hit, those on which a node with relative velocity v stays. At rest it is all that push it; in
  * a corner at rest means that it would not get further out than a hop before the corner has it back. Otherwise it
  * is the one segment it moves along. */
-static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const struck_walls *walls, vec2 v,
+static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls, vec2 v,
                              const contact_instant *now)
 {
     const dem_index i = c->list[k].node;
@@ -119,18 +119,18 @@ static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const
 }
 
 /* Tells that contacts began or ceased to last where no impact tells it. */
-static void tell_change(contact_set *c, dem_index k, int was_closed, dem_index feature, bool struck,
-                        contact_instant *now)
+static void report_change(contact_set *c, dem_index k, int was_closed, dem_index feature, bool approached,
+                          contact_instant *now)
 {
     const int is_closed = c->list[k].n_closed;
     c->ledger.counts.closings += is_closed > was_closed;
-    if (is_closed == was_closed || (struck && is_closed > was_closed)) return;
+    if (is_closed == was_closed || (approached && is_closed > was_closed)) return;
     const dem_event event =
         contact_set_event(c, k, feature, is_closed > was_closed ? DEM_EVENT_CLOSE : DEM_EVENT_RELEASE, now);
     ledger_enter(&c->ledger, &event, now);
 }
 
-/* Books an impact by which the relative velocity has changed, each surface having added its kick. */
+/* Ledger an impact by which the relative velocity has changed, each surface having added its kick. */
 static void enter(contact_set *c, dem_index k, const node_impact *impact, contact_instant *now)
 {
     const double m = c->scene.model->lattice.mass[c->list[k].node];
@@ -174,8 +174,8 @@ dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, con
     }
     vec2_put(now->v, i, obstacle_motion_carry(p.walls.frame.velocity, p.after));
     TRY(hold_on(c, k, held, now));
-    const bool struck = p.after.x != p.before.x || p.after.y != p.before.y;
-    if (struck) enter(c, k, &p, now);
-    tell_change(c, k, was_closed, hit.feature[0], struck, now);
+    const bool approached = p.after.x != p.before.x || p.after.y != p.before.y;
+    if (approached) enter(c, k, &p, now);
+    report_change(c, k, was_closed, hit.feature[0], approached, now);
     return DEM_OK;
 }

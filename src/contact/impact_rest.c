@@ -21,15 +21,15 @@ int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, doub
 
 /* Hops of this many penetration tolerances are kept up where one contact's impact opens another that shares a node, or
  * the other side of a notch: each is taken a penetration tolerance deep. */
-static const double shared_skins = 8.0;
+static const double shared_tolerances = 8.0;
 
 double impact_rest_speed(const contact_set *c, vec2 x, double back, const impact_surface *on, bool shared)
 {
     const contact_rule *rule = &c->scene.rule;
     if (!(back > 0.0)) return -1.0;
     const double rounding = noise * fmax(fabs(x.x), fabs(x.y));
-    const double skins = fmax(shared ? shared_skins : 0.0, 2.0 * impact_law_kept_up(on));
-    const double height = fmax(fmax(rule->position_error, rounding), skins * rule->penetration_tolerance);
+    const double tolerances = fmax(shared ? shared_tolerances : 0.0, 2.0 * impact_law_kept_up(on));
+    const double height = fmax(fmax(rule->position_error, rounding), tolerances * rule->penetration_tolerance);
     return fmax(rule->rest_speed, fmax(sqrt(2.0 * back * height), back * rule->window));
 }
 

@@ -6,7 +6,7 @@
 #include "contact/contact_set.h"
 #include "contact/impact_law.h"
 
-/** The surface that a site meets at a feature, with this unit normal. */
+/** The surface that a candidate meets at a feature, with this unit normal. */
 impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index feature, vec2 normal);
 
 /** The sign with which a contact begins: it slides the way it moves; at rest it sticks if there is friction. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a site that touches strikes. */
+/* What a candidate that touches hits. */
 #include "contact/impact_target.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@ double impact_target_depth(const contact_set *c, dem_index k, const contact_inst
     const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
     const double speed = vec2_norm(vec2_at(now->v, candidate->node));
     const double other = candidate_is_edge(candidate) ? vec2_norm(vec2_at(now->v, candidate->other)) : 0.0;
-    return 2.0 * c->scene.rule.penetration_tolerance + c->straightened +
+    return 2.0 * c->scene.rule.penetration_tolerance + c->projected +
            located * (fmax(speed, other) + surface_speed(&c->scene));
 }
 

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a site that touches strikes. */
+/* What a candidate that touches hits. */
 #ifndef DEM_CONTACT_IMPACT_TARGET_H
 #define DEM_CONTACT_IMPACT_TARGET_H
 
 #include "contact/contact_set.h"
 
-/** The one or two features that a site strikes: segments, the one approached faster first, or a vertex. */
+/** The one or two features that a candidate hits: segments, the one approached faster first, or a vertex. */
 typedef struct impact_target {
     int n;
     dem_index feature[2];
 } impact_target;
 
-/** How deep a site can be at an impact, m: twice the penetration tolerance, how far it moves in ten times the time to
- *  which events are located, and how far it may have been moved to straighten a contact beside it. */
+/** How deep a candidate can be at an impact, m: twice the penetration tolerance, how far it moves in ten times the
+ *  time to which events are located, and how far it may have been moved to straighten a contact beside it. */
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now);
 
 /** Whether a node at a point is in a corner of two segments, rather than on one nearly straight surface or in a

@@ -58,5 +58,5 @@ void ledger_enter(contact_ledger *b, const dem_event *event, contact_instant *no
     count(&b->counts, event);
     if (now->listener->event == NULL) return;
     const dem_status status = now->listener->event(now->listener->context, event);
-    if (now->told == DEM_OK) now->told = status;
+    if (now->listener_status == DEM_OK) now->listener_status = status;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is kept of contact events: energies, impulses given by the obstacles, counts; and who is told. */
+/* What is kept of contact events: energies, impulses given by the obstacles, counts; and who hears of events. */
 #ifndef DEM_CONTACT_LEDGER_H
 #define DEM_CONTACT_LEDGER_H
 
@@ -12,18 +12,18 @@ typedef struct contact_ledger {
     dem_counts counts;                  /* those of contacts */
 } contact_ledger;
 
-/** Who is told of events. */
+/** Who hears of events. */
 typedef struct event_listener {
     dem_status (*event)(void *context, const dem_event *event);
     void *context;
 } event_listener;
 
-/** The state being changed: views into y = (x, v), and who is told. */
+/** The state being changed: views into y = (x, v), and who hears of events. */
 typedef struct contact_instant {
     double t;
     double *x, *v;
     const event_listener *listener;
-    dem_status told; /* the first status other than DEM_OK that the listener returned */
+    dem_status listener_status; /* the first status other than DEM_OK that the listener returned */
 } contact_instant;
 
 static inline scene_state instant_state(const contact_instant *now)

@@ -13,10 +13,10 @@ typedef struct contact_rule {
     double window;                /* s, impacts nearer than this are taken together */
     double max_step;              /* s, longest step: with t it sets how exactly an event is located */
     double storm_time;            /* s */
-    dem_index max_impacts;        /* within storm_time at one site */
+    dem_index max_impacts;        /* within storm_time at one candidate */
     bool vertices;                /* whether edges touch vertices */
     state_layout layout;          /* of the states */
-    int n_threads;                /* that look at free sites at once; 0 counts as 1 */
+    int n_threads;                /* that look at free candidates at once; 0 counts as 1 */
 } contact_rule;
 
 /** What does not change during a run. */

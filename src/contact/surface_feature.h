@@ -159,9 +159,9 @@ static inline int surface_touching(const contact_scene *scene, surface_query at,
 }
 
 /** The vertex nearest to entering through an edge of a body at t. */
-static inline obstacle_poke surface_poke(const contact_scene *scene, double t, const obstacle_edge *edge)
+static inline obstacle_vertex_gap surface_vertex_gap(const contact_scene *scene, double t, const obstacle_edge *edge)
 {
-    return obstacles_poke(&scene->model->obstacles, t, edge);
+    return obstacles_vertex_gap(&scene->model->obstacles, t, edge);
 }
 
 /** Distance of the edge at t to the nearest convex vertex, at most its reach, m. */

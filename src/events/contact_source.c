@@ -20,8 +20,8 @@ static dem_status allocate(contact_source *s)
     s->kept = calloc(n, sizeof *s->kept);
     s->saved = malloc(n * sizeof *s->saved);
     s->before = malloc(n * sizeof *s->before);
-    CHECK(s->crossing && s->kept && s->saved && s->before, DEM_ERROR_MEMORY, "out of memory for %lld contact sites",
-          (long long)c->n);
+    CHECK(s->crossing && s->kept && s->saved && s->before, DEM_ERROR_MEMORY,
+          "out of memory for %lld contact candidates", (long long)c->n);
     TRY(event_heap_create(&s->heap, c->n));
     return ledger_create(&s->ledger, c->scene.model->obstacles.n);
 }
@@ -47,14 +47,14 @@ void contact_source_destroy(contact_source *s)
 
 /* ---- what is next ---- */
 
-enum { least_share = 32 }; /* free sites for which a thread is worth its while */
+enum { least_share = 32 }; /* free candidates for which a thread is worth its while */
 
 static bool is_free(const contact_source *s, dem_index k)
 {
     return s->automaton->set.list[k].n_closed == 0;
 }
 
-/* When the free ones of a share of the sites touch. */
+/* When the free ones of a share of the candidates touch. */
 static void look_at_free(contact_source *s, int n_shares, int share)
 {
     automaton *c = s->automaton;
@@ -114,16 +114,16 @@ static dem_index contact_source_seeds(const void *self, dem_index key, dem_index
     return contact_set_seeds(&s->automaton->set, key, nodes, capacity);
 }
 
-/* ---- sites near an event ---- */
+/* ---- candidates near an event ---- */
 
 static dem_index n_moving(const event_place *at)
 {
     return at->near->end[at->near->n_rings - 1];
 }
 
-/* Does something to every site that has a node in the patch which moves. */
-static void each_site(contact_source *s, const event_place *at,
-                      void (*act)(contact_source *s, const event_place *at, dem_index k))
+/* Does something to every candidate that has a node in the neighbourhood which moves. */
+static void each_candidate(contact_source *s, const event_place *at,
+                           void (*act)(contact_source *s, const event_place *at, dem_index k))
 {
     const contact_set *c = &s->automaton->set;
     const surface *edges = &c->scene.model->surface;
@@ -148,7 +148,7 @@ static void copy_ledger(const contact_ledger *from, contact_ledger *to, dem_inde
     to->friction_impulse = friction_impulse;
 }
 
-static void keep_site(contact_source *s, const event_place *at, dem_index k)
+static void keep_candidate(contact_source *s, const event_place *at, dem_index k)
 {
     (void)at;
     if (s->kept[k]) return;
@@ -173,7 +173,7 @@ static void contact_source_prepare(void *self, const event_place *at)
     if (!s->has_ledger) copy_ledger(&c->set.ledger, &s->ledger, c->set.scene.model->obstacles.n);
     s->has_ledger = true;
     c->solved = NAN;
-    each_site(s, at, keep_site);
+    each_candidate(s, at, keep_candidate);
     calm(s, at);
 }
 
@@ -189,7 +189,7 @@ static void look_again(contact_source *s, const event_place *at, dem_index k)
     event_heap_set(&s->heap, k, automaton_next_change(s->automaton, at->step, k, at->t, at->state));
 }
 
-/* How far sites may go: some are faster now. */
+/* How far candidates may go: some are faster now. */
 static double furthest(const contact_source *s, const event_place *at)
 {
     const dense_output *step = at->step;
@@ -209,7 +209,7 @@ static void contact_source_follow(void *self, const event_place *at)
     s->automaton->way = furthest(s, at);
     for (dem_index g = 0; g < at->near->n_groups; g++)
         automaton_solve_group(s->automaton, at->step, at->near->groups[g].group, at->state);
-    each_site(s, at, look_again);
+    each_candidate(s, at, look_again);
 }
 
 static void contact_source_undo(void *self)

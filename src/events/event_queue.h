@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The events of contact and other sources inside one accepted step, in the order of time. Each is taken where and when
- * it happens, and what follows from it for the rest of the step is corrected on a patch, which may bring further
- * events: the whole body is never stopped. Everything can be taken back. */
+ * it happens, and what follows from it for the rest of the step is corrected on a neighbourhood, which may bring
+ * further events: the whole body is never stopped. Everything can be taken back. */
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
@@ -19,7 +19,7 @@ typedef struct event_queue {
     double now;               /* s, everything until here is done */
     bool settled;             /* and the end of the step is */
     bool quiet;               /* nothing happens in the step */
-    double error;             /* of all patches, squared */
+    double error;             /* of all local corrections, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of it; beyond it the step is to be rejected, and nothing more is done */
     contact_source contact;   /* the first source */
@@ -42,7 +42,7 @@ void event_queue_destroy(event_queue *q);
 dem_status event_queue_add_source(event_queue *q, event_source source);
 
 /** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given
- *  the trail; it must stay where it is.  \param state  [4 n] scratch */
+ *  the changed motions; it must stay where it is.  \param state  [4 n] scratch */
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 
 /** Makes the contacts, and the step up to there, what they are at t; the end is whole when t is not before it.
@@ -57,7 +57,7 @@ double event_queue_error(const event_queue *q);
  *  may not tell. */
 double event_queue_reach(const event_queue *q);
 
-/** Takes all back: contacts, books and the end of the step are as they were. */
+/** Takes all back: contacts, ledger and the end of the step are as they were. */
 void event_queue_undo(event_queue *q);
 
 #endif

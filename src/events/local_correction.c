@@ -63,7 +63,7 @@ static double **array_of(local_correction *p, int k)
     return &change[(k - CHANGES) / (LOCAL_CORRECTION_STAGES + 1)][(k - CHANGES) % (LOCAL_CORRECTION_STAGES + 1)];
 }
 
-/* Room for so many nodes and pairs of the books; what there is of `used` is kept. */
+/* Room for so many nodes and rows of the quadratures; what there is of `used` is kept. */
 static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 {
     if (n <= p->capacity) return DEM_OK;
@@ -87,10 +87,10 @@ static dem_status reserve(local_correction *p, dem_index n, dem_index used)
     return DEM_OK;
 }
 
-/* ---- books ---- */
+/* ---- quadratures ---- */
 
-/* The number of the pair of the books at a place; one that is new has not changed. */
-static dem_status find_book(local_correction *p, dem_index place, dem_index *out)
+/* The number of the pair of the quadratures at a place; one that is new has not changed. */
+static dem_status find_quadrature(local_correction *p, dem_index place, dem_index *out)
 {
     const dem_index n = p->near.n;
     for (dem_index b = 0; b < p->n_quadratures; b++) {
@@ -108,7 +108,7 @@ static dem_status add_rate(local_correction *p, dem_index place, int stage, doub
 {
     dem_index book;
     if (rate.x == 0.0 && rate.y == 0.0) return DEM_OK;
-    TRY(find_book(p, place, &book));
+    TRY(find_quadrature(p, place, &book));
     vec2_put(p->da[stage], book, vec2_along(vec2_at(p->da[stage], book), sign, rate));
     return DEM_OK;
 }
@@ -118,14 +118,15 @@ static const forces *acting(const local_correction *p)
     return p->near.set->scene.forces;
 }
 
-/* Power of the forces on node j of the ball; those from outside are those asked for last, at the same state. */
+/* Power of the forces on node j of the neighbourhood; those from outside are those asked for last, at the same
+ * state. */
 static forces_power node_power(const local_correction *p, dem_index j, const double *x, const double *v)
 {
     const external_force *c = acting(p)->external;
     return forces_node_power(acting(p), p->near.nodes[j].i, c != NULL ? vec2_at(c->value, j) : (vec2){0.0, 0.0}, x, v);
 }
 
-/* Adds the rates of the books that come from the patch, in a state whose contact forces are known. */
+/* Adds the rates of the quadratures that come from the neighbourhood, in a state whose contact forces are known. */
 static dem_status add_rates(local_correction *p, int stage, double sign, scene_state state)
 {
     const contact_set *c = p->near.set;
@@ -179,7 +180,7 @@ static void fetch_stage(local_correction *p, int stage, dem_index n)
     }
 }
 
-/* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the books. */
+/* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the quadratures. */
 static bool needs_state(const local_correction *p)
 {
     return !p->near.plain || p->near.n_groups > 0 || forces_have_power(acting(p));
@@ -336,7 +337,7 @@ static void add_change_of_node(const local_correction *p, dem_index j, motion_po
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
 
-/* Makes the change of a node, or a pair of the books, one of the step. */
+/* Makes the change of a node, or a pair of the quadratures, one of the step. */
 static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j, dem_index place,
                         motion_polynomial *motion)
 {

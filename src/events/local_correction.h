@@ -2,9 +2,9 @@
 /* What an event inside a step does to the rest of the step: the change d of the motion that follows from it solves
  *   d'' = a(x + d, contacts after) - a(x, contacts before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
- * damped). So it is integrated on a patch of 3 (6) rings round the event, by one step of Fehlberg's pair; outside it
- * is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. Inside the step the change is
- * interpolated as the step is: by quintics, or by parabolas. */
+ * damped). So it is integrated on a neighbourhood of 3 (6) rings round the event, by one step of Fehlberg's pair;
+ * outside it is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. Inside the step the change
+ * is interpolated as the step is: by quintics, or by parabolas. */
 #ifndef DEM_EVENTS_LOCAL_CORRECTION_H
 #define DEM_EVENTS_LOCAL_CORRECTION_H
 
@@ -27,7 +27,7 @@ typedef struct local_correction {
     int last;                /* stage at the end of the step */
     double t, h;             /* s, of the event; from it to the end of the step */
     bool parabolic;          /* the step is interpolated by parabolas, and so is the change */
-    dem_index n_quadratures; /* pairs of the books that change, behind the nodes of the ball */
+    dem_index n_quadratures; /* rows of the quadratures that change, behind the nodes of the neighbourhood */
     dem_index capacity;
     dem_index *book;            /* [n_quadratures] their places in a state */
     motion_polynomial *motions; /* of the nodes, without the event, from there on */
@@ -39,13 +39,13 @@ typedef struct local_correction {
     double *changed[3];                   /* x, v, x'' with it at a stage */
 } local_correction;
 
-/** Borrows the sites. Free with local_correction_destroy(). */
+/** Borrows the candidates. Free with local_correction_destroy(). */
 dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 
-/** Before an event that may change some nodes at once: gathers the patch round them and what moves it, and puts the
- *  state of its nodes at t into `state` [4 n]. The forces of the closed contacts are to be those at the end of the
- *  step. */
+/** Before an event that may change some nodes at once: gathers the neighbourhood round them and what moves it, and
+ *  puts the state of its nodes at t into `state` [4 n]. The forces of the closed contacts are to be those at the end
+ *  of the step. */
 dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
                                  dem_index n_seeds, double t, double *state);
 

@@ -41,7 +41,7 @@ typedef struct neighbourhood {
     neighbourhood_group *groups; /* [n_groups] with nodes in it */
 } neighbourhood;
 
-/** Borrows the sites. `n_rings` < NEIGHBOURHOOD_RINGS. Free with neighbourhood_destroy(). */
+/** Borrows the candidates. `n_rings` < NEIGHBOURHOOD_RINGS. Free with neighbourhood_destroy(). */
 dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_rings);
 void neighbourhood_destroy(neighbourhood *b);
 

@@ -57,7 +57,7 @@ bool obstacles_share(const obstacle_set *o, double t, dem_index s, dem_index oth
 /** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond);
 
-/** Whether an obstacle moves: quickly told where none does. */
+/** Whether an obstacle moves: quickly known where none does. */
 static inline bool obstacles_moves(const obstacle_set *o, dem_index obstacle)
 {
     return o->speed > 0.0 && o->laws[obstacle].moves;

@@ -11,7 +11,7 @@ dem_status polyline_check(const dem_obstacle *obstacle, dem_index o);
 /** Fills the segments of obstacle o, from set->first[o] on, and set->first[o + 1]. */
 void polyline_compile(obstacle_set *set, dem_index o);
 
-/** Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not told.
+/** Segments of one polyline have at most the vertex of neighbours in common: else what is inside is not known.
  *  \param[out] pair  two that have more; the second follows the first if it goes back over it */
 bool polyline_find_crossing(dem_index pair[2], const obstacle_set *set, dem_index o);
 

@@ -58,7 +58,7 @@ static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
 }
 
 /* Takes vertex k if it is deeper than the deepest so far. */
-static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_poke *deepest)
+static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_vertex_gap *deepest)
 {
     const obstacle_edge *edge = l->edge;
     const obstacle_vertex *v = &o->vertices[k];
@@ -71,7 +71,7 @@ static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obsta
     const vec2 mean = vec2_add(o->segments[v->before].normal, o->segments[v->after].normal);
     if (!(vec2_dot(l->normal, mean) > 0.0) || out_of_question(o, l, k)) return;
     if (distance < 0.0 && round_corner(edge, v->at, mean, distance)) return;
-    *deepest = (obstacle_poke){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
+    *deepest = (obstacle_vertex_gap){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
 }
 
 /* A distance below which no vertex in the box is that could be taken; infinity if none could. */
@@ -110,7 +110,7 @@ static obstacle_edge edge_inside(const obstacle_edge *edge, const pose *at)
 
 /* Looks in a tree for one that is deeper than the deepest so far; its vertices are those from `first` on. */
 static void look_deeper(const obstacle_set *o, const box_tree *tree, dem_index first, const line *l,
-                        obstacle_poke *deepest)
+                        obstacle_vertex_gap *deepest)
 {
     box_tree_walk walk;
     const double limit = deepest->vertex >= 0 ? deepest->distance : fmin(l->edge->reach, DBL_MAX);
@@ -129,7 +129,7 @@ static void look_deeper(const obstacle_set *o, const box_tree *tree, dem_index f
 
 /* The same of an obstacle that moves. */
 static void look_deeper_moving(const obstacle_set *o, dem_index obstacle, double t, const obstacle_edge *edge,
-                               obstacle_poke *deepest)
+                               obstacle_vertex_gap *deepest)
 {
     const pose at = motion_law_pose(&o->laws[obstacle], t);
     const obstacle_edge inside = edge_inside(edge, &at);
@@ -139,10 +139,10 @@ static void look_deeper_moving(const obstacle_set *o, dem_index obstacle, double
     if (deepest->vertex != before) deepest->normal = pose_turn(&at, deepest->normal);
 }
 
-obstacle_poke obstacles_poke(const obstacle_set *o, double t, const obstacle_edge *edge)
+obstacle_vertex_gap obstacles_vertex_gap(const obstacle_set *o, double t, const obstacle_edge *edge)
 {
     const line l = line_along(edge, false);
-    obstacle_poke deepest = {INFINITY, -1, 0.0, l.normal};
+    obstacle_vertex_gap deepest = {INFINITY, -1, 0.0, l.normal};
     look_deeper(o, &o->vertex_tree, 0, &l, &deepest);
     for (dem_index k = 0; k < o->n && o->speed > 0.0; k++)
         if (o->laws[k].moves) look_deeper_moving(o, k, t, edge, &deepest);

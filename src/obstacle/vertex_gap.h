@@ -17,18 +17,18 @@ typedef struct obstacle_edge {
 } obstacle_edge;
 
 /** The vertex nearest to entering through the edge. */
-typedef struct obstacle_poke {
+typedef struct obstacle_vertex_gap {
     double distance;  /* m, of the vertex in front of the edge: > 0 outside the body, < 0 inside; infinity: none */
     dem_index vertex; /* -1: none */
     double place;     /* of its foot on the edge, 0 at a, 1 at b, or the nearer end of it */
     vec2 normal;      /* unit, left of the edge: into the body, out of the obstacle */
-} obstacle_poke;
+} obstacle_vertex_gap;
 
 /** Of the convex vertices at t whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and
  *  whose mean normal points into the body: the one with the smallest distance, the first of equals. One behind the
  *  edge that is nearer to a neighbouring edge, round a convex corner of the body, is not meant; one in a notch of
  *  the body, behind the edge and its neighbour between their feet, is. */
-obstacle_poke obstacles_poke(const obstacle_set *o, double t, const obstacle_edge *edge);
+obstacle_vertex_gap obstacles_vertex_gap(const obstacle_set *o, double t, const obstacle_edge *edge);
 
 /** Distance of the edge to the nearest convex vertex at t, at most its `reach`, m. */
 double obstacles_clearance(const obstacle_set *o, double t, const obstacle_edge *edge);

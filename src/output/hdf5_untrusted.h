@@ -35,8 +35,8 @@ dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *pr
  *  HDF5_U8 also from booleans.  \return DEM_ERROR_IO with the name and the reason */
 dem_status hdf5_untrusted_measure(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_shape *out);
 
-/** Reads rows that hdf5_untrusted_measure() has seen while the file was open. A number that does not fit is an error.
- *  */
+/** Reads rows that hdf5_untrusted_measure() has seen while the file was open. A number that does not fit is an
+ *  error. */
 dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
                                void *data);
 

@@ -11,12 +11,12 @@
 #include "base/status.h"
 
 typedef struct numbers {
-    double t, step;      /* s */
-    double next_step;    /* s; 0: fixed ones */
-    double impact;       /* J, books of contacts */
-    double projection;   /* J */
-    double work;         /* J, done by obstacles at impacts */
-    double straightened; /* m */
+    double t, step;    /* s */
+    double next_step;  /* s; 0: fixed ones */
+    double impact;     /* J, ledger of contacts */
+    double projection; /* J */
+    double work;       /* J, done by obstacles at impacts */
+    double projected;  /* m */
     dem_index events, unlooked, idle;
 } numbers;
 
@@ -30,12 +30,12 @@ typedef struct touch_entry {
     double place, force, friction;
 } touch_entry;
 
-/* A site with something to remember. */
-typedef struct site_entry {
+/* A candidate with something to remember. */
+typedef struct candidate_entry {
     dem_index k, n_closed, behind[2], storm;
     double storm_start;
     touch_entry closed[2];
-} site_entry;
+} candidate_entry;
 
 static sizes sizes_of(const dem_simulation *s)
 {
@@ -51,14 +51,14 @@ static bool remembers(const contact_candidate *candidate)
     return candidate->n_closed > 0 || candidate->behind[0] >= 0 || candidate->behind[1] >= 0 || candidate->storm.n > 0;
 }
 
-static site_entry describe(const contact_candidate *candidate, dem_index k)
+static candidate_entry describe(const contact_candidate *candidate, dem_index k)
 {
-    site_entry e = {k,
-                    candidate->n_closed,
-                    {candidate->behind[0], candidate->behind[1]},
-                    candidate->storm.n,
-                    candidate->storm.start,
-                    {{0}}};
+    candidate_entry e = {k,
+                         candidate->n_closed,
+                         {candidate->behind[0], candidate->behind[1]},
+                         candidate->storm.n,
+                         candidate->storm.start,
+                         {{0}}};
     for (int q = 0; q < candidate->n_closed; q++) {
         const contact_point *point = &candidate->closed[q];
         e.closed[q] =
@@ -71,7 +71,7 @@ static dem_status put_contacts(const contact_set *c, dem_record *record)
 {
     dem_index n = 0;
     for (dem_index k = 0; k < c->n; k++) n += remembers(&c->list[k]);
-    site_entry *list = malloc(((size_t)n + 1) * sizeof *list);
+    candidate_entry *list = malloc(((size_t)n + 1) * sizeof *list);
     CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contacts of a record");
     n = 0;
     for (dem_index k = 0; k < c->n; k++)
@@ -86,8 +86,8 @@ static bool is_within(dem_index value, dem_index low, dem_index high)
     return value >= low && value <= high;
 }
 
-/* Whether an entry is one of a site. */
-static bool is_possible(const contact_set *c, const site_entry *e)
+/* Whether an entry is one of a candidate. */
+static bool is_possible(const contact_set *c, const candidate_entry *e)
 {
     const obstacle_set *o = &c->scene.model->obstacles;
     if (!is_within(e->k, 0, c->n - 1) || !is_within(e->n_closed, 0, 2)) return false;
@@ -109,7 +109,7 @@ static void forget(contact_candidate *candidate)
     candidate->behind[0] = candidate->behind[1] = -1;
 }
 
-static void restore(contact_candidate *candidate, const site_entry *e)
+static void restore(contact_candidate *candidate, const candidate_entry *e)
 {
     candidate->n_closed = (int)e->n_closed;
     candidate->storm.n = e->storm;
@@ -130,7 +130,7 @@ static dem_status get_contacts(contact_set *c, const dem_record *record)
 {
     size_t size;
     dem_index last = -1;
-    const site_entry *list = dem_record_find(record, "contacts", &size);
+    const candidate_entry *list = dem_record_find(record, "contacts", &size);
     CHECK(list != NULL && size % sizeof *list == 0, DEM_ERROR_IO, "the record has no contacts");
     for (dem_index k = 0; k < c->n; k++) forget(&c->list[k]);
     for (size_t k = 0; k < size / sizeof *list; k++) {
@@ -147,11 +147,11 @@ static dem_status get_contacts(contact_set *c, const dem_record *record)
 /* What goes both ways. */
 static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem_counts *counts)
 {
-    contact_ledger *books = &s->automaton.set.ledger;
+    contact_ledger *ledger = &s->automaton.set.ledger;
     const size_t n_impulses = 4 * (size_t)s->model->obstacles.n;
     TRY(record_pass(way, "numbers", n, sizeof *n));
     TRY(record_pass(way, "counts", counts, sizeof *counts));
-    TRY(record_pass(way, "impulses", books->impulse, n_impulses * sizeof *books->impulse));
+    TRY(record_pass(way, "impulses", ledger->impulse, n_impulses * sizeof *ledger->impulse));
     return record_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
@@ -168,18 +168,18 @@ static dem_status put_velocities(const dem_model *model, dem_record *record)
 
 dem_status checkpoint_take(dem_simulation *s, dem_record *record)
 {
-    const contact_ledger *books = &s->automaton.set.ledger;
+    const contact_ledger *ledger = &s->automaton.set.ledger;
     const record_way way = {.into = record};
     const dem_counts of_engine = integrator_counts(&s->integrator);
-    dem_counts counts = books->counts;
+    dem_counts counts = ledger->counts;
     sizes size = sizes_of(s);
     numbers n = {s->t,
                  s->step,
                  integrator_next_step(&s->integrator),
-                 books->impact,
-                 books->projection,
-                 books->work,
-                 s->automaton.set.straightened,
+                 ledger->impact,
+                 ledger->projection,
+                 ledger->work,
+                 s->automaton.set.projected,
                  s->events,
                  s->unlooked,
                  s->automaton.idle};
@@ -239,8 +239,7 @@ static dem_status check_velocities(const dem_simulation *s, const dem_record *re
 
 static dem_status check_numbers(const numbers *n)
 {
-    const bool finite =
-        isfinite(n->impact) && isfinite(n->projection) && isfinite(n->work) && isfinite(n->straightened);
+    const bool finite = isfinite(n->impact) && isfinite(n->projection) && isfinite(n->work) && isfinite(n->projected);
     const bool timely = isfinite(n->t) && n->t >= 0.0 && isfinite(n->step) && n->step >= 0.0;
     CHECK(finite && timely && isfinite(n->next_step) && n->next_step >= 0.0, DEM_ERROR_IO,
           "the record's time %g s, step %g s or next step %g s is impossible", n->t, n->step, n->next_step);
@@ -270,7 +269,7 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
     c->ledger.impact = n.impact;
     c->ledger.projection = n.projection;
     c->ledger.work = n.work;
-    c->straightened = n.straightened;
+    c->projected = n.projected;
     s->automaton.idle = n.idle;
     s->t = n.t;
     s->step = n.step;

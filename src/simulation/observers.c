@@ -9,24 +9,24 @@
 
 static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
 
-/* The first frame later than `told`. */
-static dem_index frame_after(double interval, double told)
+/* The first frame later than `shown`. */
+static dem_index frame_after(double interval, double shown_until)
 {
-    if (!(interval > 0.0) || told < 0.0) return 0;
-    dem_index k = (dem_index)(told / interval);
-    while (k > 0 && (double)(k - 1) * interval > told) k--;
-    while ((double)k * interval <= told) k++;
+    if (!(interval > 0.0) || shown_until < 0.0) return 0;
+    dem_index k = (dem_index)(shown_until / interval);
+    while (k > 0 && (double)(k - 1) * interval > shown_until) k--;
+    while ((double)k * interval <= shown_until) k++;
     return k;
 }
 
-dem_status observers_add(observers *a, const dem_observer *observer, double told)
+dem_status observers_add(observers *a, const dem_observer *observer, double shown_until)
 {
     const double interval = observer->interval;
     CHECK(isfinite(interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", interval);
-    CHECK(!(interval > 0.0) || told < most_frames * interval, DEM_ERROR_ARGUMENT,
-          "frames %g s apart cannot be numbered at %g s", interval, told);
+    CHECK(!(interval > 0.0) || shown_until < most_frames * interval, DEM_ERROR_ARGUMENT,
+          "frames %g s apart cannot be numbered at %g s", interval, shown_until);
     CHECK(a->n < OBSERVERS_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)OBSERVERS_MOST);
-    a->members[a->n++] = (observer_entry){*observer, frame_after(interval, told)};
+    a->members[a->n++] = (observer_entry){*observer, frame_after(interval, shown_until)};
     return DEM_OK;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The observers of a simulation: whom is told what, and whose frame comes next. */
+/* The observers of a simulation: who is called for what, and whose frame comes next. */
 #ifndef DEM_SIMULATION_OBSERVERS_H
 #define DEM_SIMULATION_OBSERVERS_H
 
@@ -19,9 +19,9 @@ typedef struct observers {
     observer_entry members[OBSERVERS_MOST];
 } observers;
 
-/** \param told  s, frames up to then have been shown; < 0: none
- *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite, or too short for `told` */
-dem_status observers_add(observers *a, const dem_observer *observer, double told);
+/** \param shown  s, frames up to then have been shown; < 0: none
+ *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite, or too short for `shown` */
+dem_status observers_add(observers *a, const dem_observer *observer, double shown_until);
 
 bool observers_want_events(const observers *a);
 

@@ -51,12 +51,12 @@ struct dem_simulation {
     run_measures *measures;
     int unlooked; /* steps since overlaps were looked for */
     dem_index events;
-    dem_index unrecorded;     /* steps since the last record */
-    dem_record *record;       /* the last one, */
-    bool has_record;          /* if there is one */
-    dem_record *rollback;     /* what was before contacts change that ask for the force from outside, */
-    bool has_rollback;        /* while they do */
-    dem_index n_inside, told; /* events inside the step in hand; those of them that observers know */
+    dem_index unrecorded;           /* steps since the last record */
+    dem_record *record;             /* the last one, */
+    bool has_record;                /* if there is one */
+    dem_record *rollback;           /* what was before contacts change that ask for the force from outside, */
+    bool has_rollback;              /* while they do */
+    dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
     observers observers;
 };
 

@@ -18,7 +18,7 @@ void query_inside(dem_simulation *s, double t)
     s->measures->has_events = !run_is_local(s);
 }
 
-/* Contacts and books as seen. The queue goes back for that and on again, to the same end. */
+/* Contacts and ledger as seen. The queue goes back for that and on again, to the same end. */
 static const automaton *contact_of(const dem_simulation *s)
 {
     dem_simulation *self = (dem_simulation *)s;
@@ -139,14 +139,14 @@ dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
-    const contact_ledger *books = &contact_of(s)->set.ledger;
+    const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = reduce_rounded_sum(books->impulse[2 * obstacle + k]) + lasting[k];
-        load.friction_impulse[k] = reduce_rounded_sum(books->friction_impulse[2 * obstacle + k]) + rubbing[k];
+        load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];
+        load.friction_impulse[k] = reduce_rounded_sum(ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
     }
     return load;
 }

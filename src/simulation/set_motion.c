@@ -34,7 +34,7 @@ static double mechanical_energy(const dem_simulation *s, const double *y)
     return dem_energy_motion(e) + e.gravity;
 }
 
-/* Puts x and v into a state, and what that takes into its books. */
+/* Puts x and v into a state, and what that takes into its ledger. */
 static void put(const dem_simulation *s, const double *x, const double *v, double *y)
 {
     const state_layout *l = &s->layout;
@@ -51,7 +51,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     dem_state seen;
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
     CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
-    dem_simulation_state(s, &seen); /* with contacts and books of that time */
+    dem_simulation_state(s, &seen); /* with contacts and ledger of that time */
     TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
     TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
     if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));

@@ -16,7 +16,7 @@ enum {
 
 static const double safety = 0.9, least_factor = 0.1; /* of the next step after one that contacts have rejected */
 
-/* ---- what observers are told ---- */
+/* ---- calls of the observers ---- */
 
 /* An event at which the whole body has stopped. */
 static dem_status hear_event(void *context, const dem_event *event)
@@ -31,8 +31,8 @@ static dem_status tell_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
     if (!observers_want_events(&s->observers)) return DEM_OK;
-    while (s->told < s->n_inside && s->queue.events[s->told].t <= t) {
-        const dem_event event = s->queue.events[s->told++];
+    while (s->n_reported < s->n_inside && s->queue.events[s->n_reported].t <= t) {
+        const dem_event event = s->queue.events[s->n_reported++];
         query_inside(s, event.t);
         status = status_first(status, observers_event(&s->observers, s, &event));
     }
@@ -135,7 +135,7 @@ static dem_status take_step(dem_simulation *s)
         TRY(integrator_redo(&s->integrator, factor));
     }
     s->n_inside = s->queue.n_events;
-    s->told = 0;
+    s->n_reported = 0;
     s->in_hand = true;
     return DEM_OK;
 }
@@ -199,7 +199,7 @@ static dem_status commit_step(dem_simulation *s)
     return tell_step(s);
 }
 
-/* Contacts of the initial state come before the first step, when the observers are there to be told. */
+/* Contacts of the initial state come before the first step, when the observers are there to be called. */
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};

@@ -212,8 +212,8 @@ static bool falls(double before, double after)
     return before > 0.0 && after <= 0.0;
 }
 
-/* Where the first of the root functions that fall between both ends would be 0 if they were straight; 1 if none falls.
- * */
+/* Where the first of the root functions that fall between both ends would be 0 if they were straight; 1 if none
+ * falls. */
 static double first_secant(const verlet_integrator *V, const double *low, const double *high)
 {
     double share = 1.0;

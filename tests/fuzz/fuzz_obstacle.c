@@ -108,9 +108,9 @@ static void check_vertices(const obstacle_set *o, bytes *from)
                                 .without = {-1, -1}};
     const double ends[4] = {a.x, a.y, b.x, b.y};
     if (a.x == b.x && a.y == b.y) return;
-    const obstacle_poke poke = obstacles_poke(o, 0.0, &edge);
-    require(poke.vertex >= -1 && poke.vertex < o->n_vertices && poke.place >= 0.0 && poke.place <= 1.0);
-    require(poke.vertex < 0 || (poke.distance > -edge.depth && poke.distance < edge.reach));
+    const obstacle_vertex_gap gap = obstacles_vertex_gap(o, 0.0, &edge);
+    require(gap.vertex >= -1 && gap.vertex < o->n_vertices && gap.place >= 0.0 && gap.place <= 1.0);
+    require(gap.vertex < 0 || (gap.distance > -edge.depth && gap.distance < edge.reach));
     double nearest = edge.reach;
     for (dem_index k = 0; k < o->n_vertices; k++) {
         const double at[2] = {o->vertices[k].at.x, o->vertices[k].at.y};

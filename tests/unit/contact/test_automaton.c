@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* automaton.c: all sites at the start and at an event, without an integrator, and the books kept of it. Numbers are
- * worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
+/* automaton.c: all candidates at the start and at an event, without an integrator, and the ledger kept of it. Numbers
+ * are worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
 #include "unit/resets.h"
 
 static void touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not(void **state)
@@ -504,7 +504,7 @@ static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state
     }
 }
 
-/* The same three in any order, by both laws of friction: the same velocities, and the books close. Of 2 kg that near
+/* The same three in any order, by both laws of friction: the same velocities, and the ledger close. Of 2 kg that near
  * with (3, -4) m/s, eta = 1/2 and mu = 1/4 leave 1.5 m/s along by Coulomb's law and 0.75 by the paper's. */
 static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **state)
 {
@@ -568,7 +568,7 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
 
 /* ---- the check after a step ---- */
 
-/* The first may reach the floor in a step of 0.01 s, the third is asleep. */
+/* The first may reach the floor in a step of 0.01 s, the third is inactive. */
 static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
 {
     scene s;

@@ -7,7 +7,7 @@
 
 /* ---- lasting contacts ---- */
 
-/* What the books add up: 20 N of weight less what the spring takes, 100 (y - 1); nothing of it is friction. */
+/* What the ledger add up: 20 N of weight less what the spring takes, 100 (y - 1); nothing of it is friction. */
 static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
 {
     scene s;
@@ -55,7 +55,7 @@ static void a_closed_edge_that_has_opened_is_put_back(void **state)
     assert_close(books->projection, -40.0 * 30.0 * penetration_tolerance, 1e-3 * penetration_tolerance);
     assert_close(books->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
     assert_int_equal(s.n_events, 1);
-    assert_close(s.c.set.straightened, 30.0 * penetration_tolerance, 1e-9 * penetration_tolerance);
+    assert_close(s.c.set.projected, 30.0 * penetration_tolerance, 1e-9 * penetration_tolerance);
     scene_close(&s);
 }
 
@@ -148,12 +148,13 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     (void)state;
     slide(&s, &half, 3.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    assert_true(automaton_check_step(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another site */
+    assert_true(
+        automaton_check_step(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another candidate */
     assert_close(f.path.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
     scene_close(&s);
 }
 
-/* What the guards at the end of the step have told, the check does not ask again: that all is quiet, or not. */
+/* What the guards at the end of the step have shown, the check does not ask again: that all is quiet, or not. */
 static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
 {
     (void)state;

@@ -135,7 +135,7 @@ static void edges_sleep_too(void **state)
 }
 
 /* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the
- * crossing is found all the same, and the node strikes. */
+ * crossing is found all the same, and the node hits. */
 static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(void **state)
 {
     const double x[2] = {0.0, 2e-4};
@@ -160,7 +160,7 @@ static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(vo
 }
 
 /* 1.044 m from the free end at (4, 0), below it, a node is in front; a little less to the left it is inside: it has
- * come round the end, awake or not. One that may have touched since it was seen to be clear has not. */
+ * come round the end, active or not. One that may have touched since it was seen to be clear has not. */
 static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void **state)
 {
     const double x[4] = {4.3, -1.0, -3.0, 3.0}, travelled[4] = {1.04, 1.05, 1.04, 1.04};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* candidate.c: gaps and guards of one contact site in each of its states, and what is due. Numbers are worked out by
- * hand; tolerances of 1e-15 to 1e-13 are rounding. */
+/* candidate.c: gaps and guards of one contact candidate in each of its states, and what is due. Numbers are worked out
+ * by hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "obstacle/point_gap.h"
 #include "unit/scene.h"
 
@@ -559,7 +559,7 @@ static void open_ragged(scene *s, unsigned *seed, bool triangle)
 }
 
 /* The clearance less the way gone is never more than what is there, but for the margin of ten penetration tolerances
- * by which free ends count as longer; and it is of use: most of what is looked at is told by it. */
+ * by which free ends count as longer; and it is of use: most of what is looked at is shown by it. */
 static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
 {
     unsigned seed = 7;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* candidate_resolve.c: every reset of a site on its own, without an integrator, and the books kept of it. Numbers are
- * worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
+/* candidate_resolve.c: every reset of a candidate on its own, without an integrator, and the ledger kept of it.
+ * Numbers are worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
 #include "unit/resets.h"
 
 /* ---- ends of segments ---- */
@@ -328,7 +328,7 @@ static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_
     }
 }
 
-/* The node strikes first, but it is the side that has come down on the ridge. */
+/* The node hits first, but it is the side that has come down on the ridge. */
 static void a_flat_side_comes_down_on_an_apex_with_its_own_normal(void **state)
 {
     const dem_obstacle springy = {.n_points = 3, .points = roof_points, .restitution = 0.5};

@@ -25,7 +25,7 @@ static void regroup(bench *b, contact_forces *r)
 
 /* ---- groups ---- */
 
-/* Nodes 0 .. n-1 on the x axis 1 m apart, an edge from each to the next: site n + i from node i. */
+/* Nodes 0 .. n-1 on the x axis 1 m apart, an edge from each to the next: candidate n + i from node i. */
 static void open_row(bench *b, dem_index n)
 {
     bench_open(b, n);
@@ -149,7 +149,7 @@ static void check_same_groups(const contact_forces *r, const contact_forces *exp
     assert_true(r->capacity >= expected->capacity / 2); /* of which half is spare */
 }
 
-/* Two rings of nodes and edges, of which up to four sites at a time open or close: the second ring's numbers lie
+/* Two rings of nodes and edges, of which up to four candidates at a time open or close: the second ring's numbers lie
  * between those of the first, so that groups interleave. */
 static void groups_found_again_near_a_change_are_those_found_from_nothing(void **state)
 {
@@ -429,7 +429,7 @@ static bool chance(mix *w, double p)
 static void close_node(mix *w, dem_index k)
 {
     const double angle = M_PI * any(w);
-    if (w->b.inverse_mass[k] == 0.0 || !chance(w, 0.3)) return; /* what is fixed is no site */
+    if (w->b.inverse_mass[k] == 0.0 || !chance(w, 0.3)) return; /* what is fixed is no candidate */
     if (chance(w, 0.3))
         bench_corner(&w->b, k, angle, angle + (chance(w, 0.5) ? 1.0 : -1.0) * (0.5 + 2.0 * gsl_rng_uniform(w->rng)));
     else
@@ -584,7 +584,7 @@ static void what_is_held_has_the_acceleration_asked_for(void **state)
     gsl_rng_free(w.rng);
 }
 
-/* Sites in another order -- nodes among nodes, edges among edges -- with the same contacts. */
+/* Candidates in another order -- nodes among nodes, edges among edges -- with the same contacts. */
 static void shuffle(gsl_rng *rng, const bench *from, bench *to, dem_index *place)
 {
     const dem_index n = from->model.n_contact_nodes;
@@ -733,7 +733,7 @@ static void impulses_account_for_the_momentum_of_every_node(void **state)
     gsl_rng_free(w.rng);
 }
 
-/* The groups leave each other's nodes, and the nodes of open sites, bit for bit. */
+/* The groups leave each other's nodes, and the nodes of open candidates, bit for bit. */
 static void stopping_one_group_leaves_the_others_alone(void **state)
 {
     bench b;

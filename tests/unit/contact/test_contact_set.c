@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* contact_set.c: the list of sites, contacts that open and close, groups and corners, and what is noted of them.
+/* contact_set.c: the list of candidates, contacts that open and close, groups and corners, and what is noted of them.
  * Numbers are worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "unit/scene.h"
 
@@ -245,7 +245,7 @@ static void what_a_node_is_behind_its_edges_know(void **state)
     scene_close(&s);
 }
 
-/* ---- books and forces ---- */
+/* ---- ledger and forces ---- */
 
 /* 2 kg on a spring of 100 N and 1 m, stretched to 1.5 m; moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's
  * 50 (0.25^2 - 0.5^2). */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* event_location.c: the first change of a site's contacts within a step, at times worked out by hand. Times are
+/* event_location.c: the first change of a candidate's contacts within a step, at times worked out by hand. Times are
  * located to 100 units of rounding of t + h; each tolerance is twice that, or what rounding of 1e-16 m is at the speed
  * of crossing. */
 #include "unit/scene.h"
@@ -273,8 +273,8 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
     candidate->closed[candidate->n_closed++] = (contact_point){.feature = feature, .slide = sign};
 }
 
-/* Slides from x = 3 with 2 m/s: beyond the end by the penetration tolerance after half a second and the time for that.
- * */
+/* Slides from x = 3 with 2 m/s: beyond the end by the penetration tolerance after half a second and the time for
+ * that. */
 static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
 {
     scene s;

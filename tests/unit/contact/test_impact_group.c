@@ -156,7 +156,7 @@ static void nothing_is_left_of_an_impact_for_the_next(void **state)
     assert_int_equal(s.c.set.list[edge].n_closed, 1);
     const candidate_impact *left = &s.c.set.impacts[edge];
     assert_int_equal(left->n, 0);
-    assert_false(left->of[0].fresh || left->of[0].opens || left->of[0].struck || left->of[0].plastic);
+    assert_false(left->of[0].fresh || left->of[0].opens || left->of[0].approached || left->of[0].plastic);
     scene_close(&s);
 }
 
@@ -209,7 +209,7 @@ static void a_plastic_group_stops_what_approaches(void **state)
         check_vec(vec2_at(s.c.set.ledger.impulse, 0), 0.0, J, 1e-9);
         check_vec(vec2_at(s.c.set.ledger.impulse, 1), 0.0, -(1.0 - fraction[k]) * J, 1e-9);
         assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-12);
-        assert_int_equal(s.n_impacts, 2); /* both struck, the node first */
+        assert_int_equal(s.n_impacts, 2); /* both hit, the node first */
         assert_int_equal(s.impacts[0].other, -1);
         assert_int_equal(s.impacts[1].other, 1);
         scene_close(&s);

@@ -83,7 +83,7 @@ static void a_hop_of_less_than_twice_the_window_is_rest(void **state)
     }
 }
 
-/* At rest on the floor nothing is struck: the contact closes without an impact. */
+/* At rest on the floor nothing is hit: the contact closes without an impact. */
 static void a_node_that_is_laid_down_closes_without_an_impact(void **state)
 {
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);

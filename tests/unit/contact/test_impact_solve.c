@@ -6,7 +6,7 @@
 /* ---- groups ---- */
 
 /* Node 0 slides on a ledge left of the ridge and the edge comes down on it: J = -(1 + eta) v_n/W lifts the node off
- * the ledge; both are put back on their surfaces, and what has opened is told after the impact. */
+ * the ledge; both are put back on their surfaces, and what has opened is shown after the impact. */
 static void a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it(void **state)
 {
     const double q = 0.75, W = mobility(q), J = 1.5 * q / W, ledge_points[4] = {-8.0, 0.0, -0.5, 0.0};
@@ -24,7 +24,7 @@ static void a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it(void **state)
     assert_close(0.25 * s.y[1] + 0.75 * s.y[3], 0.0, 1e-15);
     assert_int_equal(s.c.set.list[0].n_closed, 0);
     assert_int_equal(s.n_events, 2);
-    assert_int_equal(s.events[0].kind, DEM_EVENT_RELEASE); /* in the order of sites */
+    assert_int_equal(s.events[0].kind, DEM_EVENT_RELEASE); /* in the order of candidates */
     assert_int_equal(s.events[0].node, 0);
     assert_int_equal(s.events[0].other, -1);
     assert_int_equal(s.events[1].kind, DEM_EVENT_IMPACT);

@@ -6,7 +6,7 @@
 
 enum { SCRIPT = 4 };
 
-/* A listener that says what it was told to say, and remembers what it heard. */
+/* A listener that says the status it is given, and remembers what it heard. */
 typedef struct hearer {
     dem_status says[SCRIPT];
     int n_heard;
@@ -61,7 +61,7 @@ static void enter(contact_ledger *b, dem_event_kind kind, dem_index other, int t
     contact_instant now = {.listener = &deaf};
     const dem_event event = {.kind = kind, .other = other};
     for (int k = 0; k < times; k++) ledger_enter(b, &event, &now);
-    assert_int_equal(now.told, DEM_OK);
+    assert_int_equal(now.listener_status, DEM_OK);
 }
 
 /* Every kind another number of times, so that no two can be exchanged unseen. */
@@ -115,10 +115,10 @@ static void the_first_status_other_than_ok_is_kept(void **state)
     (void)state;
     assert_ok(ledger_create(&b, 1));
     ledger_enter(&b, &event, &now);
-    assert_int_equal(now.told, DEM_OK);
+    assert_int_equal(now.listener_status, DEM_OK);
     for (int k = 1; k < SCRIPT; k++) {
         ledger_enter(&b, &event, &now);
-        assert_int_equal(now.told, DEM_STOPPED);
+        assert_int_equal(now.listener_status, DEM_STOPPED);
     }
     assert_int_equal(h.n_heard, SCRIPT);
     assert_int_equal(b.counts.slips, SCRIPT);

@@ -277,7 +277,7 @@ static event_source kicks_events(kicks *s)
                           kicks_resolve, kicks_see, kicks_undo};
 }
 
-/* Masses 0 and 1 strike the floor. Mass 2 is kicked between both impacts, by the last key, and twice at the time of the
+/* Masses 0 and 1 hit the floor. Mass 2 is kicked between both impacts, by the last key, and twice at the time of the
  * second: after the impact, for contact is the first source, and in the order of keys. */
 static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **state)
 {
@@ -353,7 +353,7 @@ static void a_step_without_events_is_left_as_it_is(void **state)
     close_rig(&r);
 }
 
-/* Between the impacts of the lower and the higher mass: one has happened, the other not, in motion and in books. */
+/* Between the impacts of the lower and the higher mass: one has happened, the other not, in motion and in ledger. */
 static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
 {
     const double heights[2] = {0.02, 0.04}, t = time_of_fall(0.02), v = 0.5 * g * t, now = 0.08;
@@ -484,7 +484,7 @@ static void an_event_at_the_very_end_is_in_the_state_there(void **state)
 
 /* ---- what follows from events ---- */
 
-/* Two masses on a spring, its length 1 m, 0.3 m/m aslant; the lower one strikes first. */
+/* Two masses on a spring, its length 1 m, 0.3 m/m aslant; the lower one hits first. */
 static void open_pair(rig *r, dem_lattice *lattice, const double error[2])
 {
     const double x[4] = {0.0, 0.03, sqrt(0.99), 0.13}, masses[2] = {1.0, 0.5}, v[4] = {0.2, -1.0, -0.4, -1.1};
@@ -531,7 +531,7 @@ static double strike_time(dem_lattice *lattice, int node, double *y)
     return high;
 }
 
-/* The spring is turned by the impact of the first mass and pulls otherwise at the second: it strikes at another time
+/* The spring is turned by the impact of the first mass and pulls otherwise at the second: it hits at another time
  * than the step without impacts has it, by GSL's account too. */
 static void the_neighbours_events_are_looked_for_anew(void **state)
 {
@@ -568,7 +568,7 @@ static void times_and_motion_converge_with_the_step(void **state)
         rig r;
         double y[8];
         open_pair(&r, &lattice, NULL);
-        lattice.x[1] = 0.3 * h, lattice.x[3] = 0.7 * h; /* struck after about these shares of the step */
+        lattice.x[1] = 0.3 * h, lattice.x[3] = 0.7 * h; /* hit after about these shares of the step */
         lattice.velocity[0] = lattice.velocity[2] = 0.0;
         swing(&r, &lattice, h);
         show(&r, h);

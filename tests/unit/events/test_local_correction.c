@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* local_correction.c: an event's change of a step against two oracles that know of no rings: one step of GSL's rkf45,
- * which is Fehlberg's, for the change of the whole body, books and all, and its error estimate; and the body itself,
- * integrated by GSL's rk8pd with the jump of the velocity in it. */
+ * which is Fehlberg's, for the change of the whole body, quadratures and all, and its error estimate; and the body
+ * itself, integrated by GSL's rk8pd with the jump of the velocity in it. */
 #include "verification/triplets.h"
 
 #include <gsl/gsl_errno.h>
@@ -37,7 +37,7 @@ typedef struct step {
 
 /* ---- the whole body ---- */
 
-/* Derivative of a state, of nodes and books. */
+/* Derivative of a state, of nodes and quadratures. */
 static void derive(const step *s, automaton *c, double t, const double *y, double *f)
 {
     const state_layout *l = scene_layout(&c->set.scene);
@@ -266,7 +266,7 @@ static void count_rings(const step *s, int *ring, int most)
     }
 }
 
-/* The change at the end of the step against GSL's; books are sums of thousands of terms of 1e-13. */
+/* The change at the end of the step against GSL's; quadratures are sums of thousands of terms of 1e-13. */
 static void check_change(const step *s, const double *was, const double *change, double jump)
 {
     const dem_index n = 2 * s->n_all;
@@ -306,7 +306,7 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
     return n_last;
 }
 
-/* Before an event of a site. */
+/* Before an event of a candidate. */
 static dem_status open_at(local_correction *p, const dense_output *path, dem_index candidate, double t, double *state)
 {
     dem_index seeds[16];
@@ -483,7 +483,7 @@ static void prescribed_nodes_keep_their_parabolas(void **state)
     close_step(&s);
 }
 
-/* One component given, a force that grows: their work is in the books. */
+/* One component given, a force that grows: their work is in the quadratures. */
 static void prescribed_nodes_stay_on_their_way(void **state)
 {
     step s;
@@ -500,7 +500,7 @@ static void prescribed_nodes_stay_on_their_way(void **state)
     close_step(&s);
 }
 
-/* A neighbour slides, another sticks; the node between them strikes, closes and slides, or sticks, or opens. */
+/* A neighbour slides, another sticks; the node between them hits, closes and slides, or sticks, or opens. */
 static void contacts_near_by_hold_and_rub(void **state)
 {
     (void)state;
@@ -537,7 +537,7 @@ static void so_they_do_where_springs_are_damped(void **state)
     close_step(&s);
 }
 
-/* Edges on two ridges are two groups, of two nodes each; a node near them strikes. */
+/* Edges on two ridges are two groups, of two nodes each; a node near them hits. */
 static void edges_on_vertices_move_together(void **state)
 {
     step s;
@@ -581,7 +581,8 @@ static void a_second_event_adds_to_the_first(void **state)
 
 /* ---- closed forms ---- */
 
-/* A node by itself lands on the floor and slides: m g holds it, mu m g slows it; the books have what that comes to. */
+/* A node by itself lands on the floor and slides: m g holds it, mu m g slows it; the quadratures have what that comes
+ * to. */
 static void a_node_that_lands_is_booked_by_closed_forms(void **state)
 {
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* neighbourhood.c: rings by distances over the lattice, found another way, and the accelerations that the model gives.
- * */
+/* neighbourhood.c: rings by distances over the lattice, found another way, and the accelerations that the model
+ * gives. */
 #include "events/neighbourhood.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@ typedef struct rig {
     automaton c;
     neighbourhood b;
     dem_index n;
-    double *y, *x, *v, *a; /* [4 n] states and what the ball has of them */
+    double *y, *x, *v, *a; /* [4 n] states and what the neighbourhood has of them */
 } rig;
 
 /* A block on a floor, deformed and moving; nu other than 1/3 brings the area term. */
@@ -55,7 +55,7 @@ static void close_rig(rig *r)
     free(r->x);
 }
 
-/* Round what an event of a site changes at once. */
+/* Round what an event of a candidate changes at once. */
 static dem_status gather(rig *r, dem_index candidate)
 {
     dem_index seeds[16];
@@ -147,7 +147,7 @@ static void accelerations_are_the_models(void **state)
     }
 }
 
-/* Half of the springs near the site are broken, those with an odd number. */
+/* Half of the springs near the candidate are broken, those with an odd number. */
 static void broken_springs_do_not_pull(void **state)
 {
     rig r;
@@ -179,7 +179,7 @@ static void a_closed_contact_holds_its_node(void **state)
     assert_int_equal(r.b.groups[0].ring, 0);
     assert_int_equal(r.b.groups[1].ring, 1);
     check_accelerations(&r);
-    assert_close(r.a[0], 0.0, 0.0); /* the node of the site sticks */
+    assert_close(r.a[0], 0.0, 0.0); /* the node of the candidate sticks */
     assert_close(r.a[1], 0.0, 0.0);
     close_rig(&r);
 }

@@ -21,7 +21,7 @@ static obstacle_edge edge_between(double ax, double ay, double bx, double by)
 
 static void assert_no_poke(const obstacle_set *o, const obstacle_edge *edge)
 {
-    const obstacle_poke poke = obstacles_poke(o, 0.0, edge);
+    const obstacle_vertex_gap poke = obstacles_vertex_gap(o, 0.0, edge);
     assert_int_equal(poke.vertex, -1);
     assert_true(poke.distance == (double)INFINITY);
 }
@@ -31,14 +31,14 @@ static void a_vertex_pokes_an_edge_from_the_front_or_from_behind(void **state)
     (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(-1.0, 0.25, 3.0, 0.25);
-    obstacle_poke poke = obstacles_poke(&o, 0.0, &edge);
+    obstacle_vertex_gap poke = obstacles_vertex_gap(&o, 0.0, &edge);
     assert_int_equal(poke.vertex, 0);
     assert_close(poke.distance, 0.25, 1e-15);
     assert_close(poke.place, 0.25, 1e-15);
     assert_close(poke.normal.x, 0.0, 0.0);
     assert_close(poke.normal.y, 1.0, 0.0);
     edge = edge_between(-0.3, 0.2, 0.3, -0.6); /* falls 4 on 3: its normal is (0.8, 0.6) */
-    poke = obstacles_poke(&o, 0.0, &edge);
+    poke = obstacles_vertex_gap(&o, 0.0, &edge);
     assert_close(poke.distance, -0.12, 1e-15);
     assert_close(poke.place, 0.34, 1e-15);
     assert_close(poke.normal.x, 0.8, 1e-15);
@@ -53,11 +53,11 @@ static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_does_not_
     obstacle_edge edge = edge_between(0.125, 0.25, 1.0, 0.25);
     assert_no_poke(&o, &edge);
     edge.tolerance = 0.125;
-    assert_close(obstacles_poke(&o, 0.0, &edge).place, 0.0, 0.0);
+    assert_close(obstacles_vertex_gap(&o, 0.0, &edge).place, 0.0, 0.0);
     edge = edge_between(-1.0, 0.25, -0.125, 0.25);
     assert_no_poke(&o, &edge);
     edge.tolerance = 0.125;
-    assert_close(obstacles_poke(&o, 0.0, &edge).place, 1.0, 0.0);
+    assert_close(obstacles_vertex_gap(&o, 0.0, &edge).place, 1.0, 0.0);
     edge = edge_between(-1.0, 0.5, 1.0, 0.5);
     assert_no_poke(&o, &edge); /* as far as the reach */
     edge = edge_between(-1.0, -0.5, 1.0, -0.5);
@@ -84,15 +84,15 @@ static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void *
     obstacle_set o = compile(points, n, 0.0);
     obstacle_edge edge = edge_between(0.0, 0.25, 24.0, 0.25);
     assert_int_equal(o.n_vertices, 12);
-    assert_int_equal(obstacles_poke(&o, 0.0, &edge).vertex, 8);
+    assert_int_equal(obstacles_vertex_gap(&o, 0.0, &edge).vertex, 8);
     edge.except[1] = 8;
-    assert_int_equal(obstacles_poke(&o, 0.0, &edge).vertex, 0);
+    assert_int_equal(obstacles_vertex_gap(&o, 0.0, &edge).vertex, 0);
     edge.except[0] = 0;
-    assert_int_equal(obstacles_poke(&o, 0.0, &edge).vertex, 1);
+    assert_int_equal(obstacles_vertex_gap(&o, 0.0, &edge).vertex, 1);
     edge = edge_between(6.5, 0.25, 15.5, 0.25);
-    assert_int_equal(obstacles_poke(&o, 0.0, &edge).vertex, 3);
+    assert_int_equal(obstacles_vertex_gap(&o, 0.0, &edge).vertex, 3);
     edge = edge_between(6.5, -0.25, 15.5, -0.25);
-    assert_close(obstacles_poke(&o, 0.0, &edge).distance, -0.25, 1e-15);
+    assert_close(obstacles_vertex_gap(&o, 0.0, &edge).distance, -0.25, 1e-15);
     edge.without[1] = 0;
     assert_no_poke(&o, &edge);
     edge.without[0] = 0;
@@ -111,12 +111,12 @@ static bool beside_neighbour(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
     return height >= 0.0 || vec2_cross(way, mean) > 0.0;
 }
 
-static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
+static obstacle_vertex_gap poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
 {
     const vec2 way = vec2_sub(edge->b, edge->a);
     const double length = vec2_norm(way);
     const vec2 tangent = vec2_scale(1.0 / length, way), normal = {-tangent.y, tangent.x};
-    obstacle_poke first = {(double)INFINITY, -1, 0.0, normal};
+    obstacle_vertex_gap first = {(double)INFINITY, -1, 0.0, normal};
     for (dem_index k = 0; k < o->n_vertices && length > 0.0; k++) {
         const segment *before = &o->segments[o->vertices[k].before], *after = &o->segments[o->vertices[k].after];
         const double distance = vec2_dot(vec2_sub(edge->a, o->vertices[k].at), normal);
@@ -138,7 +138,7 @@ static obstacle_poke poke_by_loop(const obstacle_set *o, const obstacle_edge *ed
         if (distance < 0.0 && vec2_cross(way, next) > 0.0 &&
             beside_neighbour(edge->b, edge->next, o->vertices[k].at, mean, distance))
             continue;
-        first = (obstacle_poke){distance, k, fmin(fmax(place / length, 0.0), 1.0), normal};
+        first = (obstacle_vertex_gap){distance, k, fmin(fmax(place / length, 0.0), 1.0), normal};
     }
     return first;
 }
@@ -163,7 +163,8 @@ static void the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit(void **state)
                                   .except = {k % 4 == 0 ? some : -1, k % 4 == 1 ? some : -1}};
             edge.previous = k % 2 == 0 ? edge.a : telling_point(rng, &l);
             edge.next = k % 3 == 0 ? edge.b : telling_point(rng, &l);
-            const obstacle_poke poke = obstacles_poke(&l.set, 0.0, &edge), expected = poke_by_loop(&l.set, &edge);
+            const obstacle_vertex_gap poke = obstacles_vertex_gap(&l.set, 0.0, &edge),
+                                      expected = poke_by_loop(&l.set, &edge);
             assert_int_equal(poke.vertex, expected.vertex);
             assert_true(poke.distance == expected.distance && poke.place == expected.place);
             n_pokes += poke.vertex >= 0;
@@ -189,7 +190,8 @@ static void what_moves_is_met_where_it_is(void **state)
         obstacle_edge edge = edge_between(x, y, x + uniform(rng, -1.0, 1.0), y + uniform(rng, -1.0, 1.0));
         edge.previous = (vec2){x, y + 1.0};
         edge.next = vec2_add(edge.b, (vec2){0.3, 1.0});
-        const obstacle_poke a = obstacles_poke(&moving, t, &edge), b = obstacles_poke(&there, 0.0, &edge);
+        const obstacle_vertex_gap a = obstacles_vertex_gap(&moving, t, &edge),
+                                  b = obstacles_vertex_gap(&there, 0.0, &edge);
         assert_int_equal(a.vertex, b.vertex);
         if (a.vertex >= 0) assert_close(a.distance, b.distance, 1e-14);
         assert_close(a.place, b.place, 1e-12);

@@ -66,7 +66,7 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
     assert_close(integrator_next_step(&a->integrator), integrator_next_step(&b->integrator), 0.0);
     assert_close(c->ledger.impact, d->ledger.impact, 0.0);
     assert_close(c->ledger.projection, d->ledger.projection, 0.0);
-    assert_close(c->straightened, d->straightened, 0.0);
+    assert_close(c->projected, d->projected, 0.0);
     assert_int_equal(a->automaton.idle, b->automaton.idle);
     assert_int_equal(a->events, b->events);
     assert_int_equal(a->unlooked, b->unlooked);

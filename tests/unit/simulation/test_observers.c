@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* observers.c: who is told what, in which order, and whose frame comes next. */
+/* observers.c: which calls observers get, in which order, and whose frame comes next. */
 #include "verification/support.h"
 
 #include <string.h>
 
 #include "simulation/observers.h"
 
-/* What several observers were told: the context of each is its letter in one diary. */
+/* What several observers were shown: the context of each is its letter in one diary. */
 typedef struct voice {
     char letter;
     dem_status value;
@@ -132,7 +132,7 @@ static void who_has_no_ears_is_left_out(void **state)
     expect("ev");
 }
 
-/* Who comes later is told all the same. */
+/* Who comes later is shown all the same. */
 static void the_first_complaint_counts(void **state)
 {
     observers a = {0};
