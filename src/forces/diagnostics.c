@@ -73,8 +73,8 @@ static void measure_triangles(const forces *f, const double *x, dem_strain *stra
 /* The lower end of a spring, by which it is found: -1 for none. */
 static dem_index lower_end(const dem_model *model, dem_index spring)
 {
-    const dem_index *ends = &model->lattice.ends[2 * spring];
     if (spring < 0) return -1;
+    const dem_index *ends = &model->lattice.ends[2 * spring];
     return ends[0] < ends[1] ? ends[0] : ends[1];
 }
 
