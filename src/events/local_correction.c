@@ -298,7 +298,8 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
     for (dem_index k = 0; k < 2 * n_moving(p); k++)
         p->da[stage][k] = k < 2 * p->near.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
     for (dem_index k = 0; k < 2 * n_moving(p) && acting(p)->boundaries != NULL; k++)
-        if (forces_held(acting(p), p->near.nodes[k / 2].i) & (DEM_COMPONENT_X << (k & 1))) p->da[stage][k] = 0.0;
+        if (forces_held(acting(p), p->near.nodes[k / 2].i) & ((unsigned)DEM_COMPONENT_X << (k & 1)))
+            p->da[stage][k] = 0.0;
     return add_rates(p, stage, 1.0, scene_state_at(&p->near.set->scene, s.t, y));
 }
 
