@@ -10,7 +10,7 @@
 typedef struct contact_impact {
     bool fresh;      /* the contact was not closed before */
     bool opens;      /* and will not be after */
-    bool approached; /* it approached */
+    bool approached; /* its point moved towards the surface */
     bool rests;      /* what it gets away is no more than a hop that counts as rest */
     bool plastic;    /* it does not rebound, for it will last */
     vec2 before;     /* m/s, of the point of the body */

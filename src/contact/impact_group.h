@@ -11,7 +11,7 @@ double impact_group_project(contact_set *c, dem_index group, contact_instant *no
 /** Stops a group of contacts, and enters what that takes. */
 void impact_group_stop(contact_set *c, dem_index group, contact_instant *now);
 
-/** A candidate that is an edge, or that shares nodes with closed contacts, hits: its group is put on the surfaces, its
+/** The impact of an edge, or of a node that shares contacts with others: its group is put on the surfaces, its
  *  contacts are resolved in turn until none approaches any more, and those that last are closed. */
 dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now);
 

@@ -62,8 +62,8 @@ static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, 
     }
 }
 
-/* Of the segments hit, those on which a node with relative velocity v stays. At rest it is all that push it; in
- * a corner at rest means that it would not get further out than a hop before the corner has it back. Otherwise it
+/* Of the segments that are hit, those on which a node with relative velocity v stays. At rest it is all that push it;
+ * in a corner at rest means that it would not get further out than a hop before the corner has it back. Otherwise it
  * is the one segment it moves along. */
 static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls, vec2 v,
                              const contact_instant *now)

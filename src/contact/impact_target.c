@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a candidate that touches hits. */
+/* Segments that a node touches, and edges that a vertex touches. */
 #include "contact/impact_target.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a candidate that touches hits. */
+/* Which features of the obstacles the impact of a candidate is with. */
 #ifndef DEM_CONTACT_IMPACT_TARGET_H
 #define DEM_CONTACT_IMPACT_TARGET_H
 

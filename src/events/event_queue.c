@@ -170,8 +170,8 @@ static void renew(const event_queue *q, dem_index i, const double *y)
     if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));
 }
 
-/* The rates of the enters that contacts fill, from all of them. */
-static dem_status renew_ledger(event_queue *q)
+/* The rates of the quadratures that contacts add to, from all of them. */
+static dem_status renew_rates(event_queue *q)
 {
     const state_layout *l = scene_layout(&q->automaton->set.scene);
     const dem_index first = state_impulse(l, 0), last = state_total_rows(l);
@@ -206,7 +206,7 @@ static dem_status renew_end(event_queue *q)
         for (forces_neighbours j = forces_neighbours_of(c->scene.forces, i); forces_next_neighbour(&j);)
             TRY(renew_beside(q, j.node, y1));
     }
-    return renew_ledger(q);
+    return renew_rates(q);
 }
 
 /* The error that the local corrections leave in closed contacts goes: they are put back on their surfaces and stopped

@@ -9,7 +9,7 @@
 
 static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
 
-/* The first frame later than `shown`. */
+/* The first frame later than `shown_until`. */
 static dem_index frame_after(double interval, double shown_until)
 {
     if (!(interval > 0.0) || shown_until < 0.0) return 0;

@@ -19,8 +19,8 @@ typedef struct observers {
     observer_entry members[OBSERVERS_MOST];
 } observers;
 
-/** \param shown  s, frames up to then have been shown; < 0: none
- *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite, or too short for `shown` */
+/** \param shown_until  s, frames up to then have been shown; < 0: none
+ *  \return DEM_ERROR_ARGUMENT if there are too many, or the interval is not finite, or too short for `shown_until` */
 dem_status observers_add(observers *a, const dem_observer *observer, double shown_until);
 
 bool observers_want_events(const observers *a);

@@ -504,7 +504,7 @@ static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state
     }
 }
 
-/* The same three in any order, by both laws of friction: the same velocities, and the ledger close. Of 2 kg that near
+/* The same three in any order, by both laws of friction: the same velocities, and the ledger closes. Of 2 kg that near
  * with (3, -4) m/s, eta = 1/2 and mu = 1/4 leave 1.5 m/s along by Coulomb's law and 0.75 by the paper's. */
 static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **state)
 {

@@ -7,7 +7,8 @@
 
 /* ---- lasting contacts ---- */
 
-/* What the ledger add up: 20 N of weight less what the spring takes, 100 (y - 1); nothing of it is friction. */
+/* The rates that are integrated along: 20 N of weight less what the spring takes, 100 (y - 1); nothing of it is
+ * friction. */
 static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
 {
     scene s;
@@ -154,7 +155,7 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     scene_close(&s);
 }
 
-/* What the guards at the end of the step have shown, the check does not ask again: that all is quiet, or not. */
+/* What the guards at the end of the step have said, the check does not ask again: that all is quiet, or not. */
 static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
 {
     (void)state;

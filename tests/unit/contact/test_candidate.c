@@ -559,7 +559,7 @@ static void open_ragged(scene *s, unsigned *seed, bool triangle)
 }
 
 /* The clearance less the way gone is never more than what is there, but for the margin of ten penetration tolerances
- * by which free ends count as longer; and it is of use: most of what is looked at is shown by it. */
+ * by which free ends count as longer; and it is of use: most of what is looked at is decided by it. */
 static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
 {
     unsigned seed = 7;

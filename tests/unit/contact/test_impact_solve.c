@@ -6,7 +6,7 @@
 /* ---- groups ---- */
 
 /* Node 0 slides on a ledge left of the ridge and the edge comes down on it: J = -(1 + eta) v_n/W lifts the node off
- * the ledge; both are put back on their surfaces, and what has opened is shown after the impact. */
+ * the ledge; both are put back on their surfaces, and what has opened is reported after the impact. */
 static void a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it(void **state)
 {
     const double q = 0.75, W = mobility(q), J = 1.5 * q / W, ledge_points[4] = {-8.0, 0.0, -0.5, 0.0};

@@ -8,7 +8,7 @@
 
 enum { n_nodes = 4 };
 
-/* Answers with number, place, velocity and time, so that what comes where shows; fails as it is shown. */
+/* Answers with number, place, velocity and time, so that what comes where shows; fails where it is asked to. */
 typedef struct source {
     long calls;
     dem_index bad; /* node whose force is not finite; -1: none */
@@ -95,7 +95,7 @@ static void power_is_force_times_velocity(void **state)
     external_force_destroy(c);
 }
 
-/* Nobody is asked any more, and forces are 0, until the failure has been shown. */
+/* Nobody is asked any more, and forces are 0, until the failure has been reported. */
 static void fail_and_recover(external_force *c, source *s, dem_status status, const char *message)
 {
     static const double nothing[2 * n_nodes];

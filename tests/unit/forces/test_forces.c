@@ -350,7 +350,7 @@ static void what_is_broken_is_as_if_it_had_never_been(void **state)
     close_body(&without);
 }
 
-/* Strains and forces that are shown of each spring: those that are whole have their own, the others 0. */
+/* Strains and forces that are reported of each spring: those that are whole have their own, the others 0. */
 static void a_broken_spring_has_no_strain_and_no_force(void **state)
 {
     body b;

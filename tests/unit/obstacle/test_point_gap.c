@@ -175,7 +175,7 @@ static void the_gap_is_the_distance_with_the_sign_of_the_side(void **state)
 }
 
 /* Central differences over 1e-6 m: curvature 1/distance < 1e3 away from vertices gives 1e-9, rounding 1e-15/1e-6.
- * Where two features are equally near there is no gradient: such points are shown by one-sided differences that
+ * Where two features are equally near there is no gradient: such points are recognised by one-sided differences that
  * disagree, and are few. */
 static void the_normal_is_the_gradient_of_the_gap(void **state)
 {

@@ -6,7 +6,7 @@
 
 #include "simulation/observers.h"
 
-/* What several observers were shown: the context of each is its letter in one diary. */
+/* The calls of several observers: the context of each is its letter in one diary. */
 typedef struct voice {
     char letter;
     dem_status value;
@@ -132,7 +132,7 @@ static void who_has_no_ears_is_left_out(void **state)
     expect("ev");
 }
 
-/* Who comes later is shown all the same. */
+/* An observer that comes later is called all the same. */
 static void the_first_complaint_counts(void **state)
 {
     observers a = {0};

@@ -454,7 +454,7 @@ static void observers_see_everything_in_the_order_of_time(void **state)
     assert_close(first.t[0], 0.0, 0.0);
     for (int k = 1; k < first.n; k++) assert_true(first.t[k] >= first.t[k - 1]);
     for (int k = 1; k < second.n; k++) assert_true(second.t[k] >= second.t[k - 1]);
-    for (int k = 1; k + 1 < first.n; k++) /* the step that ends with impacts is shown after them */
+    for (int k = 1; k + 1 < first.n; k++) /* the step that ends with impacts is reported after them */
         if (first.kind[k] == 'i') assert_true(first.kind[k + 1] == 'i' || first.kind[k + 1] == 's');
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
