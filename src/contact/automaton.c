@@ -204,16 +204,19 @@ static void add_to_row(double *array, dem_index row, vec2 change)
     vec2_put(array, row, vec2_add(vec2_at(array, row), change));
 }
 
-/* What the closed contacts of one candidate add. */
-static void add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
+/* What the closed contacts of one candidate add.  \return the power of the obstacles that they are on, W */
+static double add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
 {
     const state_layout *l = scene_layout(&s->scene);
+    double work = 0.0;
     for (int q = 0; q < s->list[k].n_closed; q++) {
         const contact_contribution of = contact_set_contribution(s, k, q, state);
         add_to_row(a, state_impulse(l, of.obstacle), of.force);
         add_to_row(a, state_friction_impulse(l, of.obstacle), of.friction);
         a[state_total_index(l, STATE_FRICTION)] += of.power;
+        work += of.work;
     }
+    return work;
 }
 
 /* Rates of impulses and friction are sums over the contacts of the whole model. */
@@ -223,26 +226,16 @@ static void reduce_rates(const state_layout *l, double *a)
         a[k] = reduce_rounded_sum(a[k]);
 }
 
-void automaton_add_rates(const automaton *c, double t, const double *y, double *a)
+double automaton_add_rates(const automaton *c, double t, const double *y, double *a)
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
+    double work = 0.0;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            add_rates_of(&c->set, k, state, a);
+            work += add_rates_of(&c->set, k, state, a);
     reduce_rates(scene_layout(&c->set.scene), a);
-}
-
-double automaton_work_rate(const automaton *c, double t, const double *y)
-{
-    const scene_state state = automaton_state(c, t, y);
-    const contact_forces *r = &c->set.forces;
-    double power = 0.0;
-    for (dem_index g = 0; g < r->n_groups && surface_speed(&c->set.scene) > 0.0; g++)
-        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            for (int q = 0; q < c->set.list[k].n_closed; q++)
-                power += contact_set_contribution(&c->set, k, q, state).work;
-    return power;
+    return work;
 }
 
 dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list)

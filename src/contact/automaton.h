@@ -53,11 +53,9 @@ void automaton_constrain(automaton *c, double t, const double *y, double *a);
 
 /** Adds to the rates of the quadratures among the accelerations a [n_rows][2], after automaton_constrain() in the same
  *  state: the force of each obstacle's closed contacts, N; the part of it that is friction; and the power that friction
- *  takes, W. */
-void automaton_add_rates(const automaton *c, double t, const double *y, double *a);
-
-/** Power of moving obstacles on the bodies by closed contacts, W, after automaton_constrain() in the same state. */
-double automaton_work_rate(const automaton *c, double t, const double *y);
+ *  takes, W.
+ *  \return power of moving obstacles on the bodies by these contacts, W, which is one part of the rate of work */
+double automaton_add_rates(const automaton *c, double t, const double *y, double *a);
 
 /** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
  *  forces.

@@ -178,7 +178,7 @@ static dem_status renew_rates(event_queue *q)
     double *a = q->changed.f1 + state_velocities(l);
     for (dem_index row = first; row <= last; row++) TRY(changed_motion_keep(&q->changed, row));
     for (dem_index k = state_row(l, first); k <= state_total_index(l, STATE_FRICTION); k++) a[k] = 0.0;
-    automaton_add_rates(q->automaton, q->step->t1, q->changed.y1, a);
+    (void)automaton_add_rates(q->automaton, q->step->t1, q->changed.y1, a);
     return DEM_OK;
 }
 

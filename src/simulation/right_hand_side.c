@@ -24,9 +24,9 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     const state_layout *l = &s->layout;
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
-    automaton_add_rates(&s->automaton, t, y, a);
+    const double by_obstacles = automaton_add_rates(&s->automaton, t, y, a);
     a[state_total_index(l, STATE_DAMPING)] = reduce_rounded_sum(forces_damping_power(&s->forces, y, v));
-    a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work + automaton_work_rate(&s->automaton, t, y));
+    a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work + by_obstacles);
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 

@@ -49,7 +49,7 @@ static void derive(const step *s, automaton *c, double t, const double *y, doubl
     automaton_constrain(c, 0.0, y, a);
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
-    automaton_add_rates(c, 0.0, y, a);
+    (void)automaton_add_rates(c, 0.0, y, a);
     a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->acting, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;
