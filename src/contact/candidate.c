@@ -67,10 +67,10 @@ double candidate_moved(const contact_scene *scene, const contact_candidate *cand
            (candidate_is_edge(candidate) ? fmax(a, vec2_norm(vec2_sub(spot->b, candidate->clearance.at[1]))) : a);
 }
 
-vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
-                          const candidate_positions *spot, vec2 v)
+vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
+                                 const candidate_positions *spot, vec2 v)
 {
-    if (gap->feature < 0 || surface_speed(scene) == 0.0) return v;
+    if (gap->feature < 0) return v;
     const vec2 at = candidate_is_edge(candidate) ? surface_vertex_at(scene, gap->feature, spot->t)
                                                  : vec2_along(spot->a, -gap->distance, gap->normal);
     const dem_index id = surface_segment(scene, contact_point_feature(candidate, gap->feature));

@@ -36,9 +36,16 @@ double candidate_moved(const contact_scene *scene, const contact_candidate *cand
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot);
 
+/** contact_gap_velocity() where some surfaces move: apart, so that those at rest cost nothing. */
+vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
+                                 const candidate_positions *spot, vec2 v);
+
 /** A velocity v of the point of a candidate that is nearest to what its gap is to, relative to that. */
-vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
-                          const candidate_positions *spot, vec2 v);
+static inline vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate,
+                                        const contact_gap *gap, const candidate_positions *spot, vec2 v)
+{
+    return surface_speed(scene) == 0.0 ? v : contact_gap_velocity_moving(scene, candidate, gap, spot, v);
+}
 
 /** The nearest vertex within reach (m) of an edge, in front of it, behind it or beside it. */
 contact_gap candidate_around(const contact_scene *scene, const contact_candidate *candidate,

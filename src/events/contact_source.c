@@ -79,7 +79,8 @@ static void look_ahead(contact_source *s)
         const dem_index k = automaton_active_candidate(c, a);
         const bool known =
             is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind; /* else others may know more */
-        event_heap_set(&s->heap, k, known ? s->crossing[k] : automaton_next_change(c, step, k, step->t0, s->state));
+        const double due = known ? s->crossing[k] : automaton_next_change(c, step, k, step->t0, s->state);
+        if (isfinite(due)) event_heap_set(&s->heap, k, due); /* the heap is empty: most candidates never enter it */
     }
 }
 
