@@ -125,8 +125,8 @@ class Refusal(unittest.TestCase):
 
     def refuse(self, code, stderr, *arguments):
         before = self.snapshot()
-        found, stdout, told, usage = self.run_program(*arguments)
-        self.assertEqual(told, stderr)
+        found, stdout, found_stderr, usage = self.run_program(*arguments)
+        self.assertEqual(found_stderr, stderr)
         self.assertEqual(found, code)
         result = json.loads(stdout) if stdout else {"exit_code": code, "status": "failed"}
         self.assertEqual((result["exit_code"], result["status"]), (code, "failed"))

@@ -88,10 +88,10 @@ def numbers(pattern, text):
 def summary(log):
     """What a run's log says of its result: without the time that it took, and where it was."""
     lines = log.split("output     ", 1)[1].splitlines()[1:]
-    told = {key: value for key, value in json.loads(lines.pop()).items()
-            if not key.startswith("wall_") and key not in ("deck", "output")}
+    result = {key: value for key, value in json.loads(lines.pop()).items()
+              if not key.startswith("wall_") and key not in ("deck", "output")}
     lines = [line for line in lines if not re.match(r" *\d+\.\d %  t ", line)]
-    return [re.sub(r", \d+\.\d\d s$", "", line) for line in lines] + [told]
+    return [re.sub(r", \d+\.\d\d s$", "", line) for line in lines] + [result]
 
 
 class Case(unittest.TestCase):
@@ -439,7 +439,7 @@ class Run(Case):
             "run        # steps, # rejected, # retried, # evaluations, # s", log)
         self.assertTrue(steps > 0 and rejected >= 0 and retried >= 0 and evaluations >= 5 * steps and seconds >= 0)
 
-    def test_the_most_stressed_are_told(self):
+    def test_the_most_stressed_are_reported(self):
         nodes = "stressed   node # at (#, #) m: von Mises # Pa at # s, principal # Pa at # degrees, # Pa"
         springs = "strained   spring # at (#, #) m: strain #, force # N at # s"
         log = self.call(0, "deck.nml")

@@ -389,7 +389,7 @@ class Refusals(unittest.TestCase):
         self.assertEqual(self.names(), ["a.data", "a.events.csv", "a.history.csv", "a.most_stressed.nodes.csv",
                                         "a.most_stressed.springs.csv", "in.a", "run.vtkhdf"])
 
-    def test_a_part_goes_where_it_is_told(self):
+    def test_a_part_goes_where_it_is_reported(self):
         (self.here / "run.vtkhdf").rename(self.here / "run.part.vtkhdf")
         (self.here / "there").mkdir()
         for words, name in ((["-o", "there"], "there/run.part.pvd"), (["-o", "there/x"], "there/x.pvd"), ([], "run.part.pvd")):

@@ -30,13 +30,13 @@ def run(folder, floor, body, method):
 class Moving(unittest.TestCase):
     def compare(self, method):
         with tempfile.TemporaryDirectory() as folder:
-            told = []
+            results = []
             for floor, body in (("0, 0", "2, -5"), ("-2, 5", "0, 0")):
                 code, text = run(folder, floor, body, method)
                 self.assertEqual(code, 0, text)
-                told.append(json.loads(pathlib.Path(folder, "a.json").read_text(encoding="utf-8")))
+                results.append(json.loads(pathlib.Path(folder, "a.json").read_text(encoding="utf-8")))
                 self.assertEqual("motion     obstacle 1: velocity (-2, 5) m/s" in text, body == "0, 0")
-        rest, moving = told
+        rest, moving = results
         # not sticks: one that begins to slide on a slope may be turned back by rounding first, which counts
         for key in ("impacts", "closings", "releases", "slips", "passings"):
             self.assertEqual(rest[key], moving[key], key)
@@ -45,8 +45,8 @@ class Moving(unittest.TestCase):
         self.assertAlmostEqual(moving["rising_speed"], rest["rising_speed"] + 5.0, delta=1e-6)
         for key in ("impact", "friction", "elastic"):
             self.assertAlmostEqual(moving["energy"][key], rest["energy"][key], delta=1e-5)
-        for told_of in told:
-            self.assertLess(abs(told_of["closure"]), 1e-5)
+        for result in results:
+            self.assertLess(abs(result["closure"]), 1e-5)
         impulse = moving["obstacles"][0]["impulse"]
         for a, b in zip(impulse, rest["obstacles"][0]["impulse"]):
             self.assertAlmostEqual(a, b, delta=1e-6)

@@ -176,8 +176,8 @@ class Decks(unittest.TestCase):
         np.testing.assert_allclose(limits, -np.array(limits[::-1]), atol=1e-12)
         usual = max(np.quantile(np.abs(film.strain[frame]), 0.995) for frame in strip.frames)
         self.assertTrue(0.9 * usual <= limits[-1] <= 1.6 * usual, (usual, limits))
-        told = run_plot(self.at("disc"), "-o", self.folder / "a.png", "--range", "0.125").stdout
-        self.assertIn("strain -0.125 to 0.125", told)
+        stdout = run_plot(self.at("disc"), "-o", self.folder / "a.png", "--range", "0.125").stdout
+        self.assertIn("strain -0.125 to 0.125", stdout)
 
     def test_colours_follow_the_strain(self):
         """At rest there is one colour, the grey in the middle; a spring of the largest strain has an end's."""
@@ -275,8 +275,8 @@ class Decks(unittest.TestCase):
 
     def test_an_animation_has_one_size_and_even_sides(self):
         folder, film = self.folder / "film", Film(self.at("disc"))
-        told = run_plot(self.at("disc"), "--animate", folder, "--width", 501).stdout
-        self.assertIn(f"ffmpeg -framerate 25 -i {folder}/frame_%05d.png", told)
+        stdout = run_plot(self.at("disc"), "--animate", folder, "--width", 501).stdout
+        self.assertIn(f"ffmpeg -framerate 25 -i {folder}/frame_%05d.png", stdout)
         files = sorted(folder.iterdir())
         self.assertEqual([file.name for file in files], [f"frame_{k:05}.png" for k in range(len(film.t))])
         sizes = {struct.unpack(">II", file.read_bytes()[16:24]) for file in files}
@@ -287,8 +287,8 @@ class Decks(unittest.TestCase):
     def test_history_is_drawn_with_its_units(self):
         for ending in ("svg", "png", "pdf"):
             path = self.folder / f"h.{ending}"
-            told = run_plot(self.at("disc"), "--history", "-o", path).stdout
-            self.assertIn("4 charts", told)
+            stdout = run_plot(self.at("disc"), "--history", "-o", path).stdout
+            self.assertIn("4 charts", stdout)
         strip = Strip(self.folder / "h.svg")
         for text in ("energy, J", "reaction, kN", "contacts", "step, µs", "time, ms", "sum", "kinetic", "springs"):
             self.assertIn(text, strip.texts)

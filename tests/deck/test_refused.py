@@ -326,7 +326,7 @@ DECKS = [
      ["20:14 repeat count '99999999999999999999' is not in 1 to 100000"]),
     ("repeat count 0", edit(BASE, "-0.1, 0, 0.1, 0 -> 0*1"),
      ["20:14 repeat count '0' is not in 1 to 100000"]),
-    ("repeated fault told once", edit(BASE, "-0.1, 0, 0.1, 0 -> 8*1e999"),
+    ("repeated fault reported once", edit(BASE, "-0.1, 0, 0.1, 0 -> 8*1e999"),
      ["20:14 'points': '1e999' is too large for a real"]),
     ("hole between subscripts", edit(BASE, "points = -0.1, 0, 0.1, 0 -> points(1) = -0.1, 0, points(4) = 1"),
      ["20:5 'points(3)' in &obstacle is not given"]),

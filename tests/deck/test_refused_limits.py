@@ -109,18 +109,18 @@ class Limits(refusal.Refusal):
         for name, options, code, deck, messages in DECKS:
             with self.subTest(name):
                 self.put(deck)
-                told = None if messages is None else stderr_of(messages)
+                expected = None if messages is None else stderr_of(messages)
                 if code == 0:
-                    found, _, told, _ = self.run_program("--check", *options, "deck.nml")
-                    self.assertEqual((found, told), (0, ""))
-                elif told is None:
-                    found, _, told, _ = self.run_program("--check", *options, "deck.nml")
-                    self.assertRegex(told, r"^deck\.nml:14:5: error: the run takes at least 1\.2e\+16 GB of memory for its "
+                    found, _, stderr, _ = self.run_program("--check", *options, "deck.nml")
+                    self.assertEqual((found, stderr), (0, ""))
+                elif expected is None:
+                    found, _, stderr, _ = self.run_program("--check", *options, "deck.nml")
+                    self.assertRegex(stderr, r"^deck\.nml:14:5: error: the run takes at least 1\.2e\+16 GB of memory for its "
                                            r"1e\+22 nodes; the limit is [\d.e+]+ GB, and --max-memory sets it\n$")
                     self.assertEqual(found, code)
                 else:
-                    self.refuse(code, told, "--outdir", "out", *options, "deck.nml")
-                    self.refuse(code, told, "--check", *options, "deck.nml")
+                    self.refuse(code, expected, "--outdir", "out", *options, "deck.nml")
+                    self.refuse(code, expected, "--check", *options, "deck.nml")
 
     def test_the_echo_is_held_against_memory_only(self):
         self.put(edit(BASE, "t_end = 1e-3 -> t_end = 1e9", "= 1e-4 -> = 1e8"))

@@ -50,9 +50,9 @@ OFTEN = ("--checkpoint-interval", "1e-9")  # every record goes to disk
 AT_ONCE = ("--max-wall", "1e-9")           # a record further with each command
 
 
-def lasting(told):
+def lasting(result):
     """A result without what is of its process."""
-    return {key: value for key, value in told.items() if not key.startswith("wall_") and key not in ("output", "set")}
+    return {key: value for key, value in result.items() if not key.startswith("wall_") and key not in ("output", "set")}
 
 
 class Case(unittest.TestCase):
@@ -113,12 +113,12 @@ class Case(unittest.TestCase):
 class Cuts(Case):
     def test_at_every_record(self):
         log = self.call(0, outdir="whole")
-        told = self.result("whole")
-        self.assertGreaterEqual(told["impacts"], 100)
-        self.assertGreaterEqual(told["slips"], 5)
-        self.assertGreater(told["sticks"], 10)
+        result = self.result("whole")
+        self.assertGreaterEqual(result["impacts"], 100)
+        self.assertGreaterEqual(result["slips"], 5)
+        self.assertGreater(result["sticks"], 10)
         n = self.go_on("cut", *AT_ONCE)
-        self.assertGreaterEqual(n, told["steps"] // 7)
+        self.assertGreaterEqual(n, result["steps"] // 7)
         self.expect_same("cut")
         self.assertNotIn("resumed", log)
 
@@ -139,8 +139,8 @@ class Cuts(Case):
             if process.returncode != 75:
                 break
         self.assertEqual(process.returncode, 0)
-        told, whole = lasting(self.result("cut")), lasting(self.result("whole"))
-        self.assertEqual({key for key in told if told[key] != whole[key]}, {"run"}, "which has kernel and threads")
+        result, whole = lasting(self.result("cut")), lasting(self.result("whole"))
+        self.assertEqual({key for key in result if result[key] != whole[key]}, {"run"}, "which has kernel and threads")
 
     def test_a_run_to_rest(self):
         self.put(REST)
@@ -196,9 +196,9 @@ class Signals(Case):
                     self.assertRegex(out, rf"\nstopped    at \S+ s by {number.name}; the same command goes on from "
                                           rf"{number.name}/a.checkpoint\n")
                     self.assertNotIn("a.lock", self.files(number.name))
-                    told = self.result(number.name)
-                    self.assertEqual((told["status"], told["exit_code"]), ("stopped", 75))
-                    self.assertEqual(told["message"], f"a.nml: stopped by {number.name}")
+                    result = self.result(number.name)
+                    self.assertEqual((result["status"], result["exit_code"]), ("stopped", 75))
+                    self.assertEqual(result["message"], f"a.nml: stopped by {number.name}")
                 self.assertEqual(process.returncode, 0, "it comes to an end")
                 self.expect_same(number.name)
 
@@ -227,8 +227,8 @@ class Signals(Case):
     def test_decks_behind_a_stopped_one_are_not_begun(self):
         self.put(DECK.replace("'a'", "'b'"), "b.nml")
         out = self.call(75, "b.nml", *AT_ONCE)
-        told = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
-        self.assertEqual([(r["deck"], r["exit_code"], r["message"]) for r in told],
+        results = [json.loads(line) for line in out.splitlines() if line.startswith("{")]
+        self.assertEqual([(r["deck"], r["exit_code"], r["message"]) for r in results],
                          [("a.nml", 75, "a.nml: stopped by --max-wall"), ("b.nml", 75, "b.nml: not begun")])
 
 
@@ -313,8 +313,8 @@ class Refusals(Case):
         self.call(7, stderr=f"a.checkpoint: error: it is of '{other}', this is '{versions}'; --resume-anyway goes on all the same\n")
         self.call(75, "--resume-anyway", "--max-wall", "1e-9")
         self.call(0)
-        told, whole = lasting(self.result()), lasting(self.result("whole"))
-        self.assertEqual(told, whole)
+        result, whole = lasting(self.result()), lasting(self.result("whole"))
+        self.assertEqual(result, whole)
         if h5py is None:
             return
         with h5py.File(self.folder / "a.vtkhdf", "r") as file:

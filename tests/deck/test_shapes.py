@@ -132,7 +132,7 @@ class Shapes(unittest.TestCase):
                 self.assertRegex(log, r"(?m)^contact    first at ")
                 self.assertLess(abs(self.numbers("ledger ", log)[-1]), 1e-5)
 
-    def test_what_is_apart_is_told(self):
+    def test_what_is_apart_is_reported(self):
         through = next(groups for name, groups, *_ in SHAPES if name == "crack through")
         log = self.call(HEAD + FLOOR + through, "--check")
         cracked = self.numbers("cracks ", log)[1]
@@ -149,7 +149,7 @@ class Shapes(unittest.TestCase):
                                                                               "--check", code=3))
 
     # Row 8 keeps of its nodes within 2 cm of the middle that at 0 only: one triangle above it, one below.
-    def test_hinges_are_told(self):
+    def test_hinges_are_reported(self):
         row = 8 * 5e-3 * math.sqrt(0.75)
         voids = [f"&void shape = 'rectangle', centre = {x}, {row}, size = 0.0235, 1e-3 /\n" for x in (-0.0125, 0.0125)]
         self.assertNotIn("hinge", self.call(HEAD + FLOOR + SHAPES[0][1] + voids[0], "--check"))

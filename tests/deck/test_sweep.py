@@ -38,9 +38,9 @@ def lines_of(out):
     return [json.loads(line) for line in out.splitlines() if line.startswith("{")]
 
 
-def lasting(told):
+def lasting(result):
     """A result without its times on the wall."""
-    return {key: value for key, value in told.items() if not key.startswith("wall_")}
+    return {key: value for key, value in result.items() if not key.startswith("wall_")}
 
 
 class Case(unittest.TestCase):
@@ -78,12 +78,12 @@ class Sweeps(Case):
         self.put("b.nml", BROKEN)
         self.put("c.nml", named("c"))
         fault = "b.nml:2:6: error: unknown key 'tend' in &run (did you mean 't_end'?)"
-        told = self.results(3, "a.nml", "b.nml", "c.nml", stderr=fault + "\n")
-        self.assertEqual([(r["deck"], r["name"], r["status"], r["exit_code"], r["message"]) for r in told],
+        results = self.results(3, "a.nml", "b.nml", "c.nml", stderr=fault + "\n")
+        self.assertEqual([(r["deck"], r["name"], r["status"], r["exit_code"], r["message"]) for r in results],
                          [("a.nml", "a", "done", 0, ""), ("b.nml", None, "failed", 3, fault),
                           ("c.nml", "c", "done", 0, "")])
-        self.assertEqual(told[0], self.result("a"))
-        self.assertEqual(told[2], self.result("c"))
+        self.assertEqual(results[0], self.result("a"))
+        self.assertEqual(results[2], self.result("c"))
 
     def test_the_largest_code_is_the_worst(self):
         self.put("storm.nml", STORM)
@@ -97,11 +97,11 @@ class Sweeps(Case):
         self.put("deep/b.nml", named("b"))
         self.put("deep/with blank.nml", named("w"))
         self.put("deep/list.txt", f"# all\n\n  b.nml\t\r\nwith blank.nml\n../a.nml\n{self.folder}/a.nml")
-        told = self.results(0, "@deep/list.txt", "--index", "4")
-        told += self.results(0, "@deep/list.txt")
-        self.assertEqual([r["deck"] for r in told], [f"{self.folder}/a.nml", "deep/b.nml", "deep/with blank.nml"] +
+        results = self.results(0, "@deep/list.txt", "--index", "4")
+        results += self.results(0, "@deep/list.txt")
+        self.assertEqual([r["deck"] for r in results], [f"{self.folder}/a.nml", "deep/b.nml", "deep/with blank.nml"] +
                          2 * [f"{self.folder}/a.nml"], "done already: as it was run")
-        self.assertEqual([r["name"] for r in told], ["a", "b", "w", "a", "a"])
+        self.assertEqual([r["name"] for r in results], ["a", "b", "w", "a", "a"])
 
     def test_lists_that_are_none(self):
         self.call(3, "@no.txt", "a.nml", stderr="no.txt: error: No such file or directory\n")
@@ -143,11 +143,11 @@ class Settings(Case):
         settings = ["--set", "run.t_end=3e-4", "--set", "obstacle(2).restitution=0.1", "--set",
                     "SOLVER.Rtol=1e-7", "--set", "obstacle(2).restitution=0.75"]
         self.assertEqual(self.call(0, "--echo", *settings, "a.nml"), self.call(0, "--echo", "b.nml"))
-        told, = self.results(0, *settings, "a.nml")
-        self.assertEqual(told["set"], settings[1::2])
-        self.assertEqual(told["t_end"], 3e-4)
+        result, = self.results(0, *settings, "a.nml")
+        self.assertEqual(result["set"], settings[1::2])
+        self.assertEqual(result["t_end"], 3e-4)
         again, = self.results(0, "b.nml")
-        self.assertEqual(again, told, "done already")
+        self.assertEqual(again, result, "done already")
 
     def test_any_value_of_a_deck(self):
         echo = self.call(0, "--echo", "a.nml", "--set", "body.velocity=-1, 2*0", "--set", "body.velocity=1,-2",
@@ -189,27 +189,27 @@ class Settings(Case):
 class Results(Case):
     def test_it_is_what_the_log_says(self):
         log = self.call(0, "a.nml")
-        told = self.result()
+        result = self.result()
         self.assertEqual(log.splitlines(True)[-1], (self.folder / "a.json").read_text(encoding="utf-8"))
-        self.assertEqual((told["deck"], told["name"], told["output"]), ("a.nml", "a", "a.vtkhdf"))
-        self.assertEqual((told["status"], told["exit_code"], told["message"]), ("done", 0, ""))
-        self.assertIn(f"problem {told['problem']}\n", log)
-        self.assertEqual((told["t_end"], told["t"]), (2e-4, 2e-4))
+        self.assertEqual((result["deck"], result["name"], result["output"]), ("a.nml", "a", "a.vtkhdf"))
+        self.assertEqual((result["status"], result["exit_code"], result["message"]), ("done", 0, ""))
+        self.assertIn(f"problem {result['problem']}\n", log)
+        self.assertEqual((result["t_end"], result["t"]), (2e-4, 2e-4))
         for key, pattern in (("steps", r"\nrun        (\d+) steps"), ("evaluations", r"retried, (\d+) evaluations"),
                              ("events", r"\nevents     (\d+) times"), ("impacts", r" (\d+) impacts,"),
                              ("closings", r"\nlasting    (\d+) closings")):
-            self.assertEqual(told[key], int(re.search(pattern, log)[1]), key)
-        self.assertGreater(told["impacts"], 0)
-        for value, form, pattern in ((told["first_contact"], "%.6e", r"\ncontact    first at (\S+) s"),
-                                     (told["rebound_speed"], "%+.5g", r"centre of mass (\S+) m/s at the last"),
-                                     (told["rising_speed"], "%+.5g", r"contact, (\S+) m/s at t_end"),
-                                     (told["energy"]["kinetic"], "%.6g", r"\nenergy     kinetic (\S+),"),
-                                     (told["closure"], "%+.2e", r"closure (\S+)"),
-                                     (told["strain_min"]["strain"], "%+.4g", r"\nstrain     smallest (\S+) in"),
-                                     (told["most_stressed"]["von_mises"], "%.4g", r": von Mises (\S+) Pa"),
-                                     (told["obstacles"][1]["impulse"][0], "%.6g", r"\nobstacle   2: impulse \((\S+),")):
+            self.assertEqual(result[key], int(re.search(pattern, log)[1]), key)
+        self.assertGreater(result["impacts"], 0)
+        for value, form, pattern in ((result["first_contact"], "%.6e", r"\ncontact    first at (\S+) s"),
+                                     (result["rebound_speed"], "%+.5g", r"centre of mass (\S+) m/s at the last"),
+                                     (result["rising_speed"], "%+.5g", r"contact, (\S+) m/s at t_end"),
+                                     (result["energy"]["kinetic"], "%.6g", r"\nenergy     kinetic (\S+),"),
+                                     (result["closure"], "%+.2e", r"closure (\S+)"),
+                                     (result["strain_min"]["strain"], "%+.4g", r"\nstrain     smallest (\S+) in"),
+                                     (result["most_stressed"]["von_mises"], "%.4g", r": von Mises (\S+) Pa"),
+                                     (result["obstacles"][1]["impulse"][0], "%.6g", r"\nobstacle   2: impulse \((\S+),")):
             self.assertEqual(form % value, re.search(pattern, log)[1])
-        self.assertEqual(told["boundaries"], [])
+        self.assertEqual(result["boundaries"], [])
 
     def test_but_for_the_time_it_is_the_same_each_time(self):
         first, = self.results(0, "a.nml")
@@ -221,42 +221,42 @@ class Results(Case):
     def test_a_run_without_its_result_is_not_done(self):
         """It was cut off behind its last frame."""
         self.call(0, "a.nml")
-        told = lasting(self.result())
+        result = lasting(self.result())
         for text in (None, "", "{}\n", '{"status":"failed"}\n'):
             (self.folder / "a.json").unlink()
             if text is not None:
                 (self.folder / "a.json").write_text(text, encoding="utf-8")
             self.assertIn("\nresumed    ", self.call(0, "a.nml"))
             self.assertEqual(self.files(), FILES)
-            self.assertEqual(lasting(self.result()), told)
+            self.assertEqual(lasting(self.result()), result)
 
     def test_one_that_has_failed(self):
         self.put("storm.nml", STORM)
         done = subprocess.run([DEM_BATCH, "storm.nml"], cwd=self.folder, capture_output=True, text=True,
                               timeout=SECONDS, check=False)
-        told = self.result("storm")
-        self.assertEqual((done.returncode, told["exit_code"], told["status"]), (4, 4, "failed"))
-        self.assertEqual(told["message"] + "\n", done.stderr)
-        self.assertTrue(0 < told["t"] < 2e-4 and told["impacts"] > 0)
+        result = self.result("storm")
+        self.assertEqual((done.returncode, result["exit_code"], result["status"]), (4, 4, "failed"))
+        self.assertEqual(result["message"] + "\n", done.stderr)
+        self.assertTrue(0 < result["t"] < 2e-4 and result["impacts"] > 0)
 
     def test_what_has_not_happened_is_null(self):
-        told, = self.results(0, "a.nml", "--set", "run.t_end=1e-6")
-        self.assertEqual([told[key] for key in ("first_contact", "last_contact", "rebound_speed")], [None] * 3)
+        result, = self.results(0, "a.nml", "--set", "run.t_end=1e-6")
+        self.assertEqual([result[key] for key in ("first_contact", "last_contact", "rebound_speed")], [None] * 3)
 
     def test_any_text(self):
         name = "\N{GREEK SMALL LETTER ALPHA} \"\\\t.nml"
         self.put(name, DECK.replace("'bounce'", "'\"\\ \N{SNOWMAN}'"))
-        told, = self.results(0, name)
-        self.assertEqual((told["deck"], told["title"]), (name, '"\\ \N{SNOWMAN}'))
+        result, = self.results(0, name)
+        self.assertEqual((result["deck"], result["title"]), (name, '"\\ \N{SNOWMAN}'))
         (self.folder / "a.nml").rename(self.folder / os.fsdecode(b"\xff.nml"))
-        told, = self.results(0, os.fsdecode(b"\xff.nml"))
-        self.assertEqual(told["deck"], "\ufffd.nml")
+        result, = self.results(0, os.fsdecode(b"\xff.nml"))
+        self.assertEqual(result["deck"], "\ufffd.nml")
 
     def test_one_that_cannot_be_written(self):
         (self.folder / "a.json.part").mkdir()
         fault = "a.json.part: error: cannot be written (Is a directory)"
-        told, = self.results(5, "a.nml", stderr=fault + "\n")
-        self.assertEqual((told["exit_code"], told["status"], told["message"]), (5, "failed", fault))
+        result, = self.results(5, "a.nml", stderr=fault + "\n")
+        self.assertEqual((result["exit_code"], result["status"], result["message"]), (5, "failed", fault))
         self.assertNotIn("a.json", self.files())
 
 
@@ -266,8 +266,8 @@ class Locks(Case):
             fcntl.lockf(file, fcntl.LOCK_EX)
             print("process 17 on elsewhere", file=file, flush=True)
             fault = "a.lock: error: process 17 on elsewhere is writing this output"
-            told, = self.results(7, "a.nml", stderr=fault + "\n")
-            self.assertEqual(told["message"], fault)
+            result, = self.results(7, "a.nml", stderr=fault + "\n")
+            self.assertEqual(result["message"], fault)
             self.assertEqual(self.files(), {"a.lock"})
         self.call(0, "a.nml")
         self.assertEqual(self.files(), FILES)

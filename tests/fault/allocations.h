@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* malloc, calloc, realloc and aligned_alloc of what a test links with, failing when they are told to: the linker's
+/* malloc, calloc, realloc and aligned_alloc of what a test links with, which fail as asked: the linker's
  * --wrap leads here. For one test program each. */
 #ifndef DEM_TEST_ALLOCATIONS_H
 #define DEM_TEST_ALLOCATIONS_H

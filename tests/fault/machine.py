@@ -162,8 +162,8 @@ class Report:
             if faults:
                 wrong.append((trial, faults))
         self.n_wrong += len(wrong)
-        told = ", ".join(f"{n} {ending}" for ending, n in sorted(endings.items()))
-        print(f"{name}: {endings.total()} trials: {told}; {len(wrong)} wrong", flush=True)
+        counts = ", ".join(f"{n} {ending}" for ending, n in sorted(endings.items()))
+        print(f"{name}: {endings.total()} trials: {counts}; {len(wrong)} wrong", flush=True)
         for trial, faults in wrong[:self.SHOWN]:
             print(f"    {trial}: " + "\n        ".join(fault[:400] for fault in faults), flush=True)
         return endings

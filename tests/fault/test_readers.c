@@ -46,12 +46,12 @@ static int remove_files(void **state)
     return 0;
 }
 
-static deck_status read_once(char *told, size_t size)
+static deck_status read_once(char *message, size_t size)
 {
     namelist_errors errors = {0};
     deck d;
     const deck_status status = whole_deck_read(&d, files[0][0], &errors);
-    (void)snprintf(told, size, "%s", errors.n > 0 ? errors.list[0].text : "no message");
+    (void)snprintf(message, size, "%s", errors.n > 0 ? errors.list[0].text : "no message");
     namelist_errors_free(&errors);
     deck_free(&d);
     return status;
@@ -59,19 +59,19 @@ static deck_status read_once(char *told, size_t size)
 
 static void each_allocation_may_fail(int stays_so)
 {
-    char told[256];
+    char message[256];
     failing = allocations = 0;
-    if (read_once(told, sizeof told) != DECK_OK) fail_msg("%s", told);
+    if (read_once(message, sizeof message) != DECK_OK) fail_msg("%s", message);
     const long all = allocations;
     assert_true(all > 200);
     from_then_on = stays_so;
     for (failing = 1; failing <= all; failing++) {
         allocations = 0;
-        const deck_status status = read_once(told, sizeof told);
-        if (status != DECK_MEMORY) fail_msg("allocation %ld of %ld: status %d, %s", failing, all, (int)status, told);
+        const deck_status status = read_once(message, sizeof message);
+        if (status != DECK_MEMORY) fail_msg("allocation %ld of %ld: status %d, %s", failing, all, (int)status, message);
     }
     failing = 0;
-    assert_int_equal(read_once(told, sizeof told), DECK_OK);
+    assert_int_equal(read_once(message, sizeof message), DECK_OK);
 }
 
 static void one_failed_allocation_ends_reading_with_its_status(void **state)

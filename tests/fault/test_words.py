@@ -18,7 +18,7 @@ SEED = 20261122
 SECONDS = 120
 RAW = re.compile(r"HDF5-DIAG|#0\d\d:|HDF5: infinite|\[ERROR\]|\[WARNING\]|SUNDIALS|ARKODE|ARKode|ARK_[A-Z]|ERKStep|ARKStep|"
                  r"H5[A-Z][a-z_]|Assertion|libgomp|\0")
-VERSION = re.compile(r'SUNDIALS(": ")? ?[\d.]+')  # is told of every run
+VERSION = re.compile(r'SUNDIALS(": ")? ?[\d.]+')  # stands in the log of every run
 DONE, INVALID, NUMERICS, IO, MEMORY, TAKEN, AGAIN = 0, 3, 4, 5, 6, 7, 75
 
 # A disc slides over the ground; every step but the first few can end with a contact event.
@@ -58,7 +58,7 @@ class Words(unittest.TestCase):
                               check=False)
 
     def ends(self, codes, *options, prepare=None, lines=1):
-        """One of the codes; one line of ours, or none of a run that did not fail. Returns what was told."""
+        """One of the codes; one line of ours, or none of a run that did not fail. Returns what was written to stderr."""
         done = self.run_deck(*options, prepare=prepare)
         self.assertIn(done.returncode, codes, done.stderr)
         for line in done.stderr.splitlines():
@@ -83,8 +83,8 @@ class Words(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(BASE.count(old), 1)
                 self.put(BASE.replace(old, new).replace("'disc', frame", f"'{len(name)}', frame"))
-                told = self.ends([NUMERICS])
-                self.assertRegex(told, rf"\Adeck\.nml: error: [^\n]*{cause}[^\n]*\n\Z")
+                message = self.ends([NUMERICS])
+                self.assertRegex(message, rf"\Adeck\.nml: error: [^\n]*{cause}[^\n]*\n\Z")
 
     # ---- room
 
@@ -95,9 +95,9 @@ class Words(unittest.TestCase):
             with self.subTest(size):
                 self.folder = self.make_folder()
                 self.put(BASE)
-                told = self.ends([IO], prepare=lambda n=size: resource.setrlimit(resource.RLIMIT_FSIZE, (n, n)),
-                                 lines=2 if size < 2 else 1)  # there is no room for NAME.json either
-                self.assertRegex(told, r"no room|File too large|cannot be")
+                message = self.ends([IO], prepare=lambda n=size: resource.setrlimit(resource.RLIMIT_FSIZE, (n, n)),
+                                    lines=2 if size < 2 else 1)  # there is no room for NAME.json either
+                self.assertRegex(message, r"no room|File too large|cannot be")
 
     # ---- files
 

@@ -231,7 +231,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return ++j->steps < MOST_STEPS ? DEM_OK : DEM_STOPPED;
 }
 
-/* What an impact gave is judged by the energy of what struck, at its speed and at the run's. */
+/* What an impact gave is judged by the energy of the nodes that hit, at their speed and at the run's. */
 static dem_status weigh(void *context, const dem_simulation *simulation, const dem_event *e)
 {
     const judge *j = context;

@@ -28,11 +28,11 @@ for name, kind in inspect.getmembers(drive, lambda a: inspect.isclass(a) and iss
 
 
 def run(*command, fails=False, **more):
-    told = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+    done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           timeout=SECONDS, check=False, **more)
-    if told.returncode != 0 and not fails:
-        raise AssertionError(f"{command}: {told.returncode}\n{told.stdout}{told.stderr}")
-    return told.stdout
+    if done.returncode != 0 and not fails:
+        raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
 
 
 class Installed(unittest.TestCase):
@@ -80,7 +80,7 @@ class Installed(unittest.TestCase):
         self.assertNotIn(str(BUILD), dynamic)
         self.assertNotRegex(run("ldd", "-r", shared), "undefined|not found")
 
-    def test_the_version_is_told_alike(self):
+    def test_the_version_is_reported_alike(self):
         version = self.flags("--modversion")[0]
         self.assertIn(f"version: {version}\n", (SOURCE / "CITATION.cff").read_text(encoding="utf-8"))
         for page in (self.prefix / "share/man").rglob("dem_*"):

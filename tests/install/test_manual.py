@@ -33,8 +33,8 @@ def complete(program, *words):
     before = words[-2] if len(words) > 1 else program
     script = 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _dem "$1" "${@: -1}" "${@: -2:1}"; ' \
              'printf "%s\\n" "${COMPREPLY[@]}"'
-    told = run("bash", "-c", script, "bash", COMPLETION, program, *words)
-    return told.stdout.split(), told.stderr
+    done = run("bash", "-c", script, "bash", COMPLETION, program, *words)
+    return done.stdout.split(), done.stderr
 
 
 class Options(unittest.TestCase):
@@ -68,8 +68,8 @@ class Options(unittest.TestCase):
         for program, _, options in self.of_each():
             words = re.findall(rb"\0(--[a-z][a-z-]+)\0", program.read_bytes().replace(b"\0", b"\0\0"))
             self.assertLessEqual({word.decode() for word in words}, options)
-            told = run(program, "--no-such-option")
-            self.assertEqual((told.returncode, "'--no-such-option' is no option" in told.stderr), (2, True))
+            done = run(program, "--no-such-option")
+            self.assertEqual((done.returncode, "'--no-such-option' is no option" in done.stderr), (2, True))
             with tempfile.TemporaryDirectory() as folder:
                 for option in options:
                     self.assertNotIn("is no option", run(program, option, cwd=folder).stderr)

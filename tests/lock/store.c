@@ -42,7 +42,7 @@ void store_open(const char *file_path, int will_replace)
     path = file_path;
     replaces = will_replace;
     FILE *file = fopen(path, "r");
-    if (file == NULL) return; /* then each case is missing, and is told */
+    if (file == NULL) return; /* then each case is missing, and is reported */
     while (fgets(line, sizeof line, file) != NULL)
         if (line[0] != '#' && sscanf(line, "%63s %" SCNx64, name, &hash) == 2) append(&stored, name, hash);
     (void)fclose(file);

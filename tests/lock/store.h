@@ -14,10 +14,10 @@ void store_check(const char *name, uint64_t hash);
 /** Tells of a kernel that gives another hash than the portable one. */
 void store_disagree(const char *name, const char *kernel, uint64_t hash);
 
-/** How many were told of so far. */
+/** How many faults were printed so far. */
 int store_differences(void);
 
-/** How many cases are stored that were not checked; each is told. */
+/** How many cases are stored that were not checked; each is printed. */
 int store_missing(void);
 
 /** Writes the file again with what was found. */

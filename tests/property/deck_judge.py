@@ -186,8 +186,8 @@ def dissipation_given_back(run, deck):
 
 
 def momentum(run, deck):
-    """To rounding (1e-14), but for the times of events, which are roots to 100 roundings, and for what a patch does not
-    tell the nodes around it where springs are damped: 8.7e-6 at most by Verlet's method, 1.4e-9 by the others."""
+    """To rounding (1e-14), but for the times of events, which are roots to 100 roundings, and for what a local correction
+    does not tell the nodes around it where springs are damped: 8.7e-6 at most by Verlet's method, 1.4e-9 by the others."""
     if deck.boundary or "mass_damping" in deck.solver:
         return None
     return unbalanced(run, deck), 5e-5 if deck.solver["method"] == "verlet" else 1e-8
@@ -204,7 +204,7 @@ def penetration_tolerance_of(run, deck):
 
 def depth_of_nodes(run, deck):
     """In penetration tolerances: one, what rounding adds, and a little more where a frame is interpolated (test_random.c). What is
-    prescribed pays no heed to obstacles, and what passed round an end is behind."""
+    prescribed is not stopped by obstacles, and what passed round an end is behind."""
     if is_prescribed(deck) or run.history["behind"].any():
         return None
     return node_depth(run, deck) / penetration_tolerance_of(run, deck), 5.0

@@ -150,7 +150,7 @@ def laws(dice, harsh):
 
 
 def boundary(dice, deck, number, body, modulus):
-    """Held, moved or loaded nodes, gently: a node that is prescribed pays no heed to obstacles."""
+    """Held, moved or loaded nodes, gently: a node that is prescribed is not stopped by obstacles."""
     time = deck.spacing / deck.sound
     where = dice.one_of(["side", "side", "side", "box", "disc", "list", "all"])
     kind = dice.one_of(["fix", "velocity", "displacement", "force", "force" if where == "list" else "traction"])

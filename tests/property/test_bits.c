@@ -101,19 +101,19 @@ static picture run_scene(unsigned long seed, dem_method method, manner how)
 {
     scene sc;
     support_run run;
-    long told = 0;
+    long n_calls = 0;
     scene_random(&sc, seed);
     sc.options.contact = DEM_CONTACT_LOCAL;
     sc.options.method = method;
     sc.options.threads = how.threads;
     dem_observer observer = observers[how.observer];
-    observer.context = &told;
+    observer.context = &n_calls;
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     const double t_end = 0.5 * sc.t_end;
     for (int k = 1; k <= how.cuts; k++) assert_ok(dem_simulation_advance(run.simulation, t_end * k / (how.cuts + 1.0)));
     assert_ok(dem_simulation_advance(run.simulation, t_end));
-    assert_true(told > 0 || observer.interval == 0.0);
+    assert_true(n_calls > 0 || observer.interval == 0.0);
     const picture p = take_picture(run.simulation);
     support_close(&run);
     scene_free(&sc);
@@ -147,7 +147,7 @@ static void nobody_leaves_a_trace(void **state)
         }
 }
 
-/* A strip of 201 columns that comes down flat on bumps: enough sites for threads to share them. */
+/* A strip of 201 columns that comes down flat on bumps: enough candidates for threads to share them. */
 static picture run_strip(int threads)
 {
     static const double lift[2] = {0.0, 2.5e-4}, down[2] = {1.0, -5.0};
@@ -177,7 +177,7 @@ static picture run_strip(int threads)
     return p;
 }
 
-static void threads_that_share_the_sites_leave_no_trace(void **state)
+static void threads_that_share_the_candidates_leave_no_trace(void **state)
 {
     (void)state;
     picture alone = run_strip(1);
@@ -194,7 +194,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nobody_leaves_a_trace),
-        cmocka_unit_test(threads_that_share_the_sites_leave_no_trace),
+        cmocka_unit_test(threads_that_share_the_candidates_leave_no_trace),
     };
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);

@@ -40,10 +40,10 @@ class Census:
         if name not in self.worst or share > self.worst[name][1]:
             self.worst[name] = (value, share, seed)
 
-    def count(self, told):
+    def count(self, result):
         for name in ("impacts", "vertex_impacts", "early", "closings", "releases", "slips", "sticks", "passings"):
-            self.sums[name] = self.sums.get(name, 0) + told[name]
-        self.sums["touching"] = self.sums.get("touching", 0) + (told["events"] > 0)
+            self.sums[name] = self.sums.get(name, 0) + result[name]
+        self.sums["touching"] = self.sums.get("touching", 0) + (result["events"] > 0)
 
     def print(self, number, n_faulty):
         ends = ", ".join(f"{count} {end}" for end, count in self.ends.items())
@@ -70,10 +70,10 @@ def judge_refusal(stderr, folder):
     return faults + [f"a refusal wrote {path.name}" for path in (folder / "out").iterdir()]
 
 
-def judge_run(deck, told, folder, census):
+def judge_run(deck, result, folder, census):
     run = deck_judge.Run(folder / "out" / "deck.vtkhdf")
-    census.count(told)
-    faults = [] if told["t"] == told["t_end"] else [f"ended at {told['t']} s of {told['t_end']} s"]
+    census.count(result)
+    faults = [] if result["t"] == result["t_end"] else [f"ended at {result['t']} s of {result['t_end']} s"]
     if not deck_judge.is_finite(run):
         return faults + ["something is not finite"]
     for name, measure in deck_judge.MEASURES:
@@ -90,19 +90,19 @@ def judge_run(deck, told, folder, census):
 def judge(program, deck, folder, census):
     """What is wrong with the deck's run."""
     try:
-        code, told, stderr = run_deck(program, deck, folder)
+        code, result, stderr = run_deck(program, deck, folder)
     except subprocess.TimeoutExpired:
         return [f"no end within {SECONDS} s"]
-    if told is None or told["exit_code"] != code:
+    if result is None or result["exit_code"] != code:
         return [f"exit code {code} without its result", stderr]
     if code == 0:
         census.ends["ran"] += 1
-        return judge_run(deck, told, folder, census)
+        return judge_run(deck, result, folder, census)
     if code == 3:
         census.ends["refused"] += 1
         print(f"seed {deck.seed}: {stderr.strip()}")
         return judge_refusal(stderr, folder)
-    if code == 4 and deck.contact.get("overlap") == "stop" and "overlap" in told:
+    if code == 4 and deck.contact.get("overlap") == "stop" and "overlap" in result:
         census.ends["stopped at an overlap"] += 1
         return []
     return [f"exit code {code}", stderr]

@@ -56,7 +56,7 @@ typedef struct watch {
     const scene *scene;
     boundary_condition boundary;
     double start, open, scale, depth; /* J, J, J, m */
-    double last;                      /* s, of the last frame or event told */
+    double last;                      /* s, of the last frame or event reported */
     long n_frames, n_events;
     int round;
 } watch;
@@ -323,7 +323,7 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
     const uint64_t hash = hash_of(s.simulation, &state);
     while (page < d->n && (d->page[page].t != state.t || d->page[page].hash != hash)) page++;
     if (page == d->n) fail_msg("seed %lu: call %ld leaves a state of its own at t = %g s", seed, call, state.t);
-    w.last = state.t; /* what was told of later has not happened */
+    w.last = state.t; /* what was reported for later has not happened */
     if (dem_simulation_advance(s.simulation, t_end) != DEM_OK)
         fail_msg("seed %lu, call %ld: %s", seed, call, dem_status_message());
     judge(&w, &s, seed);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contacts taken where they happen, and by stops of the whole body: random bodies meet the same impacts at the same
- * times with the same velocities, the better the smaller rtol is, and the same books in the end. `test_methods [CASES
+ * times with the same velocities, the better the smaller rtol is, and the same ledger in the end. `test_methods [CASES
  * [FIRST_SEED]]`. */
 #include <stdbool.h>
 #include <stdlib.h>
@@ -66,8 +66,8 @@ static void hear(unsigned long seed, dem_contact_method method, double rtol, hit
     scene_free(&sc);
 }
 
-/* By how much the runs part: in spacings at the scale of speed, and in that. Several at once are told in any order,
- * and of such the last may be told after the runs were stopped. */
+/* By how much the runs part: in spacings at the scale of speed, and in that. Several at once are reported in any order,
+ * and of such the last may be reported after the runs were stopped. */
 static double parting(const hits *a, const hits *b)
 {
     bool taken[kept] = {false};
@@ -193,7 +193,7 @@ static double apart(dem_index a, dem_index b)
 /* Momentum to rounding of the sums, and where the root finder's stops are interpolated to 1e-8; the ledger as the
  * property suite's, a hundredth of it at this rtol. Single runs may part where something hangs in the balance: one in
  * twenty. The sums of the counts must not. */
-static void whole_runs_have_the_same_books(void **state)
+static void whole_runs_have_the_same_ledger(void **state)
 {
     dem_index impacts[2] = {0, 0}, releases[2] = {0, 0};
     long parted = 0;
@@ -221,7 +221,7 @@ static void whole_runs_have_the_same_books(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_impacts_are_the_same_up_to_the_steps_error),
-                                       cmocka_unit_test(whole_runs_have_the_same_books)};
+                                       cmocka_unit_test(whole_runs_have_the_same_ledger)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,7 +11,7 @@ enum { compared = 20, kept = 60 };
 
 static long n_cases = 150, first_seed = 1, n_faults;
 
-/* An impact as it is told in any order of things: by the numbers that nodes have in the unshuffled body. */
+/* An impact as it is reported whatever the order of nodes: by the numbers that nodes have in the unshuffled body. */
 typedef struct hit {
     double t, after[2];
     dem_index node, other;
@@ -41,7 +41,7 @@ typedef struct census {
     double deepest, deepest_vertex, gained, closure, parted;
 } census;
 
-/* All faults are told before the test fails. */
+/* All faults are printed before the test fails. */
 static void fault(unsigned long seed, const char *format, ...)
 {
     char text[512];
@@ -85,7 +85,7 @@ static void keep_hit(verdict *v, const dem_event *e)
     v->n_hits++;
 }
 
-/* What an impact gave is judged by the energy of what struck, at its speed and at the run's. */
+/* What an impact gave is judged by the energy of the nodes that hit, at their speed and at the run's. */
 static dem_status weigh(void *context, const dem_simulation *simulation, const dem_event *e)
 {
     verdict *v = context;

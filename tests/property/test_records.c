@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A run that is resumed from any of its records goes on to the last bit: random bodies run through, and again from each
  * record by a new simulation of a new model, with another number of threads, by both methods of contact; all that is
- * told of events, steps and frames, and all that can be seen at the end, is the same. `test_records [CASES
+ * reported of events, steps and frames, and all that can be seen at the end, is the same. `test_records [CASES
  * [FIRST_SEED [EVERY]]]`, of the records. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ static long n_cases = 2, first_seed = 1, every = 3;
 
 enum { MOST_RECORDS = 400 };
 
-/* What is told of a run, as one number for each step: the hash of all before. */
+/* What is reported of a run, as one number for each step: the hash of all before. */
 typedef struct diary {
     uint64_t hash;
     dem_index n_records, n_frames, n_events;
@@ -137,14 +137,14 @@ static uint64_t go_on_from(unsigned long seed, manner how, const diary *whole, d
     return d.hash;
 }
 
-static long n_told;
+static long n_events;
 
 static void check(unsigned long seed, manner how)
 {
     diary whole = {.hash = UINT64_C(0xcbf29ce484222325)};
     run_through(seed, how, &whole);
     assert_true(whole.n_records > 1);
-    n_told += whole.n_events;
+    n_events += whole.n_events;
     for (dem_index k = 0; k < whole.n_records; k++) {
         if (k % every == 0) {
             const manner again = {how.method, how.contact, 1 + (int)(k % 2)};
@@ -165,8 +165,8 @@ static void every_record_leads_to_the_same_end(void **state)
             for (int c = 0; c < 2; c++)
                 check((unsigned long)(first_seed + k),
                       (manner){methods[m], c == 0 ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT, 1});
-    assert_true(n_told > 20 * n_cases);
-    print_message("# %ld events in %ld scenes\n", n_told, n_cases);
+    assert_true(n_events > 20 * n_cases);
+    print_message("# %ld events in %ld scenes\n", n_events, n_cases);
 }
 
 int main(int argc, char **argv)

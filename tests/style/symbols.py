@@ -8,8 +8,8 @@ import subprocess
 import sys
 
 library, headers, golden = (pathlib.Path(word) for word in sys.argv[1:4])
-told = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True).stdout
-exported = {line.split()[-1] for line in told.splitlines()}
+listed = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True).stdout
+exported = {line.split()[-1] for line in listed.splitlines()}
 declared = {name for header in headers.glob("*.h")
             for name in re.findall(r"(?m)^DEM_API\b[^;(]*?\b(\w+)\(", header.read_text(encoding="utf-8"))}
 if sys.argv[4:] == ["--update"]:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A scene put together by hand, contacts anywhere: nodes 0 .. n-1, sites 0 .. n-1 of them, then sites of edges. Contact
- * q of site k is on feature 2 k + q: a segment of its own for a node, a vertex of its own for an edge. */
+/* A scene put together by hand, contacts anywhere: nodes 0 .. n-1, candidates 0 .. n-1 of them, then candidates of
+ * edges. Contact q of candidate k is on feature 2 k + q: a segment of its own for a node, a vertex of its own for an
+ * edge. */
 #ifndef DEM_TEST_BENCH_H
 #define DEM_TEST_BENCH_H
 
@@ -8,7 +9,7 @@
 
 #include "contact/contact_point.h"
 
-enum { BENCH_NODES = 12, BENCH_SITES = 24, BENCH_FEATURES = 2 * BENCH_SITES, BENCH_OBSTACLES = 3 };
+enum { BENCH_NODES = 12, BENCH_CANDIDATES = 24, BENCH_FEATURES = 2 * BENCH_CANDIDATES, BENCH_OBSTACLES = 3 };
 
 typedef struct bench {
     dem_model model;
@@ -21,11 +22,12 @@ typedef struct bench {
     segment segments[BENCH_FEATURES];
     obstacle_vertex vertices[BENCH_FEATURES];
     dem_index n_candidates;
-    contact_candidate candidates[BENCH_SITES];
+    contact_candidate candidates[BENCH_CANDIDATES];
 } bench;
 
-/** n free nodes of mass 1 at rest in the origin, their sites, and no edges. Stays where it is: it points to itself.
- *  Steps so long that nothing draws a contact back. Obstacle 0 is smooth, 1 has Coulomb's friction, 2 the law (10). */
+/** n free nodes of mass 1 at rest in the origin, their candidates, and no edges. Stays where it is: it points to
+ *  itself. Steps so long that nothing draws a contact back. Obstacle 0 is smooth, 1 has Coulomb's friction, 2 the law
+ *  (10). */
 static inline void bench_open(bench *b, dem_index n)
 {
     assert_true(n <= BENCH_NODES);
@@ -57,17 +59,17 @@ static inline void bench_mass(bench *b, dem_index node, double mass)
     b->inverse_mass[node] = 1.0 / mass;
 }
 
-/** An edge from node a to b; returns its site. */
+/** An edge from node a to b; returns its candidate. */
 static inline dem_index bench_edge(bench *b, dem_index from, dem_index to)
 {
-    assert_true(b->n_candidates < BENCH_SITES);
+    assert_true(b->n_candidates < BENCH_CANDIDATES);
     b->candidates[b->n_candidates] =
         (contact_candidate){.node = from, .other = to, .previous = -1, .next = -1, .behind = {-1, -1}};
     return b->n_candidates++;
 }
 
-/** Closes another contact of site k on an obstacle. A node lies on a segment whose normal has the angle `at`; an edge
- *  has a vertex at the fraction `at` of it, where it sticks if sign is 0. Positions must have been set. */
+/** Closes another contact of candidate k on an obstacle. A node lies on a segment whose normal has the angle `at`; an
+ *  edge has a vertex at the fraction `at` of it, where it sticks if sign is 0. Positions must have been set. */
 static inline contact_point *bench_touch(bench *b, dem_index k, dem_index obstacle, double at, int sign)
 {
     contact_candidate *candidate = &b->candidates[k];

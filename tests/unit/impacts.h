@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Impacts by hand: obstacles, nodes and edges at the depth at which they strike, and what comes of it. */
+/* Impacts by hand: obstacles, nodes and edges at the depth at which an impact is taken, and what comes of it. */
 #ifndef DEM_TEST_IMPACTS_H
 #define DEM_TEST_IMPACTS_H
 

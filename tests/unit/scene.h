@@ -89,7 +89,7 @@ static inline double *scene_v(scene *s)
     return s->y + 2 * s->model->lattice.n_nodes;
 }
 
-/* Puts a node elsewhere; after that no site sleeps. */
+/* Puts a node elsewhere; after that all candidates are active. */
 static inline void scene_put(scene *s, dem_index i, double x, double y, double u, double v)
 {
     vec2_put(s->y, i, (vec2){x, y});
@@ -106,7 +106,7 @@ static inline void scene_check(scene *s, dem_index i, double x, double y, double
     assert_close(velocity.y, v, 1e-14);
 }
 
-/* The site of the edge from node a to node b. */
+/* The candidate of the edge from node a to node b. */
 static inline dem_index scene_edge(const scene *s, dem_index a, dem_index b)
 {
     for (dem_index k = s->model->n_contact_nodes; k < s->c.set.n; k++)
@@ -127,10 +127,11 @@ static inline dem_status scene_resolve(scene *s, double t)
     return automaton_resolve(&s->c, t, s->y, &listener);
 }
 
-/* A step of length h from s->y with the same acceleration of all nodes, which the path's quintic follows exactly. */
+/* A step of length h from s->y with the same acceleration of all nodes, which the quintic of the dense output follows
+ * exactly. */
 typedef struct scene_flight {
     double f0[4 * SCENE_NODES], y1[4 * SCENE_NODES], f1[4 * SCENE_NODES], scratch[4 * SCENE_NODES];
-    dense_output path; /* points into this and into the scene */
+    dense_output dense; /* points into this and into the scene */
 } scene_flight;
 
 static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_flight *out)
@@ -145,7 +146,7 @@ static inline void scene_fly(const scene *s, vec2 a, double t0, double h, scene_
         vec2_put(out->f0, n + i, a);
         vec2_put(out->f1, n + i, a);
     }
-    out->path = (dense_output){
+    out->dense = (dense_output){
         *scene_layout(&s->c.set.scene), t0, t0 + h, t0 + h, s->y, out->f0, out->y1, out->f1, false, NULL};
 }
 

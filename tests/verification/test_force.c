@@ -234,7 +234,7 @@ static double furthest(const dem_state *a, const dem_state *b, dem_index n)
 
 static const double low[4] = {-1.0, -0.028, 1.0, -0.028};
 
-/* Both fall 1 mm at 200 m/s^2, strike and lie for a while. Roundings apart it is the same motion: 1e-9 of the spacing,
+/* Both fall 1 mm at 200 m/s^2, hit and lie for a while. Roundings apart it is the same motion: 1e-9 of the spacing,
  * and what a change in the last digits grows to in the impacts. */
 static void a_force_in_proportion_to_mass_is_a_weight(void **unused)
 {
@@ -383,7 +383,7 @@ static void a_floor_bears_weight_and_force(void **unused)
 /* ---- both methods of contact ---- */
 
 /* A trap drives the block into the floor again and again, until the first impacts have parted the runs. */
-static void a_trap_keeps_its_books(void **unused)
+static void the_ledger_of_a_trap_closes(void **unused)
 {
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3};
@@ -415,7 +415,7 @@ int main(void)
         cmocka_unit_test(a_drag_in_proportion_to_mass_is_mass_damping),
         cmocka_unit_test(forces_of_boundaries_do_the_same),
         cmocka_unit_test(a_floor_bears_weight_and_force),
-        cmocka_unit_test(a_trap_keeps_its_books),
+        cmocka_unit_test(the_ledger_of_a_trap_closes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

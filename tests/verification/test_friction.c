@@ -28,7 +28,7 @@ static double dot(const double a[2], const double b[2])
     return a[0] * b[0] + a[1] * b[1];
 }
 
-/* The books in a state that is seen, `way` after the last step along the incline. */
+/* The ledger in a state that is seen, `way` after the last step along the incline. */
 static void look(slide *s, const dem_simulation *simulation, const dem_state *state, double way)
 {
     const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
@@ -110,7 +110,7 @@ static double acceleration(double mu)
 }
 
 /* Sums over at most 1000 steps of quantities of order 100, each with a rounding error of 1e-16 of that. */
-static void check_books(const slide *s)
+static void check_ledger(const slide *s)
 {
     assert_close(s->balance, 0.0, 1e-11);
     assert_close(s->work, 0.0, 1e-11);
@@ -140,7 +140,7 @@ static void a_block_above_the_friction_angle_slides_down_from_rest_with_the_exac
         assert_int_equal(state.contacts[0].state, DEM_CONTACT_SLIP);
         assert_close(state.contacts[0].force, mass * g * cos(M_PI / 6.0), 1e-12);
         assert_close(state.contacts[0].friction, -mu[k] * mass * g * cos(M_PI / 6.0), 1e-12);
-        check_books(&s);
+        check_ledger(&s);
         assert_close(s.drift, 0.0, 1e-10); /* rtol times the energies, 50 J */
         support_close(&s.run);
     }
@@ -168,7 +168,7 @@ static void a_block_below_the_friction_angle_sticks_from_the_start(void **unused
         assert_close(state.contacts[0].friction, -mass * g * sine, 1e-12);
         assert_int_equal(dem_simulation_counts(s.run.simulation).slips, 0);
         assert_close(state.energy.friction, 0.0, 0.0);
-        check_books(&s);
+        check_ledger(&s);
         support_close(&s.run);
     }
 }
@@ -219,7 +219,7 @@ static void a_block_sent_up_turns_back_where_friction_cannot_hold_it(void **unus
             assert_close(s.events[k].t, turn, 1e-10);
             assert_int_equal(s.events[k].state, DEM_CONTACT_SLIP);
         }
-    check_books(&s);
+    check_ledger(&s);
     assert_close(s.drift, 0.0, 1e-10);
     support_close(&s.run);
 }
@@ -252,7 +252,7 @@ static void a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_
         assert_close(dot(state.v, s.tangent), 5.808787237, 1e-7);
         assert_close(dot(state.v, s.tangent), 1.0 + 1.5 * acceleration(0.2), 1e-7);
         check_impulses(&s);
-        check_books(&s);
+        check_ledger(&s);
         /* rtol times the energies, and friction across the penetration tolerance of each impact: mu m g 1e-13 m */
         assert_close(s.drift, 0.0, 1e-10);
         support_close(&s.run);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is the error estimate of a step with impacts in it honest? A block strikes a floor, or an uneven one. Every accepted
+/* Is the error estimate of a step with impacts in it honest? A block hits a floor, or an uneven one. Every accepted
  * step is redone from its start by the parts that make it, for the estimates that it was accepted by: GSL's rkf45,
  * which is Fehlberg's, for the free step, and the queue for its events; and by the root-located method at rtol 1e-12,
  * for its true error. All in the same norm, over all unknowns and in units of the tolerance. */
@@ -208,7 +208,7 @@ static void make_parts(parts *p, const support_run *run)
     p->acting = (forces){.model = p->model, .gravity = {o->gravity[0], o->gravity[1]}};
 }
 
-/* The run, its steps told and kept. */
+/* The run, its steps as they are reported, and kept. */
 static void run_block(support_run *run, record *r, const drop *d)
 {
     const dem_material rubber = {
@@ -272,7 +272,7 @@ static double judge_run(const drop *d)
     return by_free_step.worst;
 }
 
-/* The first impact strikes a body at rest in itself, whose free step has no error: without the estimate of the events
+/* The first impact hits a body at rest in itself, whose free step has no error: without the estimate of the events
  * it would be accepted however wrong it is. */
 static void what_is_estimated_is_what_is_wrong(void **state)
 {
@@ -285,7 +285,7 @@ static void what_is_estimated_is_what_is_wrong(void **state)
     assert_true(missed > 1e3);
 }
 
-/* A step that begins a time tau after a node was struck, at rest but for that, is estimated by h^5 K^3 v (tau (1/104 -
+/* A step that begins a time tau after a node was hit, at rest but for that, is estimated by h^5 K^3 v (tau (1/104 -
  * 1/120) - h/2080), and wrong by h^6 K^3 v (1/720 - 1/2080): for tau = 0.375 h nothing is seen. So events say how long
  * the next step may be. A slow body, for which velocities count most, meets the floor at any share of a step. */
 static void the_step_after_an_impact_is_not_blind(void **state)

@@ -102,7 +102,7 @@ static void a_free_body_moves_alike(void **state)
 }
 
 /* Plastic impacts: rounding is not amplified from one to the next. */
-static void a_body_that_strikes_the_ground_moves_alike(void **state)
+static void a_body_that_hits_the_ground_moves_alike(void **state)
 {
     const double points[4] = {-1.0, -0.004, 1.0, -0.004};
     const dem_obstacle ground = {.n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3};
@@ -192,7 +192,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_free_body_moves_alike),
-        cmocka_unit_test(a_body_that_strikes_the_ground_moves_alike),
+        cmocka_unit_test(a_body_that_hits_the_ground_moves_alike),
         cmocka_unit_test(energies_and_mean_motion_are_the_same_to_the_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

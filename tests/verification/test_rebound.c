@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The paper's three bodies, contacts taken where they happen and by stops of the whole body: they rebound alike, with
- * the same books and counts. `test_rebound FOLDER [SPACING]`: of the decks; m, 5 mm by default. */
+ * the same ledger and counts. `test_rebound FOLDER [SPACING]`: of the decks; m, 5 mm by default. */
 #include <stdlib.h>
 
 #include "coarse.h"
@@ -54,7 +54,7 @@ static void run_deck(const char *name, double restitution, dem_contact_method me
     deck_free(&d);
 }
 
-/* Plastic bodies are not sensitive: 1e-3 of the rebound. Elastic ones, struck a thousand times, are, to the last digit:
+/* Plastic bodies are not sensitive: 1e-3 of the rebound. Elastic ones, hit a thousand times, are, to the last digit:
  * what halving the spacing makes of the rebound, 3 percent. `share` of the impacts. */
 static void compare(const char *name, double restitution, double share)
 {

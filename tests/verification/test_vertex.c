@@ -258,7 +258,7 @@ static double asymmetry(const dem_lattice *l, const double *x)
 }
 
 typedef struct verdict {
-    double apex, node, balance, told, skew, closure, rebound;
+    double apex, node, balance, reported, skew, closure, rebound;
     double tilt; /* of the first impact's normal from the vertical */
     dem_index lasting;
     dem_counts counts;
@@ -293,7 +293,7 @@ static verdict run_wedge(const wedge *c, double t_end)
     const verdict v = {.apex = w.deepest_apex / penetration_tolerance,
                        .node = w.deepest_node / penetration_tolerance,
                        .balance = w.worst_balance,
-                       .told = imbalance(&w, run.simulation, w.impulse),
+                       .reported = imbalance(&w, run.simulation, w.impulse),
                        .skew = asymmetry(dem_model_lattice(run.model), state.x) / spacing,
                        .closure = fabs(dem_energy_ledger(state.energy) - before) / kinetic,
                        .rebound = dem_simulation_body(run.simulation, 0).velocity[1],
@@ -304,12 +304,13 @@ static verdict run_wedge(const wedge *c, double t_end)
     outline_free(&w.body);
     support_close(&run);
     print_message("# flank %g, at %g, eta %g, mu %g, rtol %g, %d cells: apex %.3g node %.3g penetration tolerances, "
-                  "balance %.1e, told %.1e, "
+                  "balance %.1e, reported %.1e, "
                   "skew %.1e, closure %.1e, rebound %.3f, %lld impacts (%lld of vertices), %lld passings, %lld late, "
                   "%lld lasting\n",
                   c->flank, c->at / spacing, c->restitution, c->friction, c->rtol, c->cells, v.apex, v.node, v.balance,
-                  v.told, v.skew, v.closure, v.rebound, (long long)v.counts.impacts, (long long)v.counts.vertex_impacts,
-                  (long long)v.counts.passings, (long long)v.counts.late, (long long)v.lasting);
+                  v.reported, v.skew, v.closure, v.rebound, (long long)v.counts.impacts,
+                  (long long)v.counts.vertex_impacts, (long long)v.counts.passings, (long long)v.counts.late,
+                  (long long)v.lasting);
     return v;
 }
 
@@ -321,7 +322,7 @@ static verdict check_wedge(const wedge *c, double t_end)
     const double rounding = 1e-12 * (1.0 + 0.01 * (double)v.counts.events);
     assert_true(v.apex < 2.0 && v.node < 2.0);
     assert_true(v.balance < rounding);
-    if (v.lasting == 0) assert_true(v.told < rounding);
+    if (v.lasting == 0) assert_true(v.reported < rounding);
     assert_true(v.closure < 1e3 * c->rtol);
     assert_true(v.counts.vertex_impacts >= 1);
     return v;
@@ -365,8 +366,8 @@ static void an_apex_anywhere_under_the_face_never_sinks_in(void **unused)
             }
 }
 
-/* The apex hits the middle node: what a perfect symmetry leaves open is decided by the order of sites, so there is no
- * mirror image to compare with. The face lies on the apex, not the node on a flank: the first normal is upright. */
+/* The apex hits the middle node: what a perfect symmetry leaves open is decided by the order of candidates, so there is
+ * no mirror image to compare with. The face lies on the apex, not the node on a flank: the first normal is upright. */
 static void an_apex_exactly_under_the_middle_node_never_sinks_in(void **unused)
 {
     (void)unused;

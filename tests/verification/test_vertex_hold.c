@@ -211,7 +211,7 @@ static dem_status weigh(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-static void watch_ledger(const support_run *run, ledger *l)
+static void observe_ledger(const support_run *run, ledger *l)
 {
     const dem_observer observer = {.step = weigh, .context = l};
     *l = (ledger){dem_energy_ledger(dem_simulation_energy(run->simulation)), 0.0};
@@ -240,11 +240,11 @@ static int follow(triangle *q, double *y, double t_end)
 {
     enum { looks = 40 };
     support_run run;
-    ledger books;
+    ledger kept;
     double worst = 0.0;
     int changes = 0;
     open_triangle(&run, q, y, 1e-11);
-    watch_ledger(&run, &books);
+    observe_ledger(&run, &kept);
     for (int k = 1; k <= looks; k++) {
         changes += integrate_changes(q, y, (k - 1) * t_end / looks, k * t_end / looks);
         const dem_state state = support_at(&run, k * t_end / looks);
@@ -254,9 +254,9 @@ static int follow(triangle *q, double *y, double t_end)
     const dem_counts counts = dem_simulation_counts(run.simulation);
     print_message("# sign %d, mu %g: off by %.1e m, ledger by %.1e J, %lld steps, %lld events, %lld slips, %lld "
                   "sticks, %d changes\n",
-                  q->slide, q->mu, worst, books.worst, (long long)counts.steps, (long long)counts.events,
+                  q->slide, q->mu, worst, kept.worst, (long long)counts.steps, (long long)counts.events,
                   (long long)counts.slips, (long long)counts.sticks, changes);
-    assert_true(books.worst < 1e-8);
+    assert_true(kept.worst < 1e-8);
     assert_in_range(counts.slips + counts.sticks - changes, 0, 1); /* what starts at rest, to rounding, sticks */
     assert_int_equal(counts.releases + counts.passings, 0);
     for (dem_index k = 0; k < run.n_impacts; k++) /* at the start it may approach by rounding */

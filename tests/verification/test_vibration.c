@@ -36,7 +36,7 @@ static void with_gsl(dem_lattice *block, dem_method method, double h, double *y)
     triplets_start(block, y);
     if (method == DEM_METHOD_VERLET)
         two_step_formula(block, h, y);
-    else if (method == DEM_METHOD_RK4) /* GSL's takes two steps of half the length it is told */
+    else if (method == DEM_METHOD_RK4) /* GSL's takes two steps of half the length it is given */
         triplets_steps(block, gsl_odeiv2_step_rk4, n_steps / 2, 2.0 * h, y);
     else
         triplets_steps(block, gsl_odeiv2_step_rkf45, n_steps, h, y);

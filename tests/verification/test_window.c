@@ -183,7 +183,7 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
 
 /* Of the rebound: 1e-3 where impacts take energy; with eta = 1 the motion is chaotic and only its mean counts, to which
  * halving the spacing makes a difference of several percent. */
-static void a_block_keeps_its_books_and_its_depth_with_any_window(void **state)
+static void a_block_keeps_its_ledger_closed_and_its_depth_with_any_window(void **state)
 {
     static const double etas[3] = {0.0, 0.5, 1.0}, kappas[4] = {0.01, -1.0, 0.3, 1.0}, share[3] = {1e-3, 1e-3, 0.03};
     (void)state;
@@ -208,7 +208,7 @@ int main(void)
         cmocka_unit_test(what_is_taken_together_rebounds_where_it_is),
         cmocka_unit_test(what_is_taken_together_without_rebound_stays_above_until_it_has_fallen),
         cmocka_unit_test(a_hop_of_less_than_twice_the_window_is_the_last),
-        cmocka_unit_test(a_block_keeps_its_books_and_its_depth_with_any_window),
+        cmocka_unit_test(a_block_keeps_its_ledger_closed_and_its_depth_with_any_window),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

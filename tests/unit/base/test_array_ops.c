@@ -115,7 +115,7 @@ static void squares_of_all_sizes_are_exact(void **state)
         }
 }
 
-static void the_largest_square_is_known_and_what_is_no_number_is_told(void **state)
+static void the_largest_square_is_known_and_what_is_no_number_is_reported(void **state)
 {
     (void)state;
     for (int t = 0; t < n_tables; t++)
@@ -162,7 +162,7 @@ int main(void)
         cmocka_unit_test(squares_add_up),
         cmocka_unit_test(the_order_of_squares_does_not_matter),
         cmocka_unit_test(squares_of_all_sizes_are_exact),
-        cmocka_unit_test(the_largest_square_is_known_and_what_is_no_number_is_told),
+        cmocka_unit_test(the_largest_square_is_known_and_what_is_no_number_is_reported),
         cmocka_unit_test(verlets_step_is_drift_and_kick),
     };
     return cmocka_run_group_tests(tests, fill, NULL);

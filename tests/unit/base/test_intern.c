@@ -75,7 +75,7 @@ static void a_list_is_held_once(void **state)
 }
 
 /* 0.0 and -0.0 are equal numbers, but not the same. */
-static void lists_are_told_apart_by_their_bits(void **state)
+static void lists_are_distinguished_by_their_bits(void **state)
 {
     (void)state;
     const double plus = 0.0, minus = -0.0;
@@ -102,7 +102,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_list_is_held_once),
-        cmocka_unit_test(lists_are_told_apart_by_their_bits),
+        cmocka_unit_test(lists_are_distinguished_by_their_bits),
         cmocka_unit_test(an_empty_pool_settles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

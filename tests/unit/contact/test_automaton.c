@@ -351,7 +351,7 @@ static void a_closed_node_is_put_back_where_rounding_has_taken_it_from(void **st
 /* ---- slip and stick ---- */
 
 /* N = 20 N and 10 N of friction, which take 10 W from 1 m/s, and nothing where it sticks. */
-static void forces_and_friction_power_are_told_as_rates(void **state)
+static void forces_and_friction_power_are_reported_as_rates(void **state)
 {
     const double u[3] = {1.0, -1.0, 0.0}, wind[3] = {0.0, 0.0, 0.3 * g}, T[3] = {-10.0, 10.0, -6.0};
     (void)state;
@@ -569,10 +569,10 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
 /* ---- the check after a step ---- */
 
 /* The first may reach the floor in a step of 0.01 s, the third is inactive. */
-static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
+static void root_functions_of_all_candidates_stand_one_after_the_other(void **state)
 {
     scene s;
-    double guards[3 * CANDIDATE_ROOTS];
+    double roots[3 * CANDIDATE_ROOTS];
     (void)state;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 1.0, 0.25, 0.0, -20.0);
@@ -581,7 +581,7 @@ static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
     assert_ok(scene_take_up(&s));
     for (int k = 0; k < 3; k++)
         s.c.set.list[k].clearance.distance = 0.0; /* else a lower bound would do for their gaps */
-    automaton_root_functions(&s.c, 0.2, s.y, guards);
+    automaton_root_functions(&s.c, 0.2, s.y, roots);
     const double expected[3 * CANDIDATE_ROOTS] = {0.25 + penetration_tolerance,
                                                   1.0,
                                                   1.0,
@@ -594,7 +594,7 @@ static void the_guards_of_all_sites_stand_one_after_the_other(void **state)
                                                   1.0,
                                                   1.0,
                                                   1.0};
-    for (int k = 0; k < 3 * CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-15);
+    for (int k = 0; k < 3 * CANDIDATE_ROOTS; k++) assert_close(roots[k], expected[k], 1e-15);
     scene_close(&s);
 }
 
@@ -618,7 +618,7 @@ int main(void)
         cmocka_unit_test(a_held_node_lets_go_of_the_wall_that_would_pull),
         cmocka_unit_test(a_corner_holds_only_what_is_at_rest_in_it),
         cmocka_unit_test(a_closed_node_is_put_back_where_rounding_has_taken_it_from),
-        cmocka_unit_test(forces_and_friction_power_are_told_as_rates),
+        cmocka_unit_test(forces_and_friction_power_are_reported_as_rates),
         cmocka_unit_test(an_edge_may_touch_a_vertex_but_not_start_with_it_inside),
         cmocka_unit_test(at_the_start_a_touching_edge_is_in_contact),
         cmocka_unit_test(at_the_start_an_edge_may_touch_two_vertices),
@@ -628,7 +628,7 @@ int main(void)
         cmocka_unit_test(what_passes_a_vertex_within_the_window_is_not_reflected),
         cmocka_unit_test(an_early_reflection_takes_what_an_impact_takes_in_any_order),
         cmocka_unit_test(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early),
-        cmocka_unit_test(the_guards_of_all_sites_stand_one_after_the_other),
+        cmocka_unit_test(root_functions_of_all_candidates_stand_one_after_the_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ static void a_followed_step_refreshes_the_force_and_tells_its_rate(void **state)
     scene_put(&s, 1, 0.0, 1.19, 0.5, 2.0);
     a[1] += 19.0 / 2.0;
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
-    automaton_end_step(&s.c, &f.path, s.y);
+    automaton_end_step(&s.c, &f.dense, s.y);
     assert_close(s.c.set.list[0].closed[0].force, 1.0, 1e-13);
     automaton_constrain(&s.c, 0.0, s.y, a);
     scene_add_rates(&s, rate);
@@ -51,10 +51,10 @@ static void a_closed_edge_that_has_opened_is_put_back(void **state)
     assert_close(0.25 * scene_v(&s)[1] + 0.75 * scene_v(&s)[3], 0.0, 1e-15);
     assert_close(scene_v(&s)[0], 0.5, 1e-7);
     assert_int_equal(s.c.set.list[scene_edge(&s, 0, 1)].n_closed, 1);
-    const contact_ledger *books = &s.c.set.ledger;
-    assert_close(books->impulse[1], -4.0 * 0.75e-3, 1e-8);
-    assert_close(books->projection, -40.0 * 30.0 * penetration_tolerance, 1e-3 * penetration_tolerance);
-    assert_close(books->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
+    const contact_ledger *ledger = &s.c.set.ledger;
+    assert_close(ledger->impulse[1], -4.0 * 0.75e-3, 1e-8);
+    assert_close(ledger->projection, -40.0 * 30.0 * penetration_tolerance, 1e-3 * penetration_tolerance);
+    assert_close(ledger->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
     assert_int_equal(s.n_events, 1);
     assert_close(s.c.set.projected, 30.0 * penetration_tolerance, 1e-9 * penetration_tolerance);
     scene_close(&s);
@@ -65,7 +65,7 @@ static void a_closed_edge_that_has_opened_is_put_back(void **state)
 static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
 {
     scene s;
-    double guards[CANDIDATE_ROOTS];
+    double roots[CANDIDATE_ROOTS];
     scene_flight f;
     (void)state;
     open_scene(&s, 1, &half, 1);
@@ -73,15 +73,15 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(s.c.set.list[0].behind[0], 0);
-    automaton_root_functions(&s.c, 0.2, s.y, guards);
-    assert_close(guards[0], 1.0, 0.0); /* it sleeps */
+    automaton_root_functions(&s.c, 0.2, s.y, roots);
+    assert_close(roots[0], 1.0, 0.0); /* it is inactive */
     scene_put(&s, 0, -3.0, -0.01, 1.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
-    automaton_end_step(&s.c, &f.path, s.y);
+    automaton_end_step(&s.c, &f.dense, s.y);
     assert_int_equal(s.c.set.ledger.counts.behind, 1);
     scene_put(&s, 0, -3.0, 0.01, 1.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
-    automaton_end_step(&s.c, &f.path, s.y);
+    automaton_end_step(&s.c, &f.dense, s.y);
     assert_int_equal(s.c.set.ledger.counts.behind, 0);
     assert_int_equal(s.c.set.list[0].behind[0], -1);
     assert_int_equal(s.n_impacts, 0);
@@ -100,8 +100,8 @@ static void a_step_is_cut_at_the_first_contact_that_was_overlooked(void **state)
     scene_put(&s, 1, 1.0, 0.3, 0.0, -1.0);
     scene_put(&s, 2, 2.0, 0.2, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, 0.2 + penetration_tolerance,
+    assert_true(automaton_check_step(&s.c, &f.dense, false, f.scratch));
+    assert_close(f.dense.end, 0.2 + penetration_tolerance,
                  1e-13); /* to which times are located: 100 units of rounding */
     assert_int_equal(s.c.set.ledger.counts.late, 1);
     scene_close(&s);
@@ -116,15 +116,15 @@ static void a_contact_at_the_root_that_ends_a_step_is_no_other(void **state)
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 1.0, 0.2, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    f.path.end = (0.2 + penetration_tolerance) * (1.0 + 1e-14);
-    const double end = f.path.end;
-    assert_false(automaton_check_step(&s.c, &f.path, true, f.scratch));
-    assert_close(f.path.end, end, 0.0);
-    assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, 0.2 + penetration_tolerance, 1e-13);
-    f.path.end = 0.21;
-    assert_true(automaton_check_step(&s.c, &f.path, true, f.scratch)); /* well before a root */
-    assert_close(f.path.end, 0.2 + penetration_tolerance, 1e-13);
+    f.dense.end = (0.2 + penetration_tolerance) * (1.0 + 1e-14);
+    const double end = f.dense.end;
+    assert_false(automaton_check_step(&s.c, &f.dense, true, f.scratch));
+    assert_close(f.dense.end, end, 0.0);
+    assert_true(automaton_check_step(&s.c, &f.dense, false, f.scratch));
+    assert_close(f.dense.end, 0.2 + penetration_tolerance, 1e-13);
+    f.dense.end = 0.21;
+    assert_true(automaton_check_step(&s.c, &f.dense, true, f.scratch)); /* well before a root */
+    assert_close(f.dense.end, 0.2 + penetration_tolerance, 1e-13);
     scene_close(&s);
 }
 
@@ -136,8 +136,8 @@ static void a_step_without_contacts_is_left_as_it_is(void **state)
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.0, 1.5, 0.0, -1.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-    assert_false(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, 1.0, 0.0);
+    assert_false(automaton_check_step(&s.c, &f.dense, false, f.scratch));
+    assert_close(f.dense.end, 1.0, 0.0);
     assert_int_equal(s.c.set.ledger.counts.late, 0);
     scene_close(&s);
 }
@@ -150,25 +150,25 @@ static void a_closed_contact_that_should_have_ended_cuts_the_step(void **state)
     slide(&s, &half, 3.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
     assert_true(
-        automaton_check_step(&s.c, &f.path, true, f.scratch)); /* though it ends at the root of another candidate */
-    assert_close(f.path.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
+        automaton_check_step(&s.c, &f.dense, true, f.scratch)); /* though it ends at the root of another candidate */
+    assert_close(f.dense.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
     scene_close(&s);
 }
 
-/* What the guards at the end of the step have said, the check does not ask again: that all is quiet, or not. */
-static void the_check_goes_by_the_guards_at_the_end_of_the_step(void **state)
+/* The check does not evaluate again the root functions at the end of the step: it knows whether all were positive. */
+static void the_check_goes_by_the_root_functions_at_the_end_of_the_step(void **state)
 {
     (void)state;
     for (int ends = 0; ends <= 1; ends++) {
         scene s;
         scene_flight f;
-        double guards[CANDIDATE_ROOTS];
+        double roots[CANDIDATE_ROOTS];
         slide(&s, &half, 3.0, ends ? 2.0 : 0.5);
         scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-        automaton_root_functions(&s.c, 1.0, f.y1, guards);
+        automaton_root_functions(&s.c, 1.0, f.y1, roots);
         assert_int_equal(s.c.quiet, !ends);
-        assert_int_equal(automaton_check_step(&s.c, &f.path, false, f.scratch), ends);
-        if (ends) assert_close(f.path.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
+        assert_int_equal(automaton_check_step(&s.c, &f.dense, false, f.scratch), ends);
+        if (ends) assert_close(f.dense.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
         scene_close(&s);
     }
 }
@@ -188,8 +188,8 @@ static void what_goes_round_a_free_end_at_a_distance_is_behind_it(void **state)
     s.c.set.list[0].clearance.inactive = false;
     for (int k = 0; k < 2; k++) {
         scene_fly(&s, (vec2){0.0, 0.0}, 0.01 * k, 0.01, &f);
-        automaton_begin_step(&s.c, &f.path, f.scratch);
-        assert_true(isinf(automaton_next_change(&s.c, &f.path, 0, f.path.t0, f.scratch)) != 0);
+        automaton_begin_step(&s.c, &f.dense, f.scratch);
+        assert_true(isinf(automaton_next_change(&s.c, &f.dense, 0, f.dense.t0, f.scratch)) != 0);
         assert_int_equal(s.c.set.list[0].behind[0], k - 1);
         memcpy(s.y, f.y1, sizeof s.y);
     }
@@ -209,7 +209,7 @@ int main(void)
         cmocka_unit_test(a_contact_at_the_root_that_ends_a_step_is_no_other),
         cmocka_unit_test(a_step_without_contacts_is_left_as_it_is),
         cmocka_unit_test(a_closed_contact_that_should_have_ended_cuts_the_step),
-        cmocka_unit_test(the_check_goes_by_the_guards_at_the_end_of_the_step),
+        cmocka_unit_test(the_check_goes_by_the_root_functions_at_the_end_of_the_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

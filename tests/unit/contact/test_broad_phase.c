@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* broad_phase.c: who sleeps, until when, and who wakes in time. */
+/* broad_phase.c: which candidates are inactive, until when, and that they become active in time. */
 #include "unit/scene.h"
 
 #include "contact/automaton_step.h"
@@ -45,7 +45,7 @@ static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
 
 /* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty penetration tolerances, go off what is
  * clear. */
-static void a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes(void **state)
+static void a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive(void **state)
 {
     const double far = 0.125 + 20.0 * penetration_tolerance, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
     scene s;
@@ -112,13 +112,13 @@ static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
     scene_put(&s, 0, 0.0, 3.0, 0.0, -1.0);
     look(&s, 1.0);
     scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, 0.01, &f);
-    assert_false(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    automaton_end_step(&s.c, &f.path, f.y1);
+    assert_false(automaton_check_step(&s.c, &f.dense, false, f.scratch));
+    automaton_end_step(&s.c, &f.dense, f.y1);
     assert_close(s.c.broad_phase.travelled, 2.0 * 0.01 * 1.1, 1e-16);
     scene_close(&s);
 }
 
-/* Body far above: its edges sleep as its nodes do, and wake before the ridge can be reached. */
+/* Body far above: its edges are inactive as its nodes are, and active again before the ridge can be reached. */
 static void edges_sleep_too(void **state)
 {
     scene s;
@@ -136,7 +136,7 @@ static void edges_sleep_too(void **state)
 
 /* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the
  * crossing is found all the same, and the node hits. */
-static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(void **state)
+static void an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it(void **state)
 {
     const double x[2] = {0.0, 2e-4};
     scene s;
@@ -148,13 +148,13 @@ static void a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it(vo
     assert_int_equal(s.c.broad_phase.n, 0); /* at rest nothing is in reach */
     scene_fly(&s, (vec2){0.0, -scene_gravity}, 0.0, max_step, &f);
     assert_true(f.y1[1] < 0.0);
-    assert_true(automaton_check_step(&s.c, &f.path, false, f.scratch));
-    assert_close(f.path.end, sqrt(2.0 * (2e-4 + penetration_tolerance) / scene_gravity), 1e-13);
-    dense_output_state(&f.path, f.path.end, y);
-    automaton_end_step(&s.c, &f.path, y);
+    assert_true(automaton_check_step(&s.c, &f.dense, false, f.scratch));
+    assert_close(f.dense.end, sqrt(2.0 * (2e-4 + penetration_tolerance) / scene_gravity), 1e-13);
+    dense_output_state(&f.dense, f.dense.end, y);
+    automaton_end_step(&s.c, &f.dense, y);
     memcpy(s.y, y, sizeof y);
     assert_int_equal(s.c.set.list[0].behind[0], -1);
-    assert_ok(scene_resolve(&s, f.path.end));
+    assert_ok(scene_resolve(&s, f.dense.end));
     assert_int_equal(s.n_impacts, 1);
     scene_close(&s);
 }
@@ -192,12 +192,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fastest_of_the_nodes_that_may_touch_counts),
-        cmocka_unit_test(a_site_sleeps_that_is_further_than_a_step_and_a_quarter_goes),
+        cmocka_unit_test(a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive),
         cmocka_unit_test(what_is_closed_never_sleeps),
         cmocka_unit_test(a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough),
         cmocka_unit_test(a_step_counts_as_twice_what_the_fastest_goes),
         cmocka_unit_test(edges_sleep_too),
-        cmocka_unit_test(a_sleeper_that_is_driven_on_to_the_floor_within_a_step_strikes_it),
+        cmocka_unit_test(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it),
         cmocka_unit_test(a_node_found_inside_has_come_round_a_free_end_and_may_come_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* candidate.c: gaps and guards of one contact candidate in each of its states, and what is due. Numbers are worked out
- * by hand; tolerances of 1e-15 to 1e-13 are rounding. */
+/* candidate.c: gaps and root functions of one contact candidate in each of its states, and what is due. Numbers are
+ * worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "obstacle/point_gap.h"
 #include "unit/scene.h"
 
@@ -32,22 +32,22 @@ static const contact_scene *open_node(scene *s, const dem_obstacle *obstacles, d
     return &s->c.set.scene;
 }
 
-static contact_candidate free_site(void)
+static contact_candidate free_candidate(void)
 {
     return (contact_candidate){.node = 0, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
 }
 
-static contact_candidate closed_site(dem_index feature, int sign)
+static contact_candidate closed_candidate(dem_index feature, int sign)
 {
-    contact_candidate candidate = free_site();
+    contact_candidate candidate = free_candidate();
     candidate.n_closed = 1;
     candidate.closed[0] = (contact_point){.feature = feature, .slide = sign};
     return candidate;
 }
 
-static contact_candidate held_site(void)
+static contact_candidate held_candidate(void)
 {
-    contact_candidate candidate = closed_site(0, 1);
+    contact_candidate candidate = closed_candidate(0, 1);
     candidate.n_closed = 2;
     candidate.closed[1] = (contact_point){.feature = 1, .slide = 1};
     candidate.closed[0].held = candidate.closed[1].held = true;
@@ -60,28 +60,29 @@ typedef struct node_state {
     contact_force force[2];
 } node_state;
 
-static void check_guards(const contact_scene *world, const contact_candidate *candidate, const node_state *s,
-                         const double expected[CANDIDATE_ROOTS])
+static void check_roots(const contact_scene *world, const contact_candidate *candidate, const node_state *s,
+                        const double expected[CANDIDATE_ROOTS])
 {
-    double guards[CANDIDATE_ROOTS] = {77.0, 77.0, 77.0, 77.0};
-    candidate_root_functions(world, candidate, s->force, (scene_state){0.0, s->x, s->v}, guards);
-    for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-13);
+    double roots[CANDIDATE_ROOTS] = {77.0, 77.0, 77.0, 77.0};
+    candidate_root_functions(world, candidate, s->force, (scene_state){0.0, s->x, s->v}, roots);
+    for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(roots[k], expected[k], 1e-13);
 }
 
-/* ---- guards of a node ---- */
+/* ---- root functions of a node ---- */
 
-static void check_free(const contact_scene *world, const contact_candidate *candidate, double x, double y, double guard)
+static void check_free(const contact_scene *world, const contact_candidate *candidate, double x, double y,
+                       double expected)
 {
     const node_state s = {{x, y}, {0.0, 0.0}, {{0.0, 0.0}, {0.0, 0.0}}};
-    check_guards(world, candidate, &s, (double[]){guard, 1.0, 1.0, 1.0});
+    check_roots(world, candidate, &s, (double[]){expected, 1.0, 1.0, 1.0});
 }
 
-static void a_free_site_watches_its_gap_down_to_the_penetration_tolerance(void **state)
+static void a_free_candidate_has_a_root_at_the_penetration_tolerance(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    const contact_candidate candidate = free_site();
+    const contact_candidate candidate = free_candidate();
     check_free(world, &candidate, 1.0, 0.25, 0.25 + penetration_tolerance);
     check_free(world, &candidate, 1.0, 0.0, penetration_tolerance);
     check_free(world, &candidate, 1.0, -penetration_tolerance, 0.0);
@@ -90,43 +91,43 @@ static void a_free_site_watches_its_gap_down_to_the_penetration_tolerance(void *
     scene_close(&s);
 }
 
-static void far_from_everything_its_guard_is_finite(void **state)
+static void far_from_everything_its_root_function_is_finite(void **state)
 {
     scene s, empty;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
-    const contact_candidate candidate = free_site();
+    const contact_candidate candidate = free_candidate();
     check_free(world, &candidate, -50.0, 1.0, 1.0 + penetration_tolerance);
     check_free(nothing, &candidate, 0.0, 0.0, 1.0 + penetration_tolerance);
     scene_close(&s);
     scene_close(&empty);
 }
 
-static void a_site_behind_an_obstacle_does_not_see_it(void **state)
+static void a_candidate_behind_an_obstacle_does_not_see_it(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    contact_candidate candidate = free_site();
+    contact_candidate candidate = free_candidate();
     candidate.behind[0] = 0;
     check_free(world, &candidate, 3.5, -0.2, 1.0 + penetration_tolerance);
     check_free(world, &candidate, 3.5, 2.5, 0.5 + penetration_tolerance);
-    candidate = closed_site(1, 1);
+    candidate = closed_candidate(1, 1);
     candidate.behind[0] = 0;
     const node_state at = {{3.5, 3.0}, {0.0, 0.0}, {{-20.0, 0.0}, {0.0, 0.0}}};
-    check_guards(world, &candidate, &at,
-                 (double[]){1.0 + penetration_tolerance, -20.0, 0.5 + penetration_tolerance, 1.0});
+    check_roots(world, &candidate, &at,
+                (double[]){1.0 + penetration_tolerance, -20.0, 0.5 + penetration_tolerance, 1.0});
     scene_close(&s);
 }
 
 /* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + penetration tolerance; 3 m to the ceiling
  * count as 1. Without friction the speed of sliding does not matter. */
-static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state)
+static void a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    const contact_candidate on_floor = closed_site(0, 1), on_ceiling = closed_site(1, 1);
+    const contact_candidate on_floor = closed_candidate(0, 1), on_ceiling = closed_candidate(1, 1);
     const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
     const double expected[5][CANDIDATE_ROOTS] = {{1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, 1.0},
                                                  {1.0 + penetration_tolerance, 20.0, 0.25 + penetration_tolerance, 1.0},
@@ -135,56 +136,56 @@ static void a_sliding_site_watches_reaction_end_and_other_obstacles(void **state
                                                  {1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, 1.0}};
     for (int k = 0; k < 5; k++) {
         const node_state at = {{x[k], y[k]}, {-3.0, 0.0}, {{20.0, 0.0}, {-7.0, -7.0}}};
-        check_guards(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
+        check_roots(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
     }
     scene_close(&s);
 }
 
 /* The tangent of the floor is (1, 0). */
-static void a_site_that_slides_with_friction_watches_its_speed_too(void **state)
+static void a_candidate_that_slides_with_friction_has_one_of_its_speed_too(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_candidate along = closed_site(0, 1), against = closed_site(0, -1);
+    const contact_candidate along = closed_candidate(0, 1), against = closed_candidate(0, -1);
     const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
     const node_state backwards = {{3.0, 0.0}, {-0.5, 0.0}, {{20.0, 10.0}, {0.0, 0.0}}};
-    check_guards(world, &along, &forwards,
-                 (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, 0.75});
-    check_guards(world, &along, &backwards,
-                 (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, -0.5});
-    check_guards(world, &against, &forwards,
-                 (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, -0.75});
-    check_guards(world, &against, &backwards,
-                 (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, 0.5});
+    check_roots(world, &along, &forwards,
+                (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, 0.75});
+    check_roots(world, &along, &backwards,
+                (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, -0.5});
+    check_roots(world, &against, &forwards,
+                (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, -0.75});
+    check_roots(world, &against, &backwards,
+                (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, 0.5});
     scene_close(&s);
 }
 
 /* mu = 1/2: 20 N allow 10 N, either way. The end of the floor is of no matter to it. */
-static void a_sticking_site_watches_its_grip(void **state)
+static void a_sticking_candidate_has_a_root_function_of_its_grip(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_candidate candidate = closed_site(0, 0);
+    const contact_candidate candidate = closed_candidate(0, 0);
     const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
     for (int k = 0; k < 4; k++) {
         const node_state at = {{4.5, 0.0}, {0.0, 0.0}, {{20.0, tangent[k]}, {-7.0, -7.0}}};
-        check_guards(world, &candidate, &at, (double[]){1.0 + penetration_tolerance, 20.0, grip[k], 1.0});
+        check_roots(world, &candidate, &at, (double[]){1.0 + penetration_tolerance, 20.0, grip[k], 1.0});
     }
     scene_close(&s);
 }
 
-static void a_held_site_watches_both_reactions(void **state)
+static void a_held_candidate_has_one_of_the_lesser_normal_force(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &groove, 1);
-    const contact_candidate candidate = held_site();
+    const contact_candidate candidate = held_candidate();
     const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
     const node_state second = {{0.0, 0.0}, {0.0, 0.0}, {{14.0, 0.0}, {-2.0, 0.0}}};
-    check_guards(world, &candidate, &first, (double[]){1.0 + penetration_tolerance, 3.0, 1.0, 1.0});
-    check_guards(world, &candidate, &second, (double[]){1.0 + penetration_tolerance, -2.0, 1.0, 1.0});
+    check_roots(world, &candidate, &first, (double[]){1.0 + penetration_tolerance, 3.0, 1.0, 1.0});
+    check_roots(world, &candidate, &second, (double[]){1.0 + penetration_tolerance, -2.0, 1.0, 1.0});
     scene_close(&s);
 }
 
@@ -201,7 +202,7 @@ static void only_what_sticks_by_friction_has_a_grip(void **state)
     scene s, t;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1), *corner = open_node(&t, &groove, 1);
-    const contact_candidate sticks = closed_site(0, 0), slides = closed_site(0, 1), held = held_site();
+    const contact_candidate sticks = closed_candidate(0, 0), slides = closed_candidate(0, 1), held = held_candidate();
     assert_close(grip(world, &sticks), 6.0, 1e-14);
     assert_true(isinf(grip(world, &slides)) != 0);
     assert_true(isinf(grip(corner, &held)) != 0);
@@ -211,7 +212,7 @@ static void only_what_sticks_by_friction_has_a_grip(void **state)
 
 static bool turns(const contact_scene *world, int sign, double speed)
 {
-    const contact_candidate candidate = closed_site(0, sign);
+    const contact_candidate candidate = closed_candidate(0, sign);
     const double x[2] = {1.0, 0.0}, v[2] = {speed, 0.0};
     const contact_frame f = contact_frame_at(world, &candidate, 0, (scene_state){0.0, x, v});
     return candidate_turns(world, &candidate, 0, &f, v);
@@ -237,7 +238,7 @@ static void what_slides_with_friction_turns_when_it_goes_the_other_way(void **st
 
 static int end_passed(const contact_scene *world, double x, double vx)
 {
-    const contact_candidate candidate = closed_site(0, 1);
+    const contact_candidate candidate = closed_candidate(0, 1);
     const double at[2] = {x, 0.0}, v[2] = {vx, 0.0};
     return candidate_end_passed(world, &candidate, 0, (scene_state){0.0, at, v});
 }
@@ -280,7 +281,7 @@ static void what_sticks_passes_no_end(void **state)
     const double at[2] = {4.5, 0.0}, v[2] = {1.0, 0.0};
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_candidate sticks = closed_site(0, 0), slides = closed_site(0, 1);
+    const contact_candidate sticks = closed_candidate(0, 0), slides = closed_candidate(0, 1);
     assert_int_equal(candidate_end_passed(world, &sticks, 0, (scene_state){0.0, at, v}), 0);
     assert_int_equal(candidate_end_passed(world, &slides, 0, (scene_state){0.0, at, v}), 1);
     scene_close(&s);
@@ -291,12 +292,12 @@ static bool due(const contact_scene *world, const contact_candidate *candidate, 
     return candidate_due(world, candidate, s->force, (scene_state){0.0, s->x, s->v});
 }
 
-static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
+static void a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, room, 2);
-    const contact_candidate candidate = closed_site(0, 1);
+    const contact_candidate candidate = closed_candidate(0, 1);
     node_state at = {{2.0, 0.0}, {1.0, 0.0}, {{20.0, 0.0}, {0.0, 0.0}}};
     assert_false(due(world, &candidate, &at));
     at.force[0].normal = 0.0;
@@ -315,12 +316,12 @@ static void a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle(v
     scene_close(&s);
 }
 
-static void with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip(void **state)
+static void with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
-    const contact_candidate slides = closed_site(0, 1), sticks = closed_site(0, 0);
+    const contact_candidate slides = closed_candidate(0, 1), sticks = closed_candidate(0, 0);
     node_state at = {{2.0, 0.0}, {1e-3, 0.0}, {{20.0, -10.0}, {0.0, 0.0}}};
     assert_false(due(world, &slides, &at));
     at.v[0] = -1e-3;
@@ -335,12 +336,12 @@ static void with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip(voi
     scene_close(&s);
 }
 
-static void a_held_site_is_due_when_either_reaction_ceases(void **state)
+static void a_held_candidate_is_due_when_either_normal_force_ceases(void **state)
 {
     scene s;
     (void)state;
     const contact_scene *world = open_node(&s, &groove, 1);
-    const contact_candidate candidate = held_site();
+    const contact_candidate candidate = held_candidate();
     node_state at = {{0.0, 0.0}, {0.0, 0.0}, {{1.0, 0.0}, {1.0, 0.0}}};
     assert_false(due(world, &candidate, &at));
     at.force[0].normal = -0.01;
@@ -376,9 +377,9 @@ static contact_candidate *open_edge(scene *s, double x, double y, const dem_obst
 static void check_edge(scene *s, const contact_candidate *edge, const double expected[CANDIDATE_ROOTS])
 {
     const contact_force force[2] = {{20.0, -4.0}, {8.0, 6.0}};
-    double guards[CANDIDATE_ROOTS];
-    candidate_root_functions(&s->c.set.scene, edge, force, (scene_state){0.0, s->y, scene_v(s)}, guards);
-    for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(guards[k], expected[k], 1e-13);
+    double roots[CANDIDATE_ROOTS];
+    candidate_root_functions(&s->c.set.scene, edge, force, (scene_state){0.0, s->y, scene_v(s)}, roots);
+    for (int k = 0; k < CANDIDATE_ROOTS; k++) assert_close(roots[k], expected[k], 1e-13);
 }
 
 static void move_all(scene *s, double x, double y, double u)
@@ -390,7 +391,7 @@ static void move_all(scene *s, double x, double y, double u)
 
 /* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the penetration
  * tolerance beyond its ends. */
-static void a_free_edge_watches_the_convex_vertex_below_it(void **state)
+static void a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_below_it(void **state)
 {
     const double x[10] = {-1.5,
                           -1.5,
@@ -436,7 +437,7 @@ static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
 }
 
 /* On the ridge of the first roof 0.5 m from its end; the second one's is 0.25 m below it. */
-static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
+static void a_closed_edge_has_root_functions_of_force_end_and_other_vertices(void **state)
 {
     scene s, rubbed;
     (void)state;
@@ -462,7 +463,7 @@ static void a_closed_edge_watches_force_end_and_other_vertices(void **state)
     scene_close(&rubbed);
 }
 
-static void an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap(void **state)
+static void an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap(void **state)
 {
     scene s;
     (void)state;
@@ -570,7 +571,7 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
         dem_index nearest;
         open_ragged(&s, &seed, false);
         const contact_scene *world = &s.c.set.scene;
-        const contact_candidate candidate = free_site();
+        const contact_candidate candidate = free_candidate();
         const double x[2] = {uniform(&seed, -3.5, 4.5), uniform(&seed, 0.1, 1.4)};
         const candidate_positions here = candidate_place(&candidate, 0.0, x);
         const double clear = candidate_clearance(world, &candidate, &here, &nearest) - 10.0 * penetration_tolerance;
@@ -651,25 +652,25 @@ static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_free_site_watches_its_gap_down_to_the_penetration_tolerance),
-        cmocka_unit_test(far_from_everything_its_guard_is_finite),
-        cmocka_unit_test(a_site_behind_an_obstacle_does_not_see_it),
-        cmocka_unit_test(a_sliding_site_watches_reaction_end_and_other_obstacles),
-        cmocka_unit_test(a_site_that_slides_with_friction_watches_its_speed_too),
-        cmocka_unit_test(a_sticking_site_watches_its_grip),
-        cmocka_unit_test(a_held_site_watches_both_reactions),
+        cmocka_unit_test(a_free_candidate_has_a_root_at_the_penetration_tolerance),
+        cmocka_unit_test(far_from_everything_its_root_function_is_finite),
+        cmocka_unit_test(a_candidate_behind_an_obstacle_does_not_see_it),
+        cmocka_unit_test(a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles),
+        cmocka_unit_test(a_candidate_that_slides_with_friction_has_one_of_its_speed_too),
+        cmocka_unit_test(a_sticking_candidate_has_a_root_function_of_its_grip),
+        cmocka_unit_test(a_held_candidate_has_one_of_the_lesser_normal_force),
         cmocka_unit_test(only_what_sticks_by_friction_has_a_grip),
         cmocka_unit_test(what_slides_with_friction_turns_when_it_goes_the_other_way),
         cmocka_unit_test(an_end_is_passed_by_the_penetration_tolerance_heading_out),
         cmocka_unit_test(at_rest_the_force_tells_where_it_heads),
         cmocka_unit_test(what_sticks_passes_no_end),
-        cmocka_unit_test(a_sliding_site_is_due_when_pulled_at_an_end_or_on_another_obstacle),
-        cmocka_unit_test(with_friction_a_site_is_due_when_it_turns_back_or_loses_its_grip),
-        cmocka_unit_test(a_held_site_is_due_when_either_reaction_ceases),
-        cmocka_unit_test(a_free_edge_watches_the_convex_vertex_below_it),
+        cmocka_unit_test(a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle),
+        cmocka_unit_test(with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip),
+        cmocka_unit_test(a_held_candidate_is_due_when_either_normal_force_ceases),
+        cmocka_unit_test(a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_below_it),
         cmocka_unit_test(the_gap_of_a_sloping_edge_is_along_its_normal),
-        cmocka_unit_test(a_closed_edge_watches_force_end_and_other_vertices),
-        cmocka_unit_test(an_edge_on_two_vertices_watches_the_lesser_of_each_and_no_gap),
+        cmocka_unit_test(a_closed_edge_has_root_functions_of_force_end_and_other_vertices),
+        cmocka_unit_test(an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap),
         cmocka_unit_test(a_vertex_passes_an_edges_end_against_the_motion_of_the_body),
         cmocka_unit_test(a_vertex_round_a_convex_corner_of_the_body_is_not_inside),
         cmocka_unit_test(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices),

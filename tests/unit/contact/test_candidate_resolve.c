@@ -260,7 +260,7 @@ static void a_vertex_leaves_a_convex_corner_of_the_body(void **state)
 
 /* The next edge, of normal n = (-1/4, 1)/L, stands in the way: the plastic impact takes v.n = -1/4/L from node 1, where
  * the vertex is, and the contact goes on with that edge. */
-static void a_vertex_strikes_the_next_edge_where_the_body_bends_in(void **state)
+static void a_vertex_hits_the_next_edge_where_the_body_bends_in(void **state)
 {
     const double L = sqrt(1.0625), n[2] = {-0.25 / L, 1.0 / L}, vn = -0.25 / L;
     scene s;
@@ -451,7 +451,7 @@ int main(void)
         cmocka_unit_test(an_edge_slides_stops_and_slides_on_a_vertex),
         cmocka_unit_test(a_vertex_glides_from_edge_to_edge_of_a_flat_side),
         cmocka_unit_test(a_vertex_leaves_a_convex_corner_of_the_body),
-        cmocka_unit_test(a_vertex_strikes_the_next_edge_where_the_body_bends_in),
+        cmocka_unit_test(a_vertex_hits_the_next_edge_where_the_body_bends_in),
         cmocka_unit_test(a_vertex_comes_to_rest_where_the_body_bends_in),
         cmocka_unit_test(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is),
         cmocka_unit_test(a_flat_side_comes_down_on_an_apex_with_its_own_normal),

@@ -44,7 +44,7 @@ static void check_group(const contact_forces *r, dem_index group, dem_index n, c
     assert_int_equal(k, -1);
 }
 
-static dem_index n_sites(const contact_forces *r, dem_index group)
+static dem_index n_candidates(const contact_forces *r, dem_index group)
 {
     dem_index n = 0;
     for (dem_index k = contact_forces_first(r, r->groups[group]); k >= 0; k = r->next[k]) n++;
@@ -524,7 +524,7 @@ static void forces_and_accelerations_agree_with_a_dense_solution(void **state)
         check_forces(&w, &r, solution + n_a);
         tally(&w, kinds);
         n_solved++;
-        for (dem_index g = 0; g < r.n_groups; g++) n_coupled += n_sites(&r, g) > 2;
+        for (dem_index g = 0; g < r.n_groups; g++) n_coupled += n_candidates(&r, g) > 2;
         contact_forces_destroy(&r);
     }
     assert_true(n_solved > 1000 && n_coupled > 500);
@@ -601,13 +601,13 @@ static void shuffle(gsl_rng *rng, const bench *from, bench *to, dem_index *place
     to->n_candidates = from->n_candidates;
 }
 
-static void the_order_in_which_sites_are_listed_does_not_matter(void **state)
+static void the_order_in_which_candidates_are_listed_does_not_matter(void **state)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     (void)state;
     for (int k = 0; k < 1000; k++) {
         double solution[MOST_UNKNOWNS], a[2 * BENCH_NODES];
-        dem_index place[BENCH_SITES];
+        dem_index place[BENCH_CANDIDATES];
         bench other;
         contact_forces r, q;
         mix_next(&w);
@@ -808,7 +808,7 @@ static double left_after_shift(const mix *w, double size)
     bench b;
     contact_forces r;
     bench_open(&b, w->b.model.lattice.n_nodes);
-    dem_index place[BENCH_SITES];
+    dem_index place[BENCH_CANDIDATES];
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     shuffle(rng, &w->b, &b, place);
     for (dem_index f = 0; f < BENCH_FEATURES; f++) {
@@ -873,7 +873,7 @@ int main(void)
         cmocka_unit_test(forces_and_accelerations_agree_with_a_dense_solution),
         cmocka_unit_test(solving_a_group_starts_from_the_accelerations_of_the_model),
         cmocka_unit_test(what_is_held_has_the_acceleration_asked_for),
-        cmocka_unit_test(the_order_in_which_sites_are_listed_does_not_matter),
+        cmocka_unit_test(the_order_in_which_candidates_are_listed_does_not_matter),
         cmocka_unit_test(after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks),
         cmocka_unit_test(a_stop_takes_the_energy_of_the_change_and_gives_none),
         cmocka_unit_test(impulses_account_for_the_momentum_of_every_node),

@@ -61,7 +61,7 @@ static void nodes_come_first_and_then_edges_that_know_their_neighbours(void **st
     scene_close(&s);
 }
 
-static void edges_are_sites_only_where_there_are_vertices_and_if_asked_for(void **state)
+static void edges_are_candidates_only_where_there_are_vertices_and_if_asked_for(void **state)
 {
     scene flat, s;
     automaton without;
@@ -78,7 +78,7 @@ static void edges_are_sites_only_where_there_are_vertices_and_if_asked_for(void 
     scene_close(&s);
 }
 
-static void a_node_that_may_not_touch_has_no_site(void **state)
+static void a_node_that_may_not_touch_is_no_candidate(void **state)
 {
     const double x[4] = {0.0, 1.0, 1.0, 1.0};
     const unsigned char fixed[2] = {1, 0};
@@ -147,9 +147,10 @@ static void contacts_that_share_nodes_are_one_group(void **state)
     assert_false(contact_set_coupled(c, high));
     close_contact(&s, right, 1, 1);
     assert_int_equal(c->forces.n_groups, 1);
-    dem_index n_sites = 0;
-    for (dem_index k = contact_forces_first(&c->forces, c->forces.groups[0]); k >= 0; k = c->forces.next[k]) n_sites++;
-    assert_int_equal(n_sites, 4);
+    dem_index n_candidates = 0;
+    for (dem_index k = contact_forces_first(&c->forces, c->forces.groups[0]); k >= 0; k = c->forces.next[k])
+        n_candidates++;
+    assert_int_equal(n_candidates, 4);
     assert_true(contact_set_coupled(c, high));
     scene_close(&s);
 }
@@ -249,7 +250,7 @@ static void what_a_node_is_behind_its_edges_know(void **state)
 
 /* 2 kg on a spring of 100 N and 1 m, stretched to 1.5 m; moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's
  * 50 (0.25^2 - 0.5^2). */
-static void a_move_books_the_energy_that_it_puts_in(void **state)
+static void a_move_enters_the_energy_that_it_puts_in(void **state)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
     dem_lattice lattice;
@@ -371,15 +372,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_come_first_and_then_edges_that_know_their_neighbours),
-        cmocka_unit_test(edges_are_sites_only_where_there_are_vertices_and_if_asked_for),
-        cmocka_unit_test(a_node_that_may_not_touch_has_no_site),
+        cmocka_unit_test(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for),
+        cmocka_unit_test(a_node_that_may_not_touch_is_no_candidate),
         cmocka_unit_test(closing_appends_and_opening_keeps_the_other),
         cmocka_unit_test(contacts_that_share_nodes_are_one_group),
         cmocka_unit_test(a_node_on_two_segments_is_held_by_both),
         cmocka_unit_test(a_vertex_on_two_edges_that_meet_is_held_by_both),
         cmocka_unit_test(a_vertex_on_opposite_edges_is_not_held),
         cmocka_unit_test(what_a_node_is_behind_its_edges_know),
-        cmocka_unit_test(a_move_books_the_energy_that_it_puts_in),
+        cmocka_unit_test(a_move_enters_the_energy_that_it_puts_in),
         cmocka_unit_test(the_force_on_a_contact_is_elastic_and_weight),
         cmocka_unit_test(a_sliding_edge_stores_force_and_friction),
         cmocka_unit_test(an_event_of_a_node_tells_where_it_is_and_how_it_moves),

@@ -56,11 +56,11 @@ static void a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall(vo
     (void)state;
     open_node(&s, 1.0, 0.2, 0.3, 0.0);
     scene_fly(&s, (vec2){0.0, -g}, start, 0.3, &f);
-    const double found = crossing(&s, 0, &f.path);
+    const double found = crossing(&s, 0, &f.dense);
     assert_close(found, start + t, 200.0 * DBL_EPSILON * (start + 0.3));
-    assert_true(node_motion_position(&f.path, found, 0).y <= -penetration_tolerance);
-    f.path.end = start + 0.9 * t;
-    assert_true(isinf(crossing(&s, 0, &f.path)) != 0);
+    assert_true(node_motion_position(&f.dense, found, 0).y <= -penetration_tolerance);
+    f.dense.end = start + 0.9 * t;
+    assert_true(isinf(crossing(&s, 0, &f.dense)) != 0);
     scene_close(&s);
 }
 
@@ -72,10 +72,10 @@ static void a_crossing_just_before_the_end_is_found(void **state)
     (void)state;
     open_node(&s, 1.0, 0.2, 0.0, 0.0);
     scene_fly(&s, (vec2){0.0, -g}, 0.0, 0.3, &f);
-    f.path.end = t * (1.0 + 1e-12);
-    assert_close(crossing(&s, 0, &f.path), t, 1e-13);
-    f.path.end = 1.2 * t; /* an eighth before this end it is deep already */
-    assert_close(crossing(&s, 0, &f.path), t, 1e-13);
+    f.dense.end = t * (1.0 + 1e-12);
+    assert_close(crossing(&s, 0, &f.dense), t, 1e-13);
+    f.dense.end = 1.2 * t; /* an eighth before this end it is deep already */
+    assert_close(crossing(&s, 0, &f.dense), t, 1e-13);
     scene_close(&s);
 }
 
@@ -88,8 +88,8 @@ static void a_dip_within_the_step_is_found(void **state)
     (void)state;
     open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 2.0 * bottom, &f);
-    assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
-    assert_close(crossing(&s, 0, &f.path), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
+    assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
+    assert_close(crossing(&s, 0, &f.dense), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
     scene_close(&s);
 }
 
@@ -106,7 +106,7 @@ static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
         scene_flight f;
         open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
         scene_fly(&s, (vec2){0.0, a}, 0.0, end, &f);
-        const double found = crossing(&s, 0, &f.path);
+        const double found = crossing(&s, 0, &f.dense);
         if (k % 2 == 0)
             assert_close(found, bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-12);
         else
@@ -129,7 +129,7 @@ static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **st
     s.c.set.list[0].clearance.distance = 0.05;
     s.c.set.list[0].clearance.at[0] = vec2_at(at, 0);
     scene_fly(&s, nothing, 0.0, 1.0, &f);
-    assert_close(crossing(&s, 0, &f.path), 0.09 + sqrt(2.0) * penetration_tolerance, 1e-13);
+    assert_close(crossing(&s, 0, &f.dense), 0.09 + sqrt(2.0) * penetration_tolerance, 1e-13);
     scene_close(&s);
 }
 
@@ -145,18 +145,18 @@ static void a_plate_between_two_ends_that_recede_is_found(void **state)
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
     scene_fly(&s, nothing, 0.0, 0.5, &f);
-    assert_close(crossing(&s, 0, &f.path), 0.5 * (0.25 + penetration_tolerance), 1e-13);
+    assert_close(crossing(&s, 0, &f.dense), 0.5 * (0.25 + penetration_tolerance), 1e-13);
     scene_close(&s);
 }
 
-static void a_site_out_of_reach_never_crosses(void **state)
+static void a_candidate_out_of_reach_never_crosses(void **state)
 {
     scene s;
     scene_flight f;
     (void)state;
     open_node(&s, 1.0, 0.9, 4.0, 0.0);
     scene_fly(&s, nothing, 0.0, 0.1, &f);
-    assert_true(isinf(crossing(&s, 0, &f.path)) != 0);
+    assert_true(isinf(crossing(&s, 0, &f.dense)) != 0);
     scene_close(&s);
 }
 
@@ -178,8 +178,8 @@ static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
     (void)state;
     const dem_index k = open_edge(&s, 0.1);
     scene_fly(&s, (vec2){0.0, -g}, start, 0.2, &f);
-    assert_close(crossing(&s, k, &f.path), start + t, 200.0 * DBL_EPSILON * (start + 0.2));
-    assert_true(isinf(crossing(&s, scene_edge(&s, 1, 2), &f.path)) != 0);
+    assert_close(crossing(&s, k, &f.dense), start + t, 200.0 * DBL_EPSILON * (start + 0.2));
+    assert_true(isinf(crossing(&s, scene_edge(&s, 1, 2), &f.dense)) != 0);
     scene_close(&s);
 }
 
@@ -197,7 +197,7 @@ static void a_turning_edge_meets_a_ridge_where_its_line_does(void **state)
     const dem_index k = open_edge(&s, 0.3);
     scene_put(&s, 1, 0.5, 0.3, 0.0, -2.0);
     scene_fly(&s, nothing, 0.0, 0.3, &f);
-    assert_close(crossing(&s, k, &f.path), 0.5 * w, 1e-13);
+    assert_close(crossing(&s, k, &f.dense), 0.5 * w, 1e-13);
     scene_close(&s);
 }
 
@@ -211,8 +211,8 @@ static void a_dip_of_an_edge_within_the_step_is_found(void **state)
     const dem_index k = open_edge(&s, -depth + 0.5 * a * bottom * bottom);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
-    assert_true(f.path.y0[1] > 0.0 && f.path.y1[1] > 0.0);
-    assert_close(crossing(&s, k, &f.path), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
+    assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
+    assert_close(crossing(&s, k, &f.dense), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
     scene_close(&s);
 }
 
@@ -227,7 +227,7 @@ static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(voi
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
     scene_fly(&s, nothing, 0.0, 1.0, &f);
-    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.path), 0.02 + penetration_tolerance, 1e-13);
+    assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.dense), 0.02 + penetration_tolerance, 1e-13);
     scene_close(&s);
 }
 
@@ -243,7 +243,7 @@ static void a_dip_at_one_end_of_a_turning_edge_is_found(void **state)
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 1, 0.2, low - depth, 0.0, -a * b);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 8.0 * 0.036, &f); /* samples at 0.072 and 0.108 */
-    const double found = crossing(&s, scene_edge(&s, 0, 1), &f.path);
+    const double found = crossing(&s, scene_edge(&s, 0, 1), &f.dense);
     assert_close(found, 0.09 - sqrt(2.0 * (depth - penetration_tolerance) / a),
                  2e-4); /* the slope of the edge, 0.05, turns it a little */
     scene_close(&s);
@@ -257,9 +257,9 @@ static double first_due(scene *s, dem_index k, scene_flight *f)
     const double *v = y + 2 * s->model->lattice.n_nodes;
     contact_forces *r = &s->c.set.forces;
     assert_ok(contact_set_regroup(&s->c.set));
-    const double found = event_location_change(r, &s->c.set.list[k], &f->path, f->path.t0, f->scratch);
+    const double found = event_location_change(r, &s->c.set.list[k], &f->dense, f->dense.t0, f->scratch);
     for (int after = 0; after < 2; after++) { /* due there, and not a little before */
-        dense_output_state(&f->path, found - (1 - after) * 4.0 * event_location_resolution(&f->path), y);
+        dense_output_state(&f->dense, found - (1 - after) * 4.0 * event_location_resolution(&f->dense), y);
         contact_forces_solve(r, r->group[k], (scene_state){0.0, y, v});
         assert_int_equal(candidate_due(&s->c.set.scene, &s->c.set.list[k], r->force[k], (scene_state){0.0, y, v}),
                          after);
@@ -275,7 +275,7 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
 
 /* Slides from x = 3 with 2 m/s: beyond the end by the penetration tolerance after half a second and the time for
  * that. */
-static void a_sliding_site_is_first_due_when_it_reaches_the_end(void **state)
+static void a_sliding_candidate_is_first_due_when_it_reaches_the_end(void **state)
 {
     scene s;
     scene_flight f;
@@ -322,7 +322,7 @@ static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **
 }
 
 /* A square 0 to 3, of which edge 0-1 is closed, and two more nodes: those of the group, and the edge's neighbours, are
- * where the path has them; others are not looked at. */
+ * where the dense output has them; others are not looked at. */
 static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void **state)
 {
     const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
@@ -336,9 +336,9 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
     scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
     close_contact(&s, scene_edge(&s, 0, 1), 0, 1);
     assert_ok(contact_set_regroup(&s.c.set));
-    dense_output_state(&f.path, 0.3, y);
+    dense_output_state(&f.dense, 0.3, y);
     for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
-    event_location_state(&s.c.set.forces, contact_set_group_at(&s.c.set, 0), &f.path, 0.3, f.scratch);
+    event_location_state(&s.c.set.forces, contact_set_group_at(&s.c.set, 0), &f.dense, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);
     scene_close(&s);
 }
@@ -353,13 +353,13 @@ int main(void)
         cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
         cmocka_unit_test(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap),
         cmocka_unit_test(a_plate_between_two_ends_that_recede_is_found),
-        cmocka_unit_test(a_site_out_of_reach_never_crosses),
+        cmocka_unit_test(a_candidate_out_of_reach_never_crosses),
         cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
         cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
         cmocka_unit_test(a_dip_of_an_edge_within_the_step_is_found),
         cmocka_unit_test(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found),
         cmocka_unit_test(a_dip_at_one_end_of_a_turning_edge_is_found),
-        cmocka_unit_test(a_sliding_site_is_first_due_when_it_reaches_the_end),
+        cmocka_unit_test(a_sliding_candidate_is_first_due_when_it_reaches_the_end),
         cmocka_unit_test(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end),
         cmocka_unit_test(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight),
         cmocka_unit_test(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours),

@@ -238,7 +238,7 @@ static void an_elastic_group_keeps_its_energy_and_leaves_no_approach(void **stat
 }
 
 /* Between the two energy goes, momentum is what both gave, and nothing approaches. */
-static void a_group_with_friction_books_what_it_loses(void **state)
+static void a_group_with_friction_enters_what_it_loses(void **state)
 {
     scene s;
     (void)state;
@@ -268,7 +268,7 @@ int main(void)
         cmocka_unit_test(a_turning_edge_that_slides_towards_the_vertex_stays_on_it),
         cmocka_unit_test(a_plastic_group_stops_what_approaches),
         cmocka_unit_test(an_elastic_group_keeps_its_energy_and_leaves_no_approach),
-        cmocka_unit_test(a_group_with_friction_books_what_it_loses),
+        cmocka_unit_test(a_group_with_friction_enters_what_it_loses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

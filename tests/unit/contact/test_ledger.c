@@ -87,7 +87,7 @@ static void every_kind_of_event_has_its_count(void **state)
     ledger_destroy(&b);
 }
 
-static void a_close_event_is_told_but_counted_where_it_is_done(void **state)
+static void a_close_event_is_reported_but_counted_where_it_is_done(void **state)
 {
     const dem_event event = {.kind = DEM_EVENT_CLOSE, .other = 4};
     hearer h = {0};
@@ -131,7 +131,7 @@ int main(void)
         cmocka_unit_test(a_new_book_is_empty),
         cmocka_unit_test(impulses_add_up_for_each_obstacle_by_itself),
         cmocka_unit_test(every_kind_of_event_has_its_count),
-        cmocka_unit_test(a_close_event_is_told_but_counted_where_it_is_done),
+        cmocka_unit_test(a_close_event_is_reported_but_counted_where_it_is_done),
         cmocka_unit_test(the_first_status_other_than_ok_is_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,7 +21,7 @@ typedef struct rig {
     event_queue q;
     dem_index n, n_all;
     double y0[most_state], f0[most_state], y1[most_state], f1[most_state], state[most_state];
-    dense_output path;
+    dense_output dense;
 } rig;
 
 static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
@@ -73,9 +73,9 @@ static void close_rig(rig *r)
 
 static void take_up(rig *r, double t0, double h)
 {
-    r->path =
+    r->dense =
         (dense_output){*scene_layout(&r->c.set.scene), t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
-    event_queue_start(&r->q, &r->path, r->y1, r->f1, r->state);
+    event_queue_start(&r->q, &r->dense, r->y1, r->f1, r->state);
 }
 
 /* A step of length h in free fall, which the quintic follows exactly. */
@@ -121,7 +121,7 @@ static snapshot take_snapshot(rig *r, double t)
     memset(&s, 0, sizeof s);
     memcpy(s.y1, r->y1, sizeof s.y1);
     memcpy(s.f1, r->f1, sizeof s.f1);
-    dense_output_state(&r->path, t, s.state);
+    dense_output_state(&r->dense, t, s.state);
     memcpy(s.impulse, r->c.set.ledger.impulse, sizeof s.impulse);
     memcpy(s.candidates, r->c.set.list, (size_t)r->n * sizeof s.candidates[0]);
     memcpy(&s.ledger, &r->c.set.ledger, sizeof s.ledger);
@@ -172,7 +172,7 @@ static void events_come_in_the_order_of_time(void **state)
 }
 
 /* Those of equal height at once, the lowest number first, whichever is looked at first. */
-static void events_at_the_same_time_come_in_the_order_of_sites(void **state)
+static void events_at_the_same_time_come_in_the_order_of_candidates(void **state)
 {
     const double heights[6] = {0.03, 0.02, 0.03, 0.02, 0.03, 0.02};
     const dem_index order[6] = {1, 3, 5, 0, 2, 4};
@@ -363,7 +363,7 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
     open_masses(&r, 2, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     show(&r, now);
-    dense_output_state(&r.path, now, y);
+    dense_output_state(&r.dense, now, y);
     assert_int_equal(r.q.n_events, 1);
     assert_int_equal(r.c.set.ledger.counts.impacts, 1);
     assert_close(r.c.set.ledger.impulse[1], mass * 1.5 * g * t, 1e-12);
@@ -372,14 +372,14 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
     assert_close(y[3], 0.04 - 0.5 * g * now * now, 1e-15);
     show(&r, r.q.events[0].t); /* at the instant itself it has happened */
     assert_int_equal(r.q.n_events, 1);
-    dense_output_state(&r.path, r.q.events[0].t, y);
+    dense_output_state(&r.dense, r.q.events[0].t, y);
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[2 * r.n_all + 1], v, 1e-13);
     show(&r, nextafter(r.q.events[0].t, 0.0));
     assert_int_equal(r.q.n_events, 0);
     assert_int_equal(r.c.set.ledger.counts.impacts, 0);
     show(&r, 0.5 * t);
-    dense_output_state(&r.path, 0.5 * t, y);
+    dense_output_state(&r.dense, 0.5 * t, y);
     assert_close(y[1], 0.02 - 0.125 * g * t * t, 1e-15);
     close_rig(&r);
 }
@@ -453,10 +453,10 @@ static void an_event_at_the_very_start_happens_once(void **state)
     assert_close(r.q.events[0].t, 0.0, 0.0);
     assert_close(r.y1[1], 1.0 * h - 0.5 * g * h * h, 1e-15);
     assert_close(r.y1[2 * r.n_all + 1], 1.0 - g * h, 1e-15);
-    dense_output_state(&r.path, 0.0, y);
+    dense_output_state(&r.dense, 0.0, y);
     assert_close(y[1], 0.0, 0.0);
     assert_close(y[2 * r.n_all + 1], 1.0, 0.0);
-    dense_output_velocity(&r.path, 0.0, 0, v);
+    dense_output_velocity(&r.dense, 0.0, 0, v);
     assert_close(v[1], 1.0, 0.0);
     close_rig(&r);
 }
@@ -470,7 +470,7 @@ static void an_event_at_the_very_end_is_in_the_state_there(void **state)
         rig r;
         open_masses(&r, 1, &height, 0.5, 0.0);
         fall(&r, 0.0, t * (1.0 + k * 1e-15));
-        show(&r, r.path.t1);
+        show(&r, r.dense.t1);
         if (r.q.n_events > 0) {
             assert_close(r.y1[1], 0.0, 1e-14);
             assert_close(r.y1[2 * r.n_all + 1], 0.5 * g * t, 1e-13);
@@ -513,7 +513,7 @@ static void swing(rig *r, dem_lattice *lattice, double h)
 }
 
 /* The pair from y to the time at which a mass is as deep as the penetration tolerance, by bisection. */
-static double strike_time(dem_lattice *lattice, int node, double *y)
+static double impact_time(dem_lattice *lattice, int node, double *y)
 {
     double low = 0.0, high = 0.2, z[8];
     while (high - low > 1e-15) {
@@ -546,7 +546,7 @@ static void the_neighbours_events_are_looked_for_anew(void **state)
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
     triplets_start(&lattice, y);
-    const double first = strike_time(&lattice, 0, y), second = first + strike_time(&lattice, 1, y);
+    const double first = impact_time(&lattice, 0, y), second = first + impact_time(&lattice, 1, y);
     triplets_reach(&lattice, h - second, y);
     print_message("# second impact at %.6f s, without the first at %.6f s, %.1e s off\n", second, alone,
                   r.q.events[1].t - second);
@@ -574,7 +574,7 @@ static void times_and_motion_converge_with_the_step(void **state)
         show(&r, h);
         assert_int_equal(r.q.n_events, 2);
         triplets_start(&lattice, y);
-        const double first = strike_time(&lattice, 0, y), second = first + strike_time(&lattice, 1, y);
+        const double first = impact_time(&lattice, 0, y), second = first + impact_time(&lattice, 1, y);
         triplets_reach(&lattice, h - second, y);
         wrong[k] = fabs(r.q.events[1].t - second);
         for (int c = 0; c < 4; c++) wrong[k] = fmax(wrong[k], fabs(r.y1[c] - y[c]));
@@ -612,7 +612,7 @@ static void an_error_beyond_what_is_allowed_ends_the_step(void **state)
     }
 }
 
-/* Struck at a fifth of the step, the pair could go on for as long with an error (5/4)^6 times as large; where that is
+/* Hit at a fifth of the step, the pair could go on for as long with an error (5/4)^6 times as large; where that is
  * too much the next step has to be shorter. */
 static void what_events_have_done_bounds_the_next_step(void **state)
 {
@@ -682,7 +682,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(events_come_in_the_order_of_time),
-        cmocka_unit_test(events_at_the_same_time_come_in_the_order_of_sites),
+        cmocka_unit_test(events_at_the_same_time_come_in_the_order_of_candidates),
         cmocka_unit_test(a_node_may_bounce_many_times_in_a_step),
         cmocka_unit_test(events_of_sources_come_in_the_order_of_time_kind_and_key),
         cmocka_unit_test(sources_are_undone_and_redone_to_the_bit),

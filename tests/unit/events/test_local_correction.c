@@ -30,7 +30,7 @@ typedef struct step {
     dem_index n, n_all;
     double h;
     double *y0, *f0, *y1, *f1, *state, *first, *last;
-    dense_output path;
+    dense_output dense;
     changed_motion changed;
     local_correction correction;
 } step;
@@ -67,7 +67,7 @@ static int of_the_change(double t, const double d[], double f[], void *context)
 {
     step *s = context;
     const dem_index n = 4 * s->n_all;
-    dense_output_state(&s->path, t, s->first);
+    dense_output_state(&s->dense, t, s->first);
     derive(s, &s->before, t, s->first, s->last);
     for (dem_index k = 0; k < n; k++) s->first[k] += d[k];
     derive(s, &s->c, t, s->first, f);
@@ -226,18 +226,18 @@ static void go(step *s)
     s->y1[4 * s->n_all - 1] = start + s->h;
     derive(s, &s->before, start, s->y0, s->f0);
     derive(s, &s->before, start + s->h, s->y1, s->f1);
-    s->path = (dense_output){.layout = *scene_layout(&s->c.set.scene),
-                             .t0 = start,
-                             .t1 = start + s->h,
-                             .end = start + s->h,
-                             .y0 = s->y0,
-                             .f0 = s->f0,
-                             .y1 = s->y1,
-                             .f1 = s->f1,
-                             .parabolic = s->kind.parabolic,
-                             .changed = &s->changed};
-    changed_motion_start(&s->changed, s->path.t1, s->y1, s->f1);
-    automaton_begin_step(&s->c, &s->path, s->state);
+    s->dense = (dense_output){.layout = *scene_layout(&s->c.set.scene),
+                              .t0 = start,
+                              .t1 = start + s->h,
+                              .end = start + s->h,
+                              .y0 = s->y0,
+                              .f0 = s->f0,
+                              .y1 = s->y1,
+                              .f1 = s->f1,
+                              .parabolic = s->kind.parabolic,
+                              .changed = &s->changed};
+    changed_motion_start(&s->changed, s->dense.t1, s->y1, s->f1);
+    automaton_begin_step(&s->c, &s->dense, s->state);
     free(error);
 }
 
@@ -307,18 +307,18 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
 }
 
 /* Before an event of a candidate. */
-static dem_status open_at(local_correction *p, const dense_output *path, dem_index candidate, double t, double *state)
+static dem_status open_at(local_correction *p, const dense_output *dense, dem_index candidate, double t, double *state)
 {
     dem_index seeds[16];
     const dem_index n = contact_set_seeds(p->near.set, candidate, seeds, 16);
     assert_true(n <= 16);
-    return local_correction_open(p, path, seeds, n, t, state);
+    return local_correction_open(p, dense, seeds, n, t, state);
 }
 
 /* A velocity jumps at node i at a share of the step, and contacts are what the caller made them meanwhile. */
 static void begin(step *s, dem_index candidate, double share)
 {
-    assert_ok(open_at(&s->correction, &s->path, candidate, start + share * s->h, s->state));
+    assert_ok(open_at(&s->correction, &s->dense, candidate, start + share * s->h, s->state));
 }
 
 static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
@@ -339,8 +339,8 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
     vec2_put(s->state, s->n_all + i, vec2_add(vec2_at(s->state, s->n_all + i), jump));
     memcpy(turned, s->changed.place, (size_t)s->n * sizeof *turned);
     memcpy(was, s->y1, size);
-    apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->correction.t, s->path.t1 - s->correction.t, change, estimate);
-    assert_ok(local_correction_close(&s->correction, &s->path, &s->changed, s->state, &error));
+    apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->correction.t, s->dense.t1 - s->correction.t, change, estimate);
+    assert_ok(local_correction_close(&s->correction, &s->dense, &s->changed, s->state, &error));
     check_change(s, was, change, 1.0 + vec2_norm(jump));
     const int n_last = check_rings(s, ring, was, change, turned);
     assert_true(n_last > 0 || s->correction.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
@@ -356,7 +356,7 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
 static void check_derivative(step *s)
 {
     double *f = zeros(s);
-    derive(s, &s->c, s->path.t1, s->y1, f);
+    derive(s, &s->c, s->dense.t1, s->y1, f);
     for (dem_index j = 0; j < s->correction.near.end[s->correction.near.n_rings - 2]; j++)
         for (dem_index k = 2 * s->correction.near.nodes[j].i; k < 2 * s->correction.near.nodes[j].i + 2; k++) {
             assert_close(s->f1[k], f[k], 1e-13 * (1.0 + fabs(f[k])));
@@ -424,7 +424,7 @@ static void check_parabolas(step *s)
 {
     double *y = zeros(s), *f = zeros(s);
     const dem_index n = 2 * s->n_all;
-    dense_output_state(&s->path, s->correction.t, y);
+    dense_output_state(&s->dense, s->correction.t, y);
     derive(s, &s->c, s->correction.t, y, f);
     for (dem_index j = 0; j < s->correction.near.end[1]; j++) {
         const dem_index i = s->correction.near.nodes[j].i;
@@ -468,14 +468,14 @@ static void prescribed_nodes_keep_their_parabolas(void **state)
     go(&s);
     const dem_index k = lower_node(&s, 0.0), i = s.c.set.list[k].node, next = node_near(&s, 0.005, 0.0087);
     motion_polynomial expected;
-    dense_output_motion(&s.path, next, &expected);
+    dense_output_motion(&s.dense, next, &expected);
     s.b.held[next] = DEM_COMPONENT_Y;
     begin(&s, k, 0.25);
     assert_true(neighbourhood_has(&s.correction.near, next, 1));
     vec2_put(s.state, s.n_all + i, vec2_add(vec2_at(s.state, s.n_all + i), (vec2){0.0, 7.0}));
-    assert_ok(local_correction_close(&s.correction, &s.path, &s.changed, s.state, &error));
+    assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
     const motion_polynomial *m = changed_motion_of(&s.changed, next);
-    motion_polynomial_restart(&expected, s.correction.t, s.path.t1);
+    motion_polynomial_restart(&expected, s.correction.t, s.dense.t1);
     for (int q = 0; q < MOTION_TERMS; q++) {
         assert_true(m->c[1][q][0] == expected.c[1][q][0] && m->c[1][q][1] == expected.c[1][q][1]);
         assert_true(q == 0 || q > 2 || m->c[0][q][1] != expected.c[0][q][1]); /* the other component is free */
@@ -665,16 +665,16 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     triplets_reach(&l, h, s.y1);
     (void)triplets_derivative(0.0, s.y0, s.f0, &l);
     (void)triplets_derivative(h, s.y1, s.f1, &l);
-    s.path = (dense_output){rule.layout, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
+    s.dense = (dense_output){rule.layout, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
     changed_motion_start(&s.changed, h, s.y1, s.f1);
-    const dem_index struck = node_near(&s, 0.0, 0.0);
-    assert_ok(open_at(&s.correction, &s.path, s.c.set.of_node[struck], at, s.state));
-    s.state[2 * (s.n + struck) + 1] += 5.0;
-    assert_ok(local_correction_close(&s.correction, &s.path, &s.changed, s.state, &error));
+    const dem_index hit = node_near(&s, 0.0, 0.0);
+    assert_ok(open_at(&s.correction, &s.dense, s.c.set.of_node[hit], at, s.state));
+    s.state[2 * (s.n + hit) + 1] += 5.0;
+    assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
     triplets_reach(&l, at, s.first);
-    s.first[2 * (s.n + struck) + 1] += 5.0;
+    s.first[2 * (s.n + hit) + 1] += 5.0;
     triplets_reach(&l, at_inside - at, s.first);
-    dense_output_state(&s.path, at_inside, s.last);
+    dense_output_state(&s.dense, at_inside, s.last);
     *at_end = *inside = 0.0;
     for (dem_index k = 0; k < 2 * s.n; k++) *inside = fmax(*inside, fabs(s.last[k] - s.first[k]));
     triplets_reach(&l, h - at_inside, s.first);

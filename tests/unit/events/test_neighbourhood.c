@@ -64,7 +64,7 @@ static dem_status gather(rig *r, dem_index candidate)
     return neighbourhood_gather(&r->b, seeds, n);
 }
 
-static dem_index bottom_site(const rig *r)
+static dem_index bottom_candidate(const rig *r)
 {
     dem_index lowest = 0;
     for (dem_index k = 0; k < r->model->n_contact_nodes; k++)
@@ -100,7 +100,7 @@ static void rings_are_distances(void **state)
     rig r;
     (void)state;
     open_rig(&r, 1.0 / 3.0, 4);
-    const dem_index candidate = bottom_site(&r);
+    const dem_index candidate = bottom_candidate(&r);
     for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
         int *d = distances(&r, r.model->contact_nodes[candidate + turn]);
         assert_ok(gather(&r, candidate + turn));
@@ -141,7 +141,7 @@ static void accelerations_are_the_models(void **state)
         rig r;
         open_rig(&r, area ? 0.2 : 1.0 / 3.0, 4);
         assert_int_equal(r.b.plain, !area);
-        assert_ok(gather(&r, bottom_site(&r)));
+        assert_ok(gather(&r, bottom_candidate(&r)));
         check_accelerations(&r);
         close_rig(&r);
     }
@@ -158,7 +158,7 @@ static void broken_springs_do_not_pull(void **state)
     for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2)
         element_state_break_spring(&broken, &r.model->lattice, k);
     r.acting.elements = &broken;
-    assert_ok(gather(&r, bottom_site(&r)));
+    assert_ok(gather(&r, bottom_candidate(&r)));
     check_accelerations(&r);
     element_state_destroy(&broken);
     close_rig(&r);
@@ -169,7 +169,7 @@ static void a_closed_contact_holds_its_node(void **state)
     rig r;
     (void)state;
     open_rig(&r, 1.0 / 3.0, 4);
-    const dem_index candidate = bottom_site(&r);
+    const dem_index candidate = bottom_candidate(&r);
     assert_ok(gather(&r, candidate));
     assert_int_equal(r.b.n_groups, 0);
     assert_ok(contact_set_close(&r.c.set, candidate + 1, (contact_point){.feature = 0, .slide = 1}));

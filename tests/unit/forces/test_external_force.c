@@ -117,7 +117,7 @@ static void fail_and_recover(external_force *c, source *s, dem_status status, co
     assert_int_equal(s->calls, 1);
 }
 
-static void a_failure_lasts_until_it_is_told(void **state)
+static void a_failure_lasts_until_it_is_reported(void **state)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     source s;
@@ -141,7 +141,7 @@ int main(void)
         cmocka_unit_test(without_a_force_there_is_no_coupling),
         cmocka_unit_test(one_node_has_the_same_answer_as_all),
         cmocka_unit_test(power_is_force_times_velocity),
-        cmocka_unit_test(a_failure_lasts_until_it_is_told),
+        cmocka_unit_test(a_failure_lasts_until_it_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ static void check_bend(const obstacle_set *o, dem_index s, bool backwards, obsta
     assert_int_equal(beyond, expected);
 }
 
-static void bends_are_told_from_both_sides_alike(void **state)
+static void bends_are_reported_from_both_sides_alike(void **state)
 {
     (void)state;
     obstacle_set o = compile_both();
@@ -88,7 +88,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(height_and_place_are_measured_from_the_start),
-        cmocka_unit_test(bends_are_told_from_both_sides_alike),
+        cmocka_unit_test(bends_are_reported_from_both_sides_alike),
         cmocka_unit_test(a_bend_below_1e_9_is_straight),
         cmocka_unit_test(segments_and_vertices_are_where_their_obstacle_has_gone),
         cmocka_unit_test(ends_are_buried_in_what_goes_along),

@@ -19,11 +19,11 @@ static obstacle_edge edge_between(double ax, double ay, double bx, double by)
                            .except = {-1, -1}};
 }
 
-static void assert_no_poke(const obstacle_set *o, const obstacle_edge *edge)
+static void assert_no_gap(const obstacle_set *o, const obstacle_edge *edge)
 {
-    const obstacle_vertex_gap poke = obstacles_vertex_gap(o, 0.0, edge);
-    assert_int_equal(poke.vertex, -1);
-    assert_true(poke.distance == (double)INFINITY);
+    const obstacle_vertex_gap gap = obstacles_vertex_gap(o, 0.0, edge);
+    assert_int_equal(gap.vertex, -1);
+    assert_true(gap.distance == (double)INFINITY);
 }
 
 static void a_vertex_pokes_an_edge_from_the_front_or_from_behind(void **state)
@@ -31,45 +31,45 @@ static void a_vertex_pokes_an_edge_from_the_front_or_from_behind(void **state)
     (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(-1.0, 0.25, 3.0, 0.25);
-    obstacle_vertex_gap poke = obstacles_vertex_gap(&o, 0.0, &edge);
-    assert_int_equal(poke.vertex, 0);
-    assert_close(poke.distance, 0.25, 1e-15);
-    assert_close(poke.place, 0.25, 1e-15);
-    assert_close(poke.normal.x, 0.0, 0.0);
-    assert_close(poke.normal.y, 1.0, 0.0);
+    obstacle_vertex_gap gap = obstacles_vertex_gap(&o, 0.0, &edge);
+    assert_int_equal(gap.vertex, 0);
+    assert_close(gap.distance, 0.25, 1e-15);
+    assert_close(gap.place, 0.25, 1e-15);
+    assert_close(gap.normal.x, 0.0, 0.0);
+    assert_close(gap.normal.y, 1.0, 0.0);
     edge = edge_between(-0.3, 0.2, 0.3, -0.6); /* falls 4 on 3: its normal is (0.8, 0.6) */
-    poke = obstacles_vertex_gap(&o, 0.0, &edge);
-    assert_close(poke.distance, -0.12, 1e-15);
-    assert_close(poke.place, 0.34, 1e-15);
-    assert_close(poke.normal.x, 0.8, 1e-15);
-    assert_close(poke.normal.y, 0.6, 1e-15);
+    gap = obstacles_vertex_gap(&o, 0.0, &edge);
+    assert_close(gap.distance, -0.12, 1e-15);
+    assert_close(gap.place, 0.34, 1e-15);
+    assert_close(gap.normal.x, 0.8, 1e-15);
+    assert_close(gap.normal.y, 0.6, 1e-15);
     obstacles_free(&o);
 }
 
-static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_does_not_poke(void **state)
+static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap(void **state)
 {
     (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(0.125, 0.25, 1.0, 0.25);
-    assert_no_poke(&o, &edge);
+    assert_no_gap(&o, &edge);
     edge.tolerance = 0.125;
     assert_close(obstacles_vertex_gap(&o, 0.0, &edge).place, 0.0, 0.0);
     edge = edge_between(-1.0, 0.25, -0.125, 0.25);
-    assert_no_poke(&o, &edge);
+    assert_no_gap(&o, &edge);
     edge.tolerance = 0.125;
     assert_close(obstacles_vertex_gap(&o, 0.0, &edge).place, 1.0, 0.0);
     edge = edge_between(-1.0, 0.5, 1.0, 0.5);
-    assert_no_poke(&o, &edge); /* as far as the reach */
+    assert_no_gap(&o, &edge); /* as far as the reach */
     edge = edge_between(-1.0, -0.5, 1.0, -0.5);
-    assert_no_poke(&o, &edge); /* as far as the depth */
+    assert_no_gap(&o, &edge); /* as far as the depth */
     edge = edge_between(1.0, 0.25, -1.0, 0.25);
-    assert_no_poke(&o, &edge); /* the corner points out of this body */
+    assert_no_gap(&o, &edge); /* the corner points out of this body */
     edge = edge_between(-1.0, 0.25, -1.0, 0.25);
-    assert_no_poke(&o, &edge); /* no length */
+    assert_no_gap(&o, &edge); /* no length */
     obstacles_free(&o);
     o = compile(block, 5, 0.0);
     edge = edge_between(4.75, 1.25, 5.25, 0.75);
-    assert_no_poke(&o, &edge); /* the corner points along the edge */
+    assert_no_gap(&o, &edge); /* the corner points along the edge */
     obstacles_free(&o);
 }
 
@@ -94,10 +94,10 @@ static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void *
     edge = edge_between(6.5, -0.25, 15.5, -0.25);
     assert_close(obstacles_vertex_gap(&o, 0.0, &edge).distance, -0.25, 1e-15);
     edge.without[1] = 0;
-    assert_no_poke(&o, &edge);
+    assert_no_gap(&o, &edge);
     edge.without[0] = 0;
     edge.without[1] = -1;
-    assert_no_poke(&o, &edge);
+    assert_no_gap(&o, &edge);
     obstacles_free(&o);
 }
 
@@ -111,7 +111,7 @@ static bool beside_neighbour(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
     return height >= 0.0 || vec2_cross(way, mean) > 0.0;
 }
 
-static obstacle_vertex_gap poke_by_loop(const obstacle_set *o, const obstacle_edge *edge)
+static obstacle_vertex_gap gap_by_loop(const obstacle_set *o, const obstacle_edge *edge)
 {
     const vec2 way = vec2_sub(edge->b, edge->a);
     const double length = vec2_norm(way);
@@ -147,7 +147,7 @@ static obstacle_vertex_gap poke_by_loop(const obstacle_set *o, const obstacle_ed
 static void the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit(void **state)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    int n_pokes = 0;
+    int n_gaps = 0;
     (void)state;
     for (int c = 0; c < 200; c++) {
         landscape l = random_landscape(rng);
@@ -163,15 +163,15 @@ static void the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit(void **state)
                                   .except = {k % 4 == 0 ? some : -1, k % 4 == 1 ? some : -1}};
             edge.previous = k % 2 == 0 ? edge.a : telling_point(rng, &l);
             edge.next = k % 3 == 0 ? edge.b : telling_point(rng, &l);
-            const obstacle_vertex_gap poke = obstacles_vertex_gap(&l.set, 0.0, &edge),
-                                      expected = poke_by_loop(&l.set, &edge);
-            assert_int_equal(poke.vertex, expected.vertex);
-            assert_true(poke.distance == expected.distance && poke.place == expected.place);
-            n_pokes += poke.vertex >= 0;
+            const obstacle_vertex_gap gap = obstacles_vertex_gap(&l.set, 0.0, &edge),
+                                      expected = gap_by_loop(&l.set, &edge);
+            assert_int_equal(gap.vertex, expected.vertex);
+            assert_true(gap.distance == expected.distance && gap.place == expected.place);
+            n_gaps += gap.vertex >= 0;
         }
         obstacles_free(&l.set);
     }
-    assert_true(n_pokes > 5000 && n_pokes < 35000);
+    assert_true(n_gaps > 5000 && n_gaps < 35000);
     gsl_rng_free(rng);
 }
 
@@ -210,7 +210,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_vertex_pokes_an_edge_from_the_front_or_from_behind),
-        cmocka_unit_test(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_does_not_poke),
+        cmocka_unit_test(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap),
         cmocka_unit_test(of_several_vertices_the_deepest_pokes_and_of_equals_the_first),
         cmocka_unit_test(the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit),
         cmocka_unit_test(what_moves_is_met_where_it_is),

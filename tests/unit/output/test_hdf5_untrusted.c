@@ -95,7 +95,7 @@ static void links_on_the_way_are_refused(void **state)
     REFUSED(hdf5_untrusted_find(&s->file, "/a/out", &present), "/a/out: is a soft or external link");
 }
 
-static void types_are_told_and_checked(void **state)
+static void types_are_reported_and_checked(void **state)
 {
     const stored *s = *state;
     const struct {
@@ -238,7 +238,7 @@ int main(void)
         STORED(a_number_that_does_not_fit_is_refused),
         STORED(what_is_not_there_is_absent),
         STORED(links_on_the_way_are_refused),
-        STORED(types_are_told_and_checked),
+        STORED(types_are_reported_and_checked),
         STORED(a_shape_of_another_kind_has_no_rank),
         STORED(sizes_are_borne_out_by_bytes),
         STORED(attributes_are_single_and_of_their_kind),

@@ -353,14 +353,14 @@ typedef struct story {
     } sessions[most_sessions]; /* the last of them is not killed */
 } story;
 
-static void tell(const place *p, const story *told)
+static void tell(const place *p, const story *s)
 {
     point points[most_sessions] = {{0, NULL}};
     bool ended = false;
     for (int k = 0; k < most_sessions && !ended; k++) {
-        const int from = told->sessions[k].from;
-        points[k] = run(p, "run.vtkhdf", from >= 0 ? &points[from] : NULL, told->sessions[k].plan);
-        ended = told->sessions[k].plan.kill == 0;
+        const int from = s->sessions[k].from;
+        points[k] = run(p, "run.vtkhdf", from >= 0 ? &points[from] : NULL, s->sessions[k].plan);
+        ended = s->sessions[k].plan.kill == 0;
     }
     for (int k = 0; k < most_sessions; k++) dem_record_destroy(points[k].record);
 }

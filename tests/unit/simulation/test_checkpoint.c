@@ -42,7 +42,7 @@ static void close_pair(pair *p)
     dem_model_destroy(p->model);
 }
 
-static void same_site(const contact_candidate *a, const contact_candidate *b)
+static void same_candidate(const contact_candidate *a, const contact_candidate *b)
 {
     assert_int_equal(a->n_closed, b->n_closed);
     assert_int_equal(a->storm.n, b->storm.n);
@@ -60,7 +60,7 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
 {
     const contact_set *c = &a->automaton.set, *d = &b->automaton.set;
     const dem_counts n = dem_simulation_counts(a), m = dem_simulation_counts(b);
-    for (dem_index k = 0; k < c->n; k++) same_site(&c->list[k], &d->list[k]);
+    for (dem_index k = 0; k < c->n; k++) same_candidate(&c->list[k], &d->list[k]);
     assert_close(a->t, b->t, 0.0);
     assert_close(a->step, b->step, 0.0);
     assert_close(integrator_next_step(&a->integrator), integrator_next_step(&b->integrator), 0.0);
@@ -159,25 +159,25 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     close_pair(&p);
 }
 
-typedef struct raw_site {
+typedef struct raw_candidate {
     dem_index k, n_closed, behind[2], storm;
     double storm_start;
     struct {
         dem_index feature, slide, held;
         double place, force, friction;
     } closed[2];
-} raw_site;
+} raw_candidate;
 
-static void refuse_site(pair *p, raw_site candidate)
+static void refuse_candidate(pair *p, raw_candidate candidate)
 {
     refuse(p, "contacts", &candidate, sizeof candidate, "entry 0 of the contacts in the record is impossible");
 }
 
-static void sites_that_cannot_be_are_refused(void **state)
+static void candidates_that_cannot_be_are_refused(void **state)
 {
     pair p;
-    const raw_site good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .slide = 1}}};
-    raw_site bad[2] = {good, good};
+    const raw_candidate good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .slide = 1}}};
+    raw_candidate bad[2] = {good, good};
     (void)state;
     open_pair(&p);
     assert_ok(checkpoint_take(p.from, p.record));
@@ -186,9 +186,9 @@ static void sites_that_cannot_be_are_refused(void **state)
     assert_int_equal(p.to->automaton.set.list[0].n_closed, 1);
 #define REFUSE(field, value)                                                                                           \
     do {                                                                                                               \
-        raw_site candidate = good;                                                                                     \
+        raw_candidate candidate = good;                                                                                \
         candidate.field = (value);                                                                                     \
-        refuse_site(&p, candidate);                                                                                    \
+        refuse_candidate(&p, candidate);                                                                               \
     } while (0)
     REFUSE(k, -1);
     REFUSE(k, p.to->automaton.set.n);
@@ -208,7 +208,7 @@ static void sites_that_cannot_be_are_refused(void **state)
 #undef REFUSE
     bad[0].n_closed = 2; /* twice on the same segment */
     bad[0].closed[1] = bad[0].closed[0];
-    refuse_site(&p, bad[0]);
+    refuse_candidate(&p, bad[0]);
     bad[0] = good;
     refuse(&p, "contacts", bad, sizeof bad, "entry 1 of the contacts in the record is impossible"); /* twice the same */
     refuse(&p, "contacts", bad, 17, "the record has no contacts");
@@ -220,7 +220,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_comes_back),
         cmocka_unit_test(sizes_numbers_and_states_that_cannot_be_are_refused),
-        cmocka_unit_test(sites_that_cannot_be_are_refused),
+        cmocka_unit_test(candidates_that_cannot_be_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

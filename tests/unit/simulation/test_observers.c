@@ -96,7 +96,7 @@ static void frames_too_many_to_be_numbered_are_refused(void **state)
 
 /* ---- telling ---- */
 
-static void all_are_told_in_the_order_in_which_they_came(void **state)
+static void all_are_called_in_the_order_in_which_they_came(void **state)
 {
     observers a = {0};
     voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
@@ -194,7 +194,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(at_most_eight_are_admitted),
         cmocka_unit_test(an_interval_is_finite),
-        cmocka_unit_test(all_are_told_in_the_order_in_which_they_came),
+        cmocka_unit_test(all_are_called_in_the_order_in_which_they_came),
         cmocka_unit_test(who_has_no_ears_is_left_out),
         cmocka_unit_test(frames_too_many_to_be_numbered_are_refused),
         cmocka_unit_test(the_first_complaint_counts),

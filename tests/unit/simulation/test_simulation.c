@@ -396,7 +396,8 @@ static void watch(dem_simulation *simulation, diary *d, double interval)
     assert_ok(dem_simulation_observe(simulation, &observer));
 }
 
-/* A fall from rest: y = 1 - g t^2/2 at each frame, exact but for the integrator's and the path's rounding. */
+/* A fall from rest: y = 1 - g t^2/2 at each frame, exact but for the rounding of the integrator and the dense output.
+ * */
 static void frames_come_at_multiples_of_the_interval_from_start_to_end(void **state)
 {
     const dem_options options = point_options();

@@ -13,12 +13,12 @@
 
 static const double g = 9.81;
 
-/* What the callbacks are told. */
+/* What the callbacks get. */
 typedef struct world {
     double fails_after; /* s: derivatives later than this fail ... */
     int failures_left;  /* ... as often as this */
     int calls;
-    double floor; /* m: guards are y - floor and floor + 1 - y */
+    double floor; /* m: root functions are y - floor and floor + 1 - y */
 } world;
 
 static int fail_if_due(world *w, double t)
@@ -58,20 +58,20 @@ static int rattle(double t, const double *y, double *u, double *a, void *context
     return fail_if_due(context, t);
 }
 
-static void heights(double t, const double *y, double *guards, void *context)
+static void heights(double t, const double *y, double *roots, void *context)
 {
     (void)t;
     const world *w = context;
-    guards[0] = y[1] - w->floor;
-    guards[1] = w->floor + 1.0 - y[1];
+    roots[0] = y[1] - w->floor;
+    roots[1] = w->floor + 1.0 - y[1];
 }
 
-static void broken_heights(double t, const double *y, double *guards, void *context)
+static void broken_heights(double t, const double *y, double *roots, void *context)
 {
     (void)t;
     (void)y;
     (void)context;
-    guards[0] = guards[1] = (double)NAN;
+    roots[0] = roots[1] = (double)NAN;
 }
 
 static integrator make(world *w, int (*derivative)(double, const double *, double *, double *, void *),
@@ -340,8 +340,8 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 }
 
 /* Starts below the floor and rises through it, which is no root; then the ceiling is one, from below, where its
- * guard falls. */
-static void a_guard_is_looked_for_only_as_it_falls(void **state)
+ * root function falls. */
+static void a_root_is_looked_for_only_as_the_function_falls(void **state)
 {
     const double y[4] = {0.0, -0.5, 0.0, 10.0};
     world w = {.fails_after = 1e9, .floor = 0.0};
@@ -354,7 +354,7 @@ static void a_guard_is_looked_for_only_as_it_falls(void **state)
 }
 
 /* Reflected at the floor it comes down again after 2 v/g; the penetration tolerance of 1e-9 m below the restart makes
- * the guard positive there. The first step after the restart is as long as before. */
+ * the root function positive there. The first step after the restart is as long as before. */
 static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0}, penetration_tolerance = 1e-9, u = sqrt(2.0 * g * 0.5);
@@ -455,7 +455,7 @@ static void fixed_steps_are_not_tried_again(void **state)
     integrator_destroy(&i);
 }
 
-static void a_tolerance_out_of_reach_is_told(void **state)
+static void a_tolerance_out_of_reach_is_reported(void **state)
 {
     world w = {.fails_after = 1e9};
     dense_output p;
@@ -468,7 +468,7 @@ static void a_tolerance_out_of_reach_is_told(void **state)
     integrator_destroy(&i);
 }
 
-static void a_tolerance_below_rounding_is_told(void **state)
+static void a_tolerance_below_rounding_is_reported(void **state)
 {
     world w = {.fails_after = 1e9};
     dense_output p;
@@ -480,7 +480,7 @@ static void a_tolerance_below_rounding_is_told(void **state)
     integrator_destroy(&i);
 }
 
-static void guards_that_are_no_numbers_are_an_error(void **state)
+static void root_functions_that_are_no_numbers_are_an_error(void **state)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
@@ -524,15 +524,15 @@ int main(void)
         cmocka_unit_test(after_a_restart_the_path_has_the_derivatives_of_the_new_state),
         cmocka_unit_test(evaluations_are_counted),
         cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
-        cmocka_unit_test(a_guard_is_looked_for_only_as_it_falls),
+        cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),
         cmocka_unit_test(a_restart_goes_on_from_the_new_state_with_the_step_kept),
         cmocka_unit_test(without_a_restart_it_goes_on_through_a_root),
         cmocka_unit_test(a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state),
         cmocka_unit_test(a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps),
         cmocka_unit_test(fixed_steps_are_not_tried_again),
-        cmocka_unit_test(a_tolerance_out_of_reach_is_told),
-        cmocka_unit_test(a_tolerance_below_rounding_is_told),
-        cmocka_unit_test(guards_that_are_no_numbers_are_an_error),
+        cmocka_unit_test(a_tolerance_out_of_reach_is_reported),
+        cmocka_unit_test(a_tolerance_below_rounding_is_reported),
+        cmocka_unit_test(root_functions_that_are_no_numbers_are_an_error),
         cmocka_unit_test(the_version_of_sundials_has_three_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,11 +18,11 @@ static int fall(double t, const double *y, double *u, double *a, void *context)
     return 0;
 }
 
-static void height(double t, const double *y, double *guard, void *context)
+static void height(double t, const double *y, double *root, void *context)
 {
     (void)t;
     (void)context;
-    guard[0] = y[1] + penetration_tolerance;
+    root[0] = y[1] + penetration_tolerance;
 }
 
 static void every_method_finds_the_bounces_of_a_ball(void **state)
@@ -183,7 +183,7 @@ static void a_third_component_goes_as_the_others_do_to_the_bit(void **state)
     }
 }
 
-static void what_cannot_be_made_is_told(void **state)
+static void what_cannot_be_made_is_reported(void **state)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
@@ -204,7 +204,7 @@ int main(void)
         cmocka_unit_test(every_method_finds_the_bounces_of_a_ball),
         cmocka_unit_test(steps_are_settled_and_states_changed_where_they_are),
         cmocka_unit_test(a_third_component_goes_as_the_others_do_to_the_bit),
-        cmocka_unit_test(what_cannot_be_made_is_told),
+        cmocka_unit_test(what_cannot_be_made_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,11 +13,11 @@ static const double g = 9.81;
 /* x'' = -omega^2 sin x - gamma v in the first component; y falls freely. The same answer for any number of calls. */
 typedef struct world {
     double omega, gamma;
-    double floor;         /* m: guards are y - floor, and floor + 1 - y */
-    double fails_after;   /* s */
-    double pulled;        /* m/s: velocity of x as prescribed, or NAN */
-    double stiff_below;   /* m: the stiffening is 3 where x is below */
-    int calls, n_guarded; /* of derivative and of guards */
+    double floor;            /* m: root functions are y - floor, and floor + 1 - y */
+    double fails_after;      /* s */
+    double pulled;           /* m/s: velocity of x as prescribed, or NAN */
+    double stiff_below;      /* m: the stiffening is 3 where x is below */
+    int calls, n_root_calls; /* of derivative and of the root functions */
 } world;
 
 static const world plain = {.omega = 1.0, .fails_after = 1e9, .pulled = (double)NAN, .stiff_below = -1e9};
@@ -38,13 +38,13 @@ static int move(double t, const double *y, double *u, double *a, void *context)
     return 1;
 }
 
-static void heights(double t, const double *y, double *guards, void *context)
+static void heights(double t, const double *y, double *roots, void *context)
 {
     world *w = context;
     (void)t;
-    w->n_guarded++;
-    guards[0] = y[1] - w->floor;
-    guards[1] = w->floor + 1.0 - y[1];
+    w->n_root_calls++;
+    roots[0] = y[1] - w->floor;
+    roots[1] = w->floor + 1.0 - y[1];
 }
 
 static double stiffening(const double *y, void *context)
@@ -90,7 +90,7 @@ static void run(world w, double h, int n, const double *y0, double *y)
     const dense_output p = take(&V, n);
     memcpy(y, p.y1, 4 * sizeof *y);
     assert_int_equal(w.calls, n + 1);
-    assert_int_equal(w.n_guarded, 0);
+    assert_int_equal(w.n_root_calls, 0);
     assert_int_equal(integrator_counts(&V).evaluations, n + 1);
     assert_int_equal(integrator_counts(&V).steps, n);
     integrator_destroy(&V);
@@ -346,12 +346,12 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
     dense_output_state(&p, p.end, y);
     assert_close(y[1], 0.2, 1e-12);
     assert_close(y[3], -g * t, 1e-12);
-    assert_true(w.n_guarded < 30); /* 4 steps; secants do it in a few */
+    assert_true(w.n_root_calls < 30); /* 4 steps; secants do it in a few */
     integrator_destroy(&V);
 }
 
 /* From below through the floor is none, the ceiling above it is. */
-static void a_guard_is_looked_for_only_as_it_falls(void **state)
+static void a_root_is_looked_for_only_as_the_function_falls(void **state)
 {
     const double y0[4] = {0.0, -0.5, 0.0, 10.0};
     world w = plain;
@@ -418,7 +418,7 @@ static void a_derivative_that_fails_leaves_the_last_state(void **state)
     integrator_destroy(&(integrator){0});
 }
 
-static void guards_that_are_no_numbers_are_an_error(void **state)
+static void root_functions_that_are_no_numbers_are_an_error(void **state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
@@ -461,10 +461,10 @@ int main(void)
         cmocka_unit_test(the_path_of_a_step_is_that_of_shorter_steps),
         cmocka_unit_test(a_path_starts_where_the_last_one_ended),
         cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
-        cmocka_unit_test(a_guard_is_looked_for_only_as_it_falls),
+        cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),
         cmocka_unit_test(it_goes_on_from_a_new_state_or_through_the_root),
         cmocka_unit_test(a_derivative_that_fails_leaves_the_last_state),
-        cmocka_unit_test(guards_that_are_no_numbers_are_an_error),
+        cmocka_unit_test(root_functions_that_are_no_numbers_are_an_error),
         cmocka_unit_test(without_a_fixed_step_it_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -92,7 +92,7 @@ static void a_folder_that_is_not_there_has_none(void **state)
     assert_int_equal(l.file, -1);
 }
 
-/* Each child takes the lock, or is told that it is taken, many times; who has it finds nobody else's mark, though files
+/* Each child takes the lock, or finds that it is taken, many times; who has it finds nobody else's mark, though files
  * come and go all the time. */
 static void no_two_hold_it_at_any_time(void **state)
 {

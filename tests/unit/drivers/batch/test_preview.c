@@ -53,10 +53,10 @@ static void the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_kee
         follow(l, false, d.t_end);
         preview_print(l->file, &d, l->run.simulation, NULL);
         read_log(l);
-        const char *told =
+        const char *message =
             strstr(l->text,
                    "\nwarning    'rest_speed' 0.0099 m/s is below sqrt(2 g penetration tolerance) = 0.01 m/s: where ");
-        assert_int_equal(told != NULL, k == 1);
+        assert_int_equal(message != NULL, k == 1);
         assert_int_equal(strstr(l->text, "warning") != NULL, k == 1);
         drop_logged(l);
     }
@@ -194,7 +194,7 @@ static void a_long_list_of_bodies_is_cut(void **state)
     drop_logged(l);
 }
 
-static void without_an_output_none_is_told(void **state)
+static void without_an_output_none_is_reported(void **state)
 {
     (void)state;
     char name[] = "a.nml", title[] = "";
@@ -314,7 +314,7 @@ int main(void)
         cmocka_unit_test(the_preview_tells_the_constants_of_a_slice),
         cmocka_unit_test(the_preview_tells_how_bodies_came_out),
         cmocka_unit_test(a_long_list_of_bodies_is_cut),
-        cmocka_unit_test(without_an_output_none_is_told),
+        cmocka_unit_test(without_an_output_none_is_reported),
         cmocka_unit_test(versions_are_those_in_use),
         cmocka_unit_test(the_preview_tells_the_rules_of_impact),
         cmocka_unit_test(the_preview_tells_friction_and_damping),

@@ -134,7 +134,7 @@ static void the_ledger_closes(void **state)
     drop_logged(l);
 }
 
-static void what_friction_and_damping_took_is_told_if_they_did(void **state)
+static void what_friction_and_damping_took_is_reported_if_they_did(void **state)
 {
     (void)state;
     const dem_energy e = {.kinetic = 5.0, .impact = 1.0, .friction = 2.5, .damping = 0.75, .projection = 0.125};
@@ -222,7 +222,7 @@ static void without_springs_there_is_no_strain(void **state)
 }
 
 /* Pressed together to nine tenths, it only expands at first. */
-static void the_smallest_triangle_is_told(void **state)
+static void the_smallest_triangle_is_reported(void **state)
 {
     (void)state;
     logged *l = press(1e-5);
@@ -240,9 +240,9 @@ static int count_lines(const char *text, const char *topic)
 }
 
 /* Pressed as above: a stretch of 0.9 along y, by the law of the patch test sqrt(3) of its springs too, one of 3: the
- * stress is largest at the start, of all nodes alike, so that the first ones are told. With l^2 = 0.25 + 0.75 0.81 of
- * the slanting springs and c = E (l - 1)/l: xx = 2 c 0.25, yy = 2 c 0.75 0.81. */
-static void the_most_stressed_are_told_with_place_and_time(void **state)
+ * stress is largest at the start, of all nodes alike, so that the first ones are reported. With l^2 = 0.25 + 0.75 0.81
+ * of the slanting springs and c = E (l - 1)/l: xx = 2 c 0.25, yy = 2 c 0.75 0.81. */
+static void the_most_stressed_are_reported_with_place_and_time(void **state)
 {
     const double stretch = sqrt(0.25 + 0.75 * 0.81), c = 1e7 * (stretch - 1.0) / stretch;
     const double xx = 0.5 * c, yy = 1.5 * 0.81 * c, size = sqrt(xx * xx - xx * yy + yy * yy);
@@ -336,7 +336,7 @@ static void an_open_ledger_is_warned_of_once(void **state)
     }
 }
 
-/* While a force grows the first steps may miss all of the little energy there is: that is told only if it lasts. */
+/* While a force grows the first steps may miss all of the little energy there is: that is reported only if it lasts. */
 static void a_ledger_is_not_judged_while_a_ramp_grows(void **state)
 {
     (void)state;
@@ -391,7 +391,7 @@ static void counts_are_those_of_the_simulation(void **state)
     drop_logged(l);
 }
 
-static void every_kind_of_event_is_told(void **state)
+static void every_kind_of_event_is_reported(void **state)
 {
     (void)state;
     const dem_counts n = {.events = 11,
@@ -426,13 +426,13 @@ int main(void)
         cmocka_unit_test(what_rests_at_the_end_is_still_touching),
         cmocka_unit_test(the_rebound_is_measured_against_gravity),
         cmocka_unit_test(the_ledger_closes),
-        cmocka_unit_test(what_friction_and_damping_took_is_told_if_they_did),
+        cmocka_unit_test(what_friction_and_damping_took_is_reported_if_they_did),
         cmocka_unit_test(an_obstacle_tells_its_impulse),
         cmocka_unit_test(an_obstacle_in_contact_tells_its_resultant),
         cmocka_unit_test(strains_have_the_extremes_of_a_vibration),
         cmocka_unit_test(without_springs_there_is_no_strain),
-        cmocka_unit_test(the_smallest_triangle_is_told),
-        cmocka_unit_test(the_most_stressed_are_told_with_place_and_time),
+        cmocka_unit_test(the_smallest_triangle_is_reported),
+        cmocka_unit_test(the_most_stressed_are_reported_with_place_and_time),
         cmocka_unit_test(in_a_file_progress_is_a_line_every_twentieth),
         cmocka_unit_test(on_a_terminal_progress_is_rewritten_in_place),
         cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
@@ -440,7 +440,7 @@ int main(void)
         cmocka_unit_test(a_ledger_is_not_judged_while_a_ramp_grows),
         cmocka_unit_test(of_many_boundaries_only_the_first_are_listed),
         cmocka_unit_test(counts_are_those_of_the_simulation),
-        cmocka_unit_test(every_kind_of_event_is_told),
+        cmocka_unit_test(every_kind_of_event_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static void only_a_run_that_is_done_is_found_again(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
-static void what_cannot_be_written_is_told(void **state)
+static void what_cannot_be_written_is_reported(void **state)
 {
     (void)state;
     outcome o = {0};
@@ -81,6 +81,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_case_without_a_deck_has_a_line),
                                        cmocka_unit_test(only_a_run_that_is_done_is_found_again),
-                                       cmocka_unit_test(what_cannot_be_written_is_told)};
+                                       cmocka_unit_test(what_cannot_be_written_is_reported)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -68,7 +68,7 @@ static void the_bound_is_that_of_the_method(void **state)
               "formula 6  (|v_x| + |v_y|) h/spacing = 0.075 at v_scale along x; it does not bound the step\n");
 }
 
-/* A fixed step above the bound: told whatever (6) says. */
+/* A fixed step above the bound: reported whatever (6) says. */
 static void a_step_beyond_the_bound_is_warned_of(void **state)
 {
     dem_options options = dem_options_default();

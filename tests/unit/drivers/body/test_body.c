@@ -166,7 +166,7 @@ static void a_bond_stiffness_is_that_of_every_spring(void **state)
     drop_built(&b);
 }
 
-/* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as are told. */
+/* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as the report says. */
 static void an_inclusion_has_its_own_material(void **state)
 {
     (void)state;
@@ -244,7 +244,7 @@ static void the_seed_makes_the_pores(void **state)
 /* ---- how it starts ---- */
 
 /* Turned counter-clockwise by a little, the left lower corner sinks. */
-static void the_start_is_told_by_the_lowest_node(void **state)
+static void the_start_is_that_of_the_lowest_node(void **state)
 {
     (void)state;
     built b;
@@ -387,7 +387,7 @@ int main(void)
         cmocka_unit_test(a_void_turns_with_its_body),
         cmocka_unit_test(voids_and_pores_of_other_bodies_do_nothing),
         cmocka_unit_test(the_seed_makes_the_pores),
-        cmocka_unit_test(the_start_is_told_by_the_lowest_node),
+        cmocka_unit_test(the_start_is_that_of_the_lowest_node),
         cmocka_unit_test(clearance_moves_along_gravity),
         cmocka_unit_test(a_start_is_refused_if_deeper_than_the_penetration_tolerance),
         cmocka_unit_test(a_fault_is_placed_and_leaves_no_lattice),

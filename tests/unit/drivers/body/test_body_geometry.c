@@ -140,7 +140,7 @@ static void groups_of_pores_add_up(void **state)
     dem_lattice_free(&f.lattice);
 }
 
-static void pores_without_a_place_or_a_radius_are_told(void **state)
+static void pores_without_a_place_or_a_radius_are_reported(void **state)
 {
     (void)state;
     expect_fault(BLOCK "&pores porosity = 0.9, radius = 0.2, 0.2 /", 0, 2, "finds no place");
@@ -342,7 +342,7 @@ static void the_true_mass_is_that_of_all_materials(void **state)
     dem_lattice_free(&f.lattice);
 }
 
-static void an_inclusion_without_a_triangle_is_told(void **state)
+static void an_inclusion_without_a_triangle_is_reported(void **state)
 {
     (void)state;
     namelist_errors errors = {0};
@@ -467,7 +467,7 @@ int main(void)
         cmocka_unit_test(voids_of_every_shape_are_turned_and_placed),
         cmocka_unit_test(a_porosity_is_met_to_half_a_pore),
         cmocka_unit_test(groups_of_pores_add_up),
-        cmocka_unit_test(pores_without_a_place_or_a_radius_are_told),
+        cmocka_unit_test(pores_without_a_place_or_a_radius_are_reported),
         cmocka_unit_test(a_mask_stands_on_its_lower_edge),
         cmocka_unit_test(a_mesh_is_scaled_and_may_have_cracks),
         cmocka_unit_test(cracks_are_for_their_body_and_must_meet_it),
@@ -477,7 +477,7 @@ int main(void)
         cmocka_unit_test(triangles_with_their_centres_in_an_inclusion_are_of_it),
         cmocka_unit_test(of_squares_whole_cells_are_of_an_inclusion),
         cmocka_unit_test(the_true_mass_is_that_of_all_materials),
-        cmocka_unit_test(an_inclusion_without_a_triangle_is_told),
+        cmocka_unit_test(an_inclusion_without_a_triangle_is_reported),
         cmocka_unit_test(sizes_at_the_limit_pass),
         cmocka_unit_test(groups_name_a_body_that_can_have_them),
         cmocka_unit_test(pores_have_a_number_or_a_porosity),

@@ -83,7 +83,7 @@ static void names_are_given_once_and_found(void **state)
                    "3:23 there is no material 'rubbr' (did you mean 'rubber'?)");
     assert_checked(RUN RUBBER "&body shape = 'disc' /",
                    "3:1 there is no material 'solid', the default of 'material' in &body; known: 'rubber'");
-    assert_checked(RUN "&body shape = 'disc', material = 'rubber' /", ""); /* that there is none is told once */
+    assert_checked(RUN "&body shape = 'disc', material = 'rubber' /", ""); /* that there is none is reported once */
 }
 
 static void the_range_of_nu_is_that_of_the_plane(void **state)

@@ -50,7 +50,7 @@ static void a_polygon_need_not_be_convex(void **state)
 }
 
 /* A ray through corners must not count them twice or never. */
-static void inside_is_told_right_at_the_height_of_a_corner(void **state)
+static void inside_is_found_right_at_the_height_of_a_corner(void **state)
 {
     (void)state;
     double points[] = {0, 0, 2, -1, 4, 0, 2, 1};
@@ -176,7 +176,7 @@ int main(void)
         cmocka_unit_test(a_rectangle_is_as_far_as_its_nearest_side_or_corner),
         cmocka_unit_test(discs_and_rings_are_counted_from_their_rims),
         cmocka_unit_test(a_polygon_need_not_be_convex),
-        cmocka_unit_test(inside_is_told_right_at_the_height_of_a_corner),
+        cmocka_unit_test(inside_is_found_right_at_the_height_of_a_corner),
         cmocka_unit_test(the_way_round_does_not_matter),
         cmocka_unit_test(boxes_touch_all_sides),
         cmocka_unit_test(slices_enter_and_leave),

@@ -139,7 +139,7 @@ static void pores_keep_away_from_edges_and_voids(void **state)
     }
 }
 
-static void a_pore_without_a_place_is_told(void **state)
+static void a_pore_without_a_place_is_reported(void **state)
 {
     (void)state;
     shape s = make_rectangle();
@@ -295,7 +295,7 @@ int main(void)
         cmocka_unit_test(a_void_takes_nodes_only_where_they_are),
         cmocka_unit_test(a_void_of_everything_leaves_no_lattice),
         cmocka_unit_test(pores_keep_away_from_edges_and_voids),
-        cmocka_unit_test(a_pore_without_a_place_is_told),
+        cmocka_unit_test(a_pore_without_a_place_is_reported),
         cmocka_unit_test(a_ring_is_hollow),
         cmocka_unit_test(a_polygon_need_not_be_convex),
         cmocka_unit_test(a_mask_has_nodes_in_its_bright_pixels_only),

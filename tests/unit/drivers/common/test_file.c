@@ -65,7 +65,7 @@ static void what_is_no_file_is_refused(void **state)
     assert_int_equal(unlink(fifo), 0);
 }
 
-static void the_beginning_and_the_size_of_a_file_are_told(void **state)
+static void the_beginning_and_the_size_of_a_file_are_reported(void **state)
 {
     (void)state;
     char bytes[4] = "";
@@ -88,7 +88,7 @@ int main(void)
         cmocka_unit_test(all_bytes_are_read_with_a_nul_behind),
         cmocka_unit_test(what_is_too_large_or_empty_is_refused),
         cmocka_unit_test(what_is_no_file_is_refused),
-        cmocka_unit_test(the_beginning_and_the_size_of_a_file_are_told),
+        cmocka_unit_test(the_beginning_and_the_size_of_a_file_are_reported),
     };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;

@@ -76,7 +76,7 @@ static void expect_real_fault(const char *text, const char *fault)
     assert_string_equal(w.fault, fault);
 }
 
-static void what_is_no_number_is_told(void **state)
+static void what_is_no_number_is_reported(void **state)
 {
     (void)state;
     expect_integer_fault("", "the text ends where n is expected");
@@ -136,7 +136,7 @@ int main(void)
         cmocka_unit_test(text_reader_stand_between_blanks),
         cmocka_unit_test(comments_last_to_the_end_of_their_line),
         cmocka_unit_test(numbers_are_read_as_such),
-        cmocka_unit_test(what_is_no_number_is_told),
+        cmocka_unit_test(what_is_no_number_is_reported),
         cmocka_unit_test(the_first_fault_stays),
         cmocka_unit_test(seeking_goes_behind_a_lines_beginning),
     };

@@ -728,7 +728,7 @@ static void sizes_that_cannot_be_computed_with_are_named(void **state)
         "8:69: body 4 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 1 m\n");
 }
 
-static void one_fault_is_told_once(void **state)
+static void one_fault_is_reported_once(void **state)
 {
     (void)state;
     expect_errors(RUN RUBBER "&body shape = 'disc', radus = 1, spacng = 1, material = 'rubber' /\n"
@@ -750,10 +750,10 @@ static void one_fault_is_told_once(void **state)
 static void names_and_numbers_of_the_output_are_checked(void **state)
 {
     (void)state;
-    const char *told = "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
-                       "other files are called so\n";
+    const char *message = "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
+                          "other files are called so\n";
     char expected[200];
-    (void)snprintf(expected, sizeof expected, "4:9: %s", told);
+    (void)snprintf(expected, sizeof expected, "4:9: %s", message);
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.obstacle' /\n", expected);
     expect_errors(RUN RUBBER DISC("") "&output name = '.part' /\n",
                   "4:9: 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'\n");
@@ -871,7 +871,7 @@ static void the_echo_names_a_lattice_file_by_its_whole_path(void **state)
     namelist_errors_free(&errors);
 }
 
-static void what_is_wrong_with_a_lattice_file_is_told_at_its_key(void **state)
+static void what_is_wrong_with_a_lattice_file_is_reported_at_its_key(void **state)
 {
     (void)state;
     namelist_errors errors = {0};
@@ -964,13 +964,13 @@ int main(void)
         cmocka_unit_test(faults_of_geometry_are_reported_for_all_bodies),
         cmocka_unit_test(bodies_that_start_in_an_obstacle_are_named),
         cmocka_unit_test(sizes_that_cannot_be_computed_with_are_named),
-        cmocka_unit_test(one_fault_is_told_once),
+        cmocka_unit_test(one_fault_is_reported_once),
         cmocka_unit_test(a_material_is_needed_by_meshes_only),
         cmocka_unit_test(names_and_numbers_of_the_output_are_checked),
         cmocka_unit_test(a_lattice_file_is_turned_placed_cleared_and_launched),
         cmocka_unit_test(the_hash_is_of_the_lattice_file_too),
         cmocka_unit_test(the_echo_names_a_lattice_file_by_its_whole_path),
-        cmocka_unit_test(what_is_wrong_with_a_lattice_file_is_told_at_its_key),
+        cmocka_unit_test(what_is_wrong_with_a_lattice_file_is_reported_at_its_key),
         cmocka_unit_test(what_is_no_readable_file_is_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

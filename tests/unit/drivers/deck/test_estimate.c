@@ -43,13 +43,13 @@ static estimate of(const char *text)
 }
 
 /* What the deck tells, and what then comes of it. */
-static void measure(const char *text, estimate *told, estimate *found)
+static void measure(const char *text, estimate *before, estimate *found)
 {
     namelist_errors errors = {0};
     dem_model *model;
     dem_simulation *simulation;
     deck d = parse(text);
-    assert_true(estimate_deck(told, &d));
+    assert_true(estimate_deck(before, &d));
     if (deck_build(&d, &errors) != DECK_OK) fail_msg("%s", errors.list[0].text);
     assert_int_equal(dem_model_create(&model, &d.lattice, NULL, 0), DEM_OK);
     d.options.v_scale = 1.0;
@@ -65,12 +65,12 @@ static void measure(const char *text, estimate *told, estimate *found)
 /* By a share of the nodes, which are few. */
 static void expect_nodes(const char *text, double tolerance)
 {
-    estimate told, found;
-    measure(text, &told, &found);
-    assert_close(told.nodes, found.nodes, tolerance * found.nodes);
-    assert_close(told.springs, found.springs, 2.0 * tolerance * found.springs);
-    assert_close(told.frames, found.frames, 0.0);
-    assert_true(told.cover >= found.nodes);
+    estimate before, found;
+    measure(text, &before, &found);
+    assert_close(before.nodes, found.nodes, tolerance * found.nodes);
+    assert_close(before.springs, found.springs, 2.0 * tolerance * found.springs);
+    assert_close(before.frames, found.frames, 0.0);
+    assert_true(before.cover >= found.nodes);
 }
 
 #define BODY "spacing = 0.01 /\n"
@@ -99,7 +99,7 @@ static void voids_and_pores_take_nodes(void **state)
                  0.06);
 }
 
-static void bodies_add_up_and_the_one_of_most_nodes_is_told(void **state)
+static void bodies_add_up_and_the_one_of_most_nodes_is_reported(void **state)
 {
     (void)state;
     const estimate e = of(SOLID "&body shape = 'disc', radius = 1, spacing = 0.1 /\n"
@@ -110,7 +110,7 @@ static void bodies_add_up_and_the_one_of_most_nodes_is_told(void **state)
 }
 
 /* Only its size is known of a mask before it is read, and only its bytes of a mesh. */
-static void files_are_told_by_their_first_bytes_and_their_size(void **state)
+static void files_are_recognized_by_their_first_bytes_and_their_size(void **state)
 {
     (void)state;
     char text[512];
@@ -165,7 +165,7 @@ static void products_that_overflow_are_large_and_finite(void **state)
     assert_close(e.memory, 1.2e253, 1e240);
 }
 
-/* Nothing is told of what cannot be computed with: that is refused when it is built. */
+/* Nothing is said of what cannot be computed with: that is refused when it is built. */
 static void what_underflows_is_not_estimated(void **state)
 {
     (void)state;
@@ -181,10 +181,10 @@ static void what_underflows_is_not_estimated(void **state)
 /* No run makes fewer; where it is all of one kind hardly more. */
 static void expect_steps(const char *text, double most)
 {
-    estimate told, found;
-    measure(text, &told, &found);
-    if (!(told.steps <= found.steps && found.steps <= most * told.steps))
-        fail_msg("%g steps told, %g found: %s", told.steps, found.steps, text);
+    estimate before, found;
+    measure(text, &before, &found);
+    if (!(before.steps <= found.steps && found.steps <= most * before.steps))
+        fail_msg("%g steps estimated, %g found: %s", before.steps, found.steps, text);
 }
 
 #define BLOCK "&body shape = 'rectangle', size = 0.2, 0.1, spacing = 0.01"
@@ -257,7 +257,7 @@ static void output_is_frames_and_tables(void **state)
 static const estimate needed = {
     .nodes = 5e6, .largest = 1, .memory = 6e9, .step = 1e-6, .steps = 1e6, .frames = 11.0, .output = 3e9};
 
-static void expect_told(limits most, estimate_breach expected, const char *told)
+static void expect_message(limits most, estimate_breach expected, const char *message)
 {
     namelist_errors errors = {0};
     char all[1024] = "";
@@ -267,30 +267,30 @@ static void expect_told(limits most, estimate_breach expected, const char *told)
     for (size_t k = 0; k < errors.n; k++)
         n += (size_t)snprintf(all + n, sizeof all - n, "%d:%d %s\n", errors.list[k].place.line,
                               errors.list[k].place.column, errors.list[k].text);
-    assert_string_equal(all, told);
+    assert_string_equal(all, message);
     namelist_errors_free(&errors);
     deck_free(&d);
 }
 
-static void what_keeps_within_its_limits_is_told_nothing(void **state)
+static void what_keeps_within_its_limits_gets_no_message(void **state)
 {
     (void)state;
-    expect_told((limits){6e9, 1e6, 6e9}, ESTIMATE_KEPT, "");
-    expect_told((limits){INFINITY, INFINITY, INFINITY}, ESTIMATE_KEPT, "");
+    expect_message((limits){6e9, 1e6, 6e9}, ESTIMATE_KEPT, "");
+    expect_message((limits){INFINITY, INFINITY, INFINITY}, ESTIMATE_KEPT, "");
 }
 
-static void what_exceeds_one_is_told_which_where_and_by_what_option(void **state)
+static void what_exceeds_one_gets_a_message_with_limit_place_and_option(void **state)
 {
     (void)state;
-    expect_told(
+    expect_message(
         (limits){5e9, 1e6, 6e9}, ESTIMATE_MEMORY,
         "5:2 the run takes at least 6 GB of memory for its 5e+06 nodes; the limit is 5 GB, and --max-memory sets "
         "it\n");
-    expect_told(
+    expect_message(
         (limits){6e9, 5e5, 6e9}, ESTIMATE_STEPS,
         "1:6 't_end' in &run, 1 s, takes at least 1e+06 steps of 1e-06 s; the limit is 5e+05, and --max-steps sets "
         "it\n");
-    expect_told(
+    expect_message(
         (limits){6e9, 1e6, 5.9e9}, ESTIMATE_DISK,
         "7:2 the output takes about 3 GB, 11 frames and 1e+06 steps until 't_end', twice while it is put together; "
         "the limit is 5.9 GB, and --max-disk sets it\n");
@@ -301,8 +301,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_of_every_shape_are_known_from_its_area),
         cmocka_unit_test(voids_and_pores_take_nodes),
-        cmocka_unit_test(bodies_add_up_and_the_one_of_most_nodes_is_told),
-        cmocka_unit_test(files_are_told_by_their_first_bytes_and_their_size),
+        cmocka_unit_test(bodies_add_up_and_the_one_of_most_nodes_is_reported),
+        cmocka_unit_test(files_are_recognized_by_their_first_bytes_and_their_size),
         cmocka_unit_test(memory_grows_with_nodes_and_method_and_is_no_more_than_measured),
         cmocka_unit_test(a_lattice_that_is_cut_is_there_before),
         cmocka_unit_test(products_that_overflow_are_large_and_finite),
@@ -310,8 +310,8 @@ int main(void)
         cmocka_unit_test(steps_are_bounded_by_stiffness_and_mass),
         cmocka_unit_test(steps_are_bounded_where_shapes_are_cut_and_materials_mixed),
         cmocka_unit_test(output_is_frames_and_tables),
-        cmocka_unit_test(what_keeps_within_its_limits_is_told_nothing),
-        cmocka_unit_test(what_exceeds_one_is_told_which_where_and_by_what_option),
+        cmocka_unit_test(what_keeps_within_its_limits_gets_no_message),
+        cmocka_unit_test(what_exceeds_one_gets_a_message_with_limit_place_and_option),
     };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;

@@ -17,9 +17,9 @@ static void expect(const char *groups, const char *faults)
     namelist_errors_free(&r.errors);
     r.errors = (namelist_errors){0};
     precision_check(&r.deck, &lattice, &r.errors);
-    char told[1024];
-    list_faults(&r.errors, told, sizeof told);
-    assert_string_equal(told, faults);
+    char found[1024];
+    list_faults(&r.errors, found, sizeof found);
+    assert_string_equal(found, faults);
     drop_resolved(&r);
 }
 

@@ -3,7 +3,7 @@
 
 #include "kinds.h"
 
-static void pairs_are_told_apart_and_in_order(void **state)
+static void pairs_are_distinguished_and_in_order(void **state)
 {
     (void)state;
     const kinds_pair pairs[] = {{2.0, 1.0}, {1.0, 5.0}, {2.0, 0.5}, {1.0, 5.0}, {0.0, 7.0}, {2.0, 1.0}};
@@ -67,7 +67,7 @@ static void of_nothing_there_are_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pairs_are_told_apart_and_in_order),
+        cmocka_unit_test(pairs_are_distinguished_and_in_order),
         cmocka_unit_test(rounding_makes_no_kind),
         cmocka_unit_test(small_differences_do_not_add_up),
         cmocka_unit_test(of_nothing_there_are_none),

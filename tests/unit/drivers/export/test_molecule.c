@@ -83,7 +83,7 @@ static void the_box_has_room(void **state)
     end(&m);
 }
 
-static void what_is_left_out_is_told(void **state)
+static void what_is_left_out_is_reported(void **state)
 {
     (void)state;
     molecule m;
@@ -106,7 +106,7 @@ int main(void)
         cmocka_unit_test(a_later_frame_is_as_it_is_in_the_file),
         cmocka_unit_test(without_frames_it_is_the_lattice),
         cmocka_unit_test(the_box_has_room),
-        cmocka_unit_test(what_is_left_out_is_told),
+        cmocka_unit_test(what_is_left_out_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -201,14 +201,14 @@ static void expect_unreadable(const char *text, size_t size, const char *expecte
     drop(&r);
 }
 
-static void a_text_in_utf16_is_told_and_not_read(void **state)
+static void a_text_in_utf16_is_reported_and_not_read(void **state)
 {
     (void)state;
-    const char *told = "1:1 the file is in UTF-16; UTF-8 is expected";
-    expect_unreadable("\xFF\xFE&\0r\0\n\0", 8, told);
-    expect_unreadable("\xFE\xFF\0&\0r\0\n", 8, told);
-    expect_unreadable("&\0r\0\n\0", 6, told);
-    expect_unreadable("\0&\0r\0\n", 6, told);
+    const char *message = "1:1 the file is in UTF-16; UTF-8 is expected";
+    expect_unreadable("\xFF\xFE&\0r\0\n\0", 8, message);
+    expect_unreadable("\xFE\xFF\0&\0r\0\n", 8, message);
+    expect_unreadable("&\0r\0\n\0", 6, message);
+    expect_unreadable("\0&\0r\0\n", 6, message);
     expect_unreadable("! \xE9\n\n! \xE9\n&b x = nan", 19,
                       "1:3 byte 0xE9 is not text; UTF-8 is expected (2 such lines)");
 }
@@ -339,7 +339,7 @@ int main(void)
         cmocka_unit_test(an_end_without_group_is_reported),
         cmocka_unit_test(an_unquoted_path_does_not_silently_end_its_group),
         cmocka_unit_test(bytes_that_are_not_text_are_reported_once),
-        cmocka_unit_test(a_text_in_utf16_is_told_and_not_read),
+        cmocka_unit_test(a_text_in_utf16_is_reported_and_not_read),
         cmocka_unit_test(overlong_characters_and_surrogates_are_not_text),
         cmocka_unit_test(a_long_line_is_reported),
         cmocka_unit_test(a_large_file_is_refused),

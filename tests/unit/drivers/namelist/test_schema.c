@@ -25,7 +25,7 @@ static void assert_body_errors(const char *keys, const char *expected)
 
 /* ---- what is read --------------------------------------------------------------------------------------------- */
 
-static void given_values_and_defaults_are_told_apart(void **state)
+static void given_values_and_defaults_are_distinguished(void **state)
 {
     (void)state;
     resolved r = resolve_clean("&run t_end = 2 /" MATERIAL BODY);
@@ -403,7 +403,7 @@ static void the_default_stands_in_for_a_fault(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(given_values_and_defaults_are_told_apart),
+        cmocka_unit_test(given_values_and_defaults_are_distinguished),
         cmocka_unit_test(a_key_without_default_stays_not_given),
         cmocka_unit_test(groups_stand_in_the_order_of_the_table_then_of_the_file),
         cmocka_unit_test(only_groups_that_do_not_repeat_get_an_instance_of_defaults),

@@ -132,7 +132,7 @@ static void pages_are_of_the_size_of_the_picture(void **state)
     (void)fclose(file);
 }
 
-static void a_full_disk_is_told(void **state)
+static void a_full_disk_is_reported(void **state)
 {
     (void)state;
     for (int paged = 0; paged < 2; paged++) {
@@ -151,6 +151,6 @@ int main(void)
                                        cmocka_unit_test(images_are_stretched),
                                        cmocka_unit_test(letters_stand_on_their_anchors),
                                        cmocka_unit_test(pages_are_of_the_size_of_the_picture),
-                                       cmocka_unit_test(a_full_disk_is_told)};
+                                       cmocka_unit_test(a_full_disk_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,7 +79,7 @@ static void a_full_disk_leaves_the_old_one(void **state)
     assert_int_equal(access(part, F_OK), -1);
 }
 
-static void a_folder_that_is_not_there_is_told(void **state)
+static void a_folder_that_is_not_there_is_reported(void **state)
 {
     (void)state;
     picture p;
@@ -109,6 +109,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_end_of_the_name_tells_the_format),
         cmocka_unit_test(an_old_one_stays_until_the_new_one_is_whole), cmocka_unit_test(a_dropped_one_leaves_nothing),
-        cmocka_unit_test(a_full_disk_leaves_the_old_one), cmocka_unit_test(a_folder_that_is_not_there_is_told)};
+        cmocka_unit_test(a_full_disk_leaves_the_old_one), cmocka_unit_test(a_folder_that_is_not_there_is_reported)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -25,18 +25,18 @@ static int count(const char *text, const char *word)
     return n;
 }
 
-/* What is told of it begins with these words. */
+/* The message about it begins with these words. */
 static void draw(bool (*how)(const dem_film *film, const request *asked, FILE *log, outcome *o),
                  const trajectory_fixture *f, const request *asked, const char *words)
 {
-    char told[256] = "";
+    char message[256] = "";
     outcome o = {0};
     FILE *log = tmpfile();
     assert_non_null(log);
     assert_true(how(f->film, asked, log, &o));
     rewind(log);
-    assert_non_null(fgets(told, sizeof told, log));
-    assert_memory_equal(told, words, strlen(words));
+    assert_non_null(fgets(message, sizeof message, log));
+    assert_memory_equal(message, words, strlen(words));
     (void)fclose(log);
 }
 

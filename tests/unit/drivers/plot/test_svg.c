@@ -106,7 +106,7 @@ static void images_are_inside(void **state)
            "<image x=\"0.00\" y=\"0.00\" width=\"10.00\" height=\"5.00\" href=\"data:image/png;base64,iVBORw0KGgo");
 }
 
-static void a_full_disk_is_told(void **state)
+static void a_full_disk_is_reported(void **state)
 {
     (void)state;
     FILE *file = fopen("/dev/full", "w");
@@ -123,6 +123,6 @@ int main(void)
                                        cmocka_unit_test(parts_have_their_names_and_clips),
                                        cmocka_unit_test(texts_stay_texts),
                                        cmocka_unit_test(images_are_inside),
-                                       cmocka_unit_test(a_full_disk_is_told)};
+                                       cmocka_unit_test(a_full_disk_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
