@@ -17,7 +17,14 @@ INSTEAD = {
 # File, word: where it may stand, and why.
 ALLOWED = {
     ("drivers/namelist/schema.c", "skin"),  # the key that decks had before
+    ("tests/deck/test_refused.py", "skin"), ("tests/unit/drivers/namelist/test_schema.c", "skin"),  # and its message
+    ("tests/bench/lammps.py", "skin"),  # LAMMPS's word for how far its lists of neighbours reach
     ("include/dem/status.h", "patch"), ("include/dem/trajectory.h", "patch"),  # of a version
+    ("tests/verification/test_patch.c", "patch"), ("tests/verification/meson.build", "patch"),  # the patch test of the
+    ("tests/unit/drivers/batch/test_report.c", "patch"),  # finite element method
+    ("tests/deck/test_f90nml.py", "patch"),  # a function of f90nml
+    ("tests/verification/test_bounce.c", "ball"), ("tests/unit/time/test_integrator.c", "ball"),  # that bounces
+    ("tests/unit/drivers/plot/test_ticks.c", "books"),  # that are printed
 }
 faults = []
 
@@ -56,7 +63,9 @@ def check_glossary():
                 faults.append(f"docs/glossary.md:{number}: {place} is not there")
 
 
-sources = sorted(p for d in ("src", "drivers", "include") for p in (ROOT / d).rglob("*") if p.suffix in (".c", ".h"))
+sources = sorted(p for d in ("src", "drivers", "include", "tests") for p in (ROOT / d).rglob("*")
+                 if p.suffix in (".c", ".h", ".py", ".f90", ".sh") or p.name == "meson.build")
+sources.remove(ROOT / "tests/style/glossary.py")
 for source in sources:
     check_file(source)
 check_glossary()
