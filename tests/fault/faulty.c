@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A machine that fails one process as the environment asks: `FAULTY_FAIL=write FAULTY_NTH=7 LD_PRELOAD=faulty.so
- * PROGRAM`. FAULTY_FAIL what fails: memory, open, read, write, sync, rename, close, link, resize, lock; any: all but
- * memory FAULTY_NTH which one of these, from 1 FAULTY_HOW once (the default), always (from that one on), short (half of
- * a write), kill (the process, before the call), torn (the process, after half of a write) FAULTY_ERROR the number of
- * the error; EIO is the default FAULTY_BUDGET bytes that the files in the working folder may have together: what does
- * not fit gets ENOSPC FAULTY_COUNTS a file that gets the number of each kind of call when the program ends FAULTY_LOG a
- * file that gets every call that changes a file, with its data FAULTY_STACKS a file that gets, for each allocation, 8
- * bytes: a hash of its eight innermost callers FAULTY_CRASH a file that gets the library and the function where a
- * signal, or exit(), ended the process Allocations are those of the whole process, from main() on. The other calls are
- * caught where they enter the system, so that no library's way round the C library is missed; those count that name a
- * file by a relative path, or a descriptor that was opened by one, so the program's own files and nothing of /proc,
- * say. */
+/* A machine that fails one process as asked by the environment:
+ *
+ *    FAULTY_FAIL=write FAULTY_NTH=7 LD_PRELOAD=faulty.so PROGRAM
+ *
+ *    FAULTY_FAIL    what fails: memory, open, read, write, sync, rename, close, link, resize, lock; any: all but memory
+ *    FAULTY_NTH     which one of these, from 1
+ *    FAULTY_HOW     once (the default), always (from that one on), short (half of a write), kill (the process, before
+ *                   the call), torn (the process, after half of a write)
+ *    FAULTY_ERROR   the number of the error; EIO is the default
+ *    FAULTY_BUDGET  bytes that the files in the working folder may have together: what does not fit gets ENOSPC
+ *    FAULTY_COUNTS  a file that gets the number of each kind of call when the program ends
+ *    FAULTY_LOG     a file that gets every call that changes a file, with its data
+ *    FAULTY_STACKS  a file that gets, for each allocation, 8 bytes: a hash of its eight innermost callers
+ *    FAULTY_CRASH   a file that gets the library and the function where a signal, or exit(), ended the process
+ *
+ * Allocations are those of the whole process, from main() on. The other calls are caught where they enter the system,
+ * so that no library's way round the C library is missed; those count that name a file by a relative path, or a
+ * descriptor that was opened by one, so the program's own files and nothing of /proc, say. */
 #define _GNU_SOURCE /* REG_RAX, syscall() */
 
 #include <dlfcn.h>
