@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is kept of contact events: energies, impulses given by the obstacles, counts; and who hears of events. */
+/* What is kept of contact events: energies, impulses given by the obstacles, counts. */
 #ifndef DEM_CONTACT_LEDGER_H
 #define DEM_CONTACT_LEDGER_H
 
 #include "contact/contact_point.h"
+#include "events/event_listener.h"
 
 typedef struct contact_ledger {
     double impact, projection;          /* J, taken by impacts, put in by projection */
@@ -11,12 +12,6 @@ typedef struct contact_ledger {
     double *impulse, *friction_impulse; /* [n_obstacles][2] N s, given to the bodies by impacts */
     dem_counts counts;                  /* those of contacts */
 } contact_ledger;
-
-/** Who hears of events. */
-typedef struct event_listener {
-    dem_status (*event)(void *context, const dem_event *event);
-    void *context;
-} event_listener;
 
 /** The state being changed: views into y = (x, v), and who hears of events. */
 typedef struct contact_instant {

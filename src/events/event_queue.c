@@ -7,17 +7,15 @@
 #include "base/grow.h"
 #include "base/reduce.h"
 #include "base/status.h"
-#include "contact/impact_group.h"
 
 /* ---- set-up ---- */
 
-dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled)
+dem_status event_queue_create(event_queue *out, const state_layout *l, const forces *acting, const constraints *c,
+                              const local_correction_rule *rule, bool controlled)
 {
-    *out = (event_queue){.automaton = c, .most = controlled ? 1.0 : (double)INFINITY};
-    dem_status status = contact_source_create(&out->contact, c);
-    if (status == DEM_OK) status = changed_motion_create(&out->changed, scene_layout(&c->set.scene));
-    if (status == DEM_OK) status = local_correction_create(&out->correction, &c->set, rule);
-    if (status == DEM_OK) status = event_queue_add_source(out, contact_source_events(&out->contact));
+    *out = (event_queue){.layout = *l, .acting = acting, .constraints = c, .most = controlled ? 1.0 : (double)INFINITY};
+    dem_status status = changed_motion_create(&out->changed, l);
+    if (status == DEM_OK) status = local_correction_create(&out->correction, l, acting, c, rule);
     if (status != DEM_OK) event_queue_destroy(out);
     return status;
 }
@@ -34,7 +32,6 @@ void event_queue_destroy(event_queue *q)
 {
     local_correction_destroy(&q->correction);
     changed_motion_destroy(&q->changed);
-    contact_source_destroy(&q->contact);
     free(q->sources);
     free(q->seeds);
     free(q->events);
@@ -94,7 +91,7 @@ static dem_status hear(void *context, const dem_event *event)
 {
     event_queue *q = context;
     CHECK(grow_array((void **)&q->events, &q->capacity, q->n_events + 1, sizeof *q->events), DEM_ERROR_MEMORY,
-          "out of memory for the contact events of a step");
+          "out of memory for the events of a step");
     q->events[q->n_events++] = *event;
     return DEM_OK;
 }
@@ -148,37 +145,29 @@ static dem_status take(event_queue *q, const due_event *due)
     return DEM_OK;
 }
 
-static bool has_moved(const event_queue *q, dem_index group)
-{
-    const contact_forces *r = &q->automaton->set.forces;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
-        if (changed_motion_has(&q->changed, r->candidates[m].node)) return true;
-    return false;
-}
-
 /* Accelerations at the end of the step depend on the new positions of nodes and neighbours. */
 static void renew(const event_queue *q, dem_index i, const double *y)
 {
-    const contact_set *c = &q->automaton->set;
-    const unsigned held = forces_held(c->scene.forces, i);
-    const double *v = y + state_velocities(scene_layout(&c->scene));
-    double *a = q->changed.f1 + state_velocities(scene_layout(&c->scene));
-    const bool grouped = contact_set_group_at(c, i) >= 0;
-    const vec2 now = grouped ? vec2_at(c->forces.a, i) : forces_acceleration(c->scene.forces, i, y, v);
+    const unsigned held = forces_held(q->acting, i);
+    const double *v = y + state_velocities(&q->layout);
+    double *a = q->changed.f1 + state_velocities(&q->layout);
+    const bool grouped = constraints_group_at(q->constraints, i) >= 0;
+    const vec2 now = grouped ? vec2_at(q->constraints->a, i) : forces_acceleration(q->acting, i, y, v);
     if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
     if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
     if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));
 }
 
-/* The rates of the quadratures that contacts add to, from all of them. */
+/* The rates of the quadratures that constraints add to, from all of them. */
 static dem_status renew_rates(event_queue *q)
 {
-    const state_layout *l = scene_layout(&q->automaton->set.scene);
+    const state_layout *l = &q->layout;
+    const constraints *c = q->constraints;
     const dem_index first = state_impulse(l, 0), last = state_total_rows(l);
     double *a = q->changed.f1 + state_velocities(l);
     for (dem_index row = first; row <= last; row++) TRY(changed_motion_keep(&q->changed, row));
     for (dem_index k = state_row(l, first); k <= state_total_index(l, STATE_FRICTION); k++) a[k] = 0.0;
-    (void)automaton_add_rates(q->automaton, q->step->t1, q->changed.y1, a);
+    if (c != NULL) c->add_all_rates(c->self, (constraint_state){q->step->t1, q->changed.y1}, a);
     return DEM_OK;
 }
 
@@ -191,37 +180,25 @@ static dem_status renew_beside(event_queue *q, dem_index i, const double *y)
     return DEM_OK;
 }
 
-/* Derivatives at the end of the step, for the change of nodes and contacts: they are those of the state to the bit, but
- * for the power of damping and boundaries. */
+/* Derivatives at the end of the step, for the change of nodes and constraints: they are those of the state to the bit,
+ * but for the power of damping and boundaries. */
 static dem_status renew_end(event_queue *q)
 {
-    contact_set *c = &q->automaton->set;
     const double *y1 = q->changed.y1;
-    for (dem_index g = 0; g < c->forces.n_groups; g++)
-        contact_forces_solve(&c->forces, c->forces.groups[g], scene_state_at(&c->scene, q->step->t1, y1));
     for (dem_index e = 0, n = q->changed.n; e < n; e++) {
         const dem_index i = q->changed.list[e].node;
-        if (i >= c->scene.model->lattice.n_nodes) continue;
+        if (i >= q->layout.n_nodes) continue;
         renew(q, i, y1);
-        for (forces_neighbours j = forces_neighbours_of(c->scene.forces, i); forces_next_neighbour(&j);)
+        for (forces_neighbours j = forces_neighbours_of(q->acting, i); forces_next_neighbour(&j);)
             TRY(renew_beside(q, j.node, y1));
     }
     return renew_rates(q);
 }
 
-/* The error that the local corrections leave in closed contacts goes: they are put back on their surfaces and stopped
- * there. */
+/* The error that the local corrections leave in constraints goes. */
 static dem_status settle_end(event_queue *q)
 {
-    contact_set *c = &q->automaton->set;
-    double *y1 = q->changed.y1;
-    contact_instant now = {q->step->t1, y1, y1 + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
-    for (dem_index g = 0; g < c->forces.n_groups; g++) {
-        const dem_index group = c->forces.groups[g];
-        if (!has_moved(q, group)) continue;
-        (void)impact_group_project(c, group, &now);
-        impact_group_stop(c, group, &now);
-    }
+    if (q->constraints != NULL) q->constraints->settle(q->constraints->self, &q->changed);
     q->settled = true;
     return renew_end(q);
 }

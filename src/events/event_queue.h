@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The events of contact and other sources inside one accepted step, in the order of time. Each is taken where and when
+/* The events of all sources inside one accepted step, in the order of time. Each is taken where and when
  * it happens, and what follows from it for the rest of the step is corrected on a neighbourhood, which may bring
  * further events: the whole body is never stopped. Everything can be taken back. */
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
-#include "contact/automaton.h"
-#include "events/contact_source.h"
 #include "events/event_source.h"
 #include "events/local_correction.h"
 
 typedef struct event_queue {
-    automaton *automaton;
+    state_layout layout;
+    const forces *acting;
+    const constraints *constraints; /* NULL: none */
     local_correction correction;
     changed_motion changed;
     const dense_output *step; /* in hand */
@@ -22,7 +22,6 @@ typedef struct event_queue {
     double error;             /* of all local corrections, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of it; beyond it the step is to be rejected, and nothing more is done */
-    contact_source contact;   /* the first source */
     dem_index n_sources, source_capacity;
     event_source *sources; /* [n_sources] by their kind */
     dem_index seed_capacity;
@@ -32,12 +31,13 @@ typedef struct event_queue {
     dem_index n_stops; /* times at which something happened */
 } event_queue;
 
-/** Borrows the contact. `controlled`: a step is rejected for an error above 1. Must stay where it is. Free with
- *  event_queue_destroy(). */
-dem_status event_queue_create(event_queue *out, automaton *c, const local_correction_rule *rule, bool controlled);
+/** Without sources. Borrows forces and constraints (NULL: none). `controlled`: a step is rejected for an error above 1.
+ *  Must stay where it is. Free with event_queue_destroy(). */
+dem_status event_queue_create(event_queue *out, const state_layout *l, const forces *acting, const constraints *c,
+                              const local_correction_rule *rule, bool controlled);
 void event_queue_destroy(event_queue *q);
 
-/** Another source of events, before the first step: of events at the same time its come after those of the sources
+/** Adds a source of events, before the first step: of events at the same time its come after those of the sources
  *  that are there. Borrows what the source works on.  \return DEM_ERROR_MEMORY */
 dem_status event_queue_add_source(event_queue *q, event_source source);
 
@@ -45,8 +45,8 @@ dem_status event_queue_add_source(event_queue *q, event_source source);
  *  the changed motions; it must stay where it is.  \param state  [4 n] scratch */
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 
-/** Makes the contacts, and the step up to there, what they are at t; the end is whole when t is not before it.
- *  \return DEM_ERROR_CONTACT as automaton_resolve(), DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
+/** Makes the sources, and the step up to there, what they are at t; the end is whole when t is not before it.
+ *  \return what a source returns for an event, DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
  *  DEM_ERROR_MEMORY */
 dem_status event_queue_show(event_queue *q, double t);
 
@@ -57,7 +57,7 @@ double event_queue_error(const event_queue *q);
  *  may not tell. */
 double event_queue_reach(const event_queue *q);
 
-/** Takes all back: contacts, ledger and the end of the step are as they were. */
+/** Takes all back: the sources and the end of the step are as they were. */
 void event_queue_undo(event_queue *q);
 
 #endif

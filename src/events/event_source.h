@@ -5,8 +5,9 @@
 #ifndef DEM_EVENTS_EVENT_SOURCE_H
 #define DEM_EVENTS_EVENT_SOURCE_H
 
-#include "contact/ledger.h"
+#include "events/event_listener.h"
 #include "events/neighbourhood.h"
+#include "time/dense_output.h"
 
 /** An event inside a step. */
 typedef struct event_place {

@@ -9,13 +9,14 @@
 
 enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
 
-dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule)
+dem_status local_correction_create(local_correction *out, const state_layout *l, const forces *acting,
+                                   const constraints *c, const local_correction_rule *rule)
 {
-    const bool damped = forces_couple_velocities(set->scene.forces);
+    const bool damped = forces_couple_velocities(acting);
     local_correction p = {.rule = *rule};
     TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
-    TRY(neighbourhood_create(&p.near, set, 1 + (damped ? p.table.stages : p.table.stages / 2)));
+    TRY(neighbourhood_create(&p.near, l, acting, c, 1 + (damped ? p.table.stages : p.table.stages / 2)));
     *out = p;
     return DEM_OK;
 }
@@ -115,7 +116,7 @@ static dem_status add_rate(local_correction *p, dem_index place, int stage, doub
 
 static const forces *acting(const local_correction *p)
 {
-    return p->near.set->scene.forces;
+    return p->near.acting;
 }
 
 /* Power of the forces on node j of the neighbourhood; those from outside are those asked for last, at the same
@@ -126,27 +127,32 @@ static forces_power node_power(const local_correction *p, dem_index j, const dou
     return forces_node_power(acting(p), p->near.nodes[j].i, c != NULL ? vec2_at(c->value, j) : (vec2){0.0, 0.0}, x, v);
 }
 
-/* Adds the rates of the quadratures that come from the neighbourhood, in a state whose contact forces are known. */
-static dem_status add_rates(local_correction *p, int stage, double sign, scene_state state)
+/* Rates with a sign at a stage: what constraints add goes there. */
+typedef struct signed_rates {
+    local_correction *correction;
+    int stage;
+    double sign;
+} signed_rates;
+
+static dem_status add_constraint_rate(void *context, dem_index row, const double *rate)
 {
-    const contact_set *c = p->near.set;
-    const contact_forces *r = &c->forces;
-    const state_layout *l = scene_layout(&c->scene);
+    const signed_rates *to = context;
+    return add_rate(to->correction, row, to->stage, to->sign, vec2_at(rate, 0));
+}
+
+/* Adds the rates of the quadratures that come from the neighbourhood, in a state that constraints are solved for. */
+static dem_status add_rates(local_correction *p, int stage, double sign, constraint_state state)
+{
+    const constraints *c = p->near.constraints;
+    const state_layout *l = &p->near.layout;
     const int rings = reach(p, stage);
     double totals[STATE_TOTALS] = {0.0};
-    for (dem_index g = 0; g < p->near.n_groups; g++) {
-        if (p->near.groups[g].ring > rings) continue;
-        for (dem_index m = contact_forces_first(r, p->near.groups[g].group); m >= 0; m = r->next[m])
-            for (int q = 0; q < c->list[m].n_closed; q++) {
-                const contact_contribution of = contact_set_contribution(c, m, q, state);
-                TRY(add_rate(p, state_impulse(l, of.obstacle), stage, sign, of.force));
-                TRY(add_rate(p, state_friction_impulse(l, of.obstacle), stage, sign, of.friction));
-                totals[STATE_FRICTION] += of.power;
-                totals[STATE_WORK] += of.work;
-            }
-    }
+    signed_rates at_stage = {p, stage, sign};
+    const constraint_rates rates = {&at_stage, add_constraint_rate, totals};
+    for (dem_index g = 0; g < p->near.n_groups; g++)
+        if (p->near.groups[g].ring <= rings) TRY(c->add_rates(c->self, p->near.groups[g].group, state, &rates));
     for (dem_index j = 0; j < p->near.end[rings] && forces_have_power(acting(p)); j++) {
-        const forces_power power = node_power(p, j, state.x, state.v);
+        const forces_power power = node_power(p, j, state.y, state.y + state_velocities(l));
         totals[STATE_DAMPING] += power.damping;
         totals[STATE_WORK] += power.work;
     }
@@ -194,7 +200,7 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
     if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
     put_time(p, step, stage, y);
     neighbourhood_accelerate(&p->near, reach(p, stage), &s, p->a[stage]);
-    return add_rates(p, stage, -1.0, scene_state_at(&p->near.set->scene, s.t, y));
+    return add_rates(p, stage, -1.0, (constraint_state){s.t, y});
 }
 
 /* At the end of the step that is known. */
@@ -209,7 +215,7 @@ static dem_status open_end(local_correction *p, const dense_output *step)
         vec2_put(p->a[p->last], j, vec2_at(a1, i));
     }
     neighbourhood_push(&p->near, reach(p, END), state_time(l, step->y1), p->x[p->last], p->v[p->last]);
-    const scene_state state = scene_state_at(&p->near.set->scene, step->t1, step->y1);
+    const constraint_state state = {step->t1, step->y1};
     TRY(add_rates(p, END, -1.0, state));
     return add_rates(p, p->last, -1.0, state);
 }
@@ -300,7 +306,7 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
     for (dem_index k = 0; k < 2 * n_moving(p) && acting(p)->boundaries != NULL; k++)
         if (forces_held(acting(p), p->near.nodes[k / 2].i) & ((unsigned)DEM_COMPONENT_X << (k & 1)))
             p->da[stage][k] = 0.0;
-    return add_rates(p, stage, 1.0, scene_state_at(&p->near.set->scene, s.t, y));
+    return add_rates(p, stage, 1.0, (constraint_state){s.t, y});
 }
 
 static motion_change jump_at(const local_correction *p, int stage, dem_index j)
@@ -351,7 +357,7 @@ static dem_status leave(const local_correction *p, changed_motion *tr, dem_index
 
 static double squared_error(const local_correction *p)
 {
-    const dem_index n = p->near.set->scene.model->lattice.n_nodes;
+    const dem_index n = p->near.layout.n_nodes;
     double weights[LOCAL_CORRECTION_STAGES], x_sum = 0.0, v_sum = 0.0;
     for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
     for (dem_index k = 0; k < 2 * n_moving(p); k++) {

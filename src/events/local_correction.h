@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What an event inside a step does to the rest of the step: the change d of the motion that follows from it solves
- *   d'' = a(x + d, contacts after) - a(x, contacts before)
+ *   d'' = a(x + d, constraints after) - a(x, constraints before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
  * damped). So it is integrated on a neighbourhood of 3 (6) rings round the event, by one step of Fehlberg's pair;
  * outside it is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. Inside the step the change
@@ -39,17 +39,18 @@ typedef struct local_correction {
     double *changed[3];                   /* x, v, x'' with it at a stage */
 } local_correction;
 
-/** Borrows the candidates. Free with local_correction_destroy(). */
-dem_status local_correction_create(local_correction *out, contact_set *set, const local_correction_rule *rule);
+/** Borrows forces and constraints (NULL: none). Free with local_correction_destroy(). */
+dem_status local_correction_create(local_correction *out, const state_layout *l, const forces *acting,
+                                   const constraints *c, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 
 /** Before an event that may change some nodes at once: gathers the neighbourhood round them and what moves it, and
- *  puts the state of its nodes at t into `state` [4 n]. The forces of the closed contacts are to be those at the end
- *  of the step. */
+ *  puts the state of its nodes at t into `state` [4 n]. The constraints are to be solved for the end of
+ *  the step. */
 dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
                                  dem_index n_seeds, double t, double *state);
 
-/** After the event has changed `state` and the contacts: integrates the change and makes it one of the step.
+/** After the event has changed `state` and the constraints: integrates the change and makes it one of the step.
  *  \param[out] error  squared, of all unknowns of the bodies together, in units of the tolerance */
 dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
                                   double *error);

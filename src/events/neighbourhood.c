@@ -8,14 +8,18 @@
 #include "base/grow.h"
 #include "base/status.h"
 
-dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_rings)
+dem_status neighbourhood_create(neighbourhood *out, const state_layout *l, const forces *acting, const constraints *c,
+                                int n_rings)
 {
-    const dem_model *model = set->scene.model;
-    const dem_index n = model->lattice.n_nodes;
-    neighbourhood b = {.set = set, .n_rings = n_rings, .number = malloc((size_t)n * sizeof *b.number)};
+    const dem_index n = l->n_nodes;
+    neighbourhood b = {.layout = *l,
+                       .acting = acting,
+                       .constraints = c,
+                       .plain = forces_are_plain(acting),
+                       .n_rings = n_rings,
+                       .number = malloc((size_t)n * sizeof *b.number)};
     CHECK(b.number != NULL, DEM_ERROR_MEMORY, "out of memory for the neighbours of %lld nodes", (long long)n);
     for (dem_index i = 0; i < n; i++) b.number[i] = -1;
-    b.plain = forces_are_plain(set->scene.forces);
     *out = b;
     return DEM_OK;
 }
@@ -44,8 +48,7 @@ static dem_status add_node(neighbourhood *b, dem_index i)
 
 static dem_status add_neighbours(neighbourhood *b, dem_index i)
 {
-    for (forces_neighbours j = forces_neighbours_of(b->set->scene.forces, i); forces_next_neighbour(&j);)
-        TRY(add_node(b, j.node));
+    for (forces_neighbours j = forces_neighbours_of(b->acting, i); forces_next_neighbour(&j);) TRY(add_node(b, j.node));
     return DEM_OK;
 }
 
@@ -61,21 +64,20 @@ static dem_status note_group(neighbourhood *b, dem_index group, int ring, bool *
     return DEM_OK;
 }
 
+static dem_status add_tied_node(void *context, dem_index i)
+{
+    return add_node(context, i);
+}
+
 /* The group at a node, with all its nodes. */
 static dem_status add_group(neighbourhood *b, dem_index j, int ring)
 {
-    const contact_forces *r = &b->set->forces;
-    const dem_index group = contact_set_group_at(b->set, b->nodes[j].i);
+    const dem_index group = constraints_group_at(b->constraints, b->nodes[j].i);
     bool is_new;
     b->nodes[j].grouped = group >= 0;
     if (group < 0) return DEM_OK;
     TRY(note_group(b, group, ring, &is_new));
-    for (dem_index m = contact_forces_first(r, group); m >= 0 && is_new; m = r->next[m]) {
-        const contact_candidate *candidate = &b->set->list[m];
-        TRY(add_node(b, candidate->node));
-        if (candidate_is_edge(candidate)) TRY(add_node(b, candidate->other));
-    }
-    return DEM_OK;
+    return is_new ? b->constraints->each_node(b->constraints->self, group, add_tied_node, b) : DEM_OK;
 }
 
 static dem_status close_ring(neighbourhood *b, int ring)
@@ -112,9 +114,9 @@ static dem_status reserve_bonds(neighbourhood *b, dem_index n)
 /* The springs of a node, but those that were listed from their other end. */
 static void add_bonds(neighbourhood *b, dem_index j)
 {
-    const springs *s = &b->set->scene.model->springs;
+    const springs *s = &b->acting->model->springs;
     const dem_index i = b->nodes[j].i;
-    const unsigned char *broken = element_state_springs(element_state_at(b->set->scene.forces->elements, i));
+    const unsigned char *broken = element_state_springs(element_state_at(b->acting->elements, i));
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = b->number[s->neighbour[p]];
         if (other < j || springs_broken(s, broken, p)) continue;
@@ -126,7 +128,7 @@ static void add_bonds(neighbourhood *b, dem_index j)
 
 static dem_status list_bonds(neighbourhood *b)
 {
-    const springs *s = &b->set->scene.model->springs;
+    const springs *s = &b->acting->model->springs;
     dem_index most = 0;
     for (dem_index j = 0; j < b->end[b->n_rings - 1]; j++) most += s->row[b->nodes[j].i + 1] - s->row[b->nodes[j].i];
     TRY(reserve_bonds(b, most));
@@ -158,7 +160,7 @@ dem_status neighbourhood_regroup(neighbourhood *b)
     b->n_groups = 0;
     for (int ring = 0; ring < b->n_rings; ring++)
         for (dem_index j = ring > 0 ? b->end[ring - 1] : 0; j < b->end[ring]; j++) {
-            const dem_index group = contact_set_group_at(b->set, b->nodes[j].i);
+            const dem_index group = constraints_group_at(b->constraints, b->nodes[j].i);
             b->nodes[j].grouped = group >= 0;
             if (group >= 0) TRY(note_group(b, group, ring, &is_new));
         }
@@ -169,7 +171,7 @@ dem_status neighbourhood_regroup(neighbourhood *b)
 
 void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem_index n)
 {
-    double *v = s->y + state_velocities(scene_layout(&b->set->scene));
+    double *v = s->y + state_velocities(&b->layout);
     for (dem_index j = 0; j < n; j++) {
         vec2_put(s->y, b->nodes[j].i, vec2_at(s->x, j));
         vec2_put(v, b->nodes[j].i, vec2_at(s->v, j));
@@ -200,7 +202,7 @@ static void pull(const neighbourhood *b, int rings, const double *x, double *f)
 
 static void accelerate_plain(const neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
-    const forces *f = b->set->scene.forces;
+    const forces *f = b->acting;
     pull(b, rings, s->x, a);
     for (dem_index j = 0; j < b->end[rings]; j++)
         vec2_put(a, j, forces_acceleration_by(f, b->nodes[j].i, vec2_at(a, j), vec2_at(s->v, j)));
@@ -208,7 +210,7 @@ static void accelerate_plain(const neighbourhood *b, int rings, const neighbourh
 
 void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v)
 {
-    external_force *c = b->set->scene.forces->external;
+    external_force *c = b->acting->external;
     if (c == NULL) return;
     for (dem_index j = 0; j < b->end[rings]; j++) c->some[j] = b->nodes[j].i;
     external_force_evaluate(c, &(dem_force_query){t, b->end[rings], c->some, x, v});
@@ -216,9 +218,9 @@ void neighbourhood_push(const neighbourhood *b, int rings, double t, const doubl
 
 void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_state *s, double *a)
 {
-    const contact_scene *scene = &b->set->scene;
-    const forces *f = scene->forces;
-    const double *v = s->y + state_velocities(scene_layout(scene));
+    const forces *f = b->acting;
+    const constraints *c = b->constraints;
+    const double *v = s->y + state_velocities(&b->layout);
     if (b->plain) accelerate_plain(b, rings, s, a);
     for (dem_index j = 0; j < b->end[rings] && !b->plain; j++)
         vec2_put(a, j, forces_own_acceleration(f, b->nodes[j].i, s->y, v));
@@ -226,8 +228,7 @@ void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_s
     for (dem_index j = 0; j < b->end[rings] && f->external != NULL; j++)
         vec2_put(a, j, forces_with_external(f, b->nodes[j].i, vec2_at(a, j), vec2_at(f->external->value, j)));
     for (dem_index g = 0; g < b->n_groups; g++)
-        if (b->groups[g].ring <= rings)
-            contact_forces_solve(&b->set->forces, b->groups[g].group, (scene_state){s->t, s->y, v});
+        if (b->groups[g].ring <= rings) c->solve(c->self, b->groups[g].group, (constraint_state){s->t, s->y});
     for (dem_index j = 0; j < b->end[rings] && b->n_groups > 0; j++)
-        if (b->nodes[j].grouped) vec2_put(a, j, vec2_at(b->set->forces.a, b->nodes[j].i));
+        if (b->nodes[j].grouped) vec2_put(a, j, vec2_at(c->a, b->nodes[j].i));
 }

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The nodes round an event, ring by ring of neighbours, with numbers of their own, and what accelerates them.
- * Nodes whose closed contacts are coupled are in one ring: they move at once. */
+ * Nodes of a group that constraints tie together are in one ring: they move at once. */
 #ifndef DEM_EVENTS_NEIGHBOURHOOD_H
 #define DEM_EVENTS_NEIGHBOURHOOD_H
 
-#include "contact/contact_set.h"
+#include "events/constraints.h"
+#include "forces/forces.h"
 
 enum { NEIGHBOURHOOD_RINGS = 8 };
 
 typedef struct neighbourhood_node {
     dem_index i;  /* in the lattice */
-    bool grouped; /* it takes part in closed contacts */
+    bool grouped; /* it is in a group of the constraints */
 } neighbourhood_node;
 
 /** A spring between two of its nodes: first < second. */
@@ -18,17 +19,19 @@ typedef struct neighbourhood_bond {
     int32_t first, second;
 } neighbourhood_bond;
 
-/** Closed contacts that share nodes, in the ring where they begin. */
+/** A group of the constraints, in the ring where it begins. */
 typedef struct neighbourhood_group {
     dem_index group;
     int ring;
 } neighbourhood_group;
 
 typedef struct neighbourhood {
-    contact_set *set;
-    bool plain;      /* springs are all that acts between nodes, and forces do not depend on time */
-    int n_rings;     /* the last is a frame: its nodes accelerate others, but are not accelerated */
-    int32_t *number; /* [n_nodes] of a node of the lattice here; -1: it is not */
+    state_layout layout;
+    const forces *acting;
+    const constraints *constraints; /* NULL: none */
+    bool plain;                     /* springs are all that acts between nodes, and forces do not depend on time */
+    int n_rings;                    /* the last is a frame: its nodes accelerate others, but are not accelerated */
+    int32_t *number;                /* [n_nodes] of a node of the lattice here; -1: it is not */
     dem_index n, capacity;
     neighbourhood_node *nodes;                /* [n] */
     dem_index end[NEIGHBOURHOOD_RINGS];       /* nodes of ring r or nearer */
@@ -41,14 +44,15 @@ typedef struct neighbourhood {
     neighbourhood_group *groups; /* [n_groups] with nodes in it */
 } neighbourhood;
 
-/** Borrows the candidates. `n_rings` < NEIGHBOURHOOD_RINGS. Free with neighbourhood_destroy(). */
-dem_status neighbourhood_create(neighbourhood *out, contact_set *set, int n_rings);
+/** Borrows forces and constraints. `n_rings` < NEIGHBOURHOOD_RINGS. Free with neighbourhood_destroy(). */
+dem_status neighbourhood_create(neighbourhood *out, const state_layout *l, const forces *acting, const constraints *c,
+                                int n_rings);
 void neighbourhood_destroy(neighbourhood *b);
 
 /** Gathers the nodes round some, which are ring 0: what an event may change at once. */
 dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds);
 
-/** Finds the groups again, after contacts have opened or closed. */
+/** Finds the groups again, after an event has changed them. */
 dem_status neighbourhood_regroup(neighbourhood *b);
 
 static inline bool neighbourhood_has(const neighbourhood *b, dem_index node, int rings)
@@ -70,7 +74,7 @@ void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem
  *  here. */
 void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v);
 
-/** Accelerations a [n][2] of the nodes of some rings, closed contacts included, in a state that neighbourhood_put()
+/** Accelerations a [n][2] of the nodes of some rings, constraints included, in a state that neighbourhood_put()
  *  has put as far as one ring more. */
 void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_state *s, double *a);
 

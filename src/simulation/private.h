@@ -6,6 +6,7 @@
 
 #include "base/reduce.h"
 #include "base/state.h"
+#include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "forces/kernel.h"
 #include "model/overlap.h"
@@ -32,7 +33,9 @@ struct dem_simulation {
     kernel kernel;
     overlap overlap;
     automaton automaton;
-    event_queue queue; /* of contact events inside steps; where the whole body stops at them there are none */
+    contact_source contact_events; /* those inside steps, */
+    constraints closed_contacts;
+    event_queue queue; /* in the order of time; empty where the whole body stops at events */
     integrator integrator;
     double t;              /* s, of y */
     double step;           /* s, length of the last committed step */

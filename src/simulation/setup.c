@@ -7,6 +7,7 @@
 #include "base/record.h"
 #include "base/reduce.h"
 #include "base/status.h"
+#include "contact/contact_constraints.h"
 #include "simulation/checkpoint.h"
 #include "simulation/options.h"
 #include "simulation/query.h"
@@ -51,6 +52,16 @@ static forces forces_of(const dem_simulation *s)
                     .clock = state_total_index(&s->layout, STATE_TIME)};
 }
 
+/* Contact is the first source of events, and so comes first of those at the same time. */
+static dem_status set_up_events(dem_simulation *s, const local_correction_rule *rule)
+{
+    s->closed_contacts = contact_constraints_of(&s->automaton);
+    TRY(contact_source_create(&s->contact_events, &s->automaton));
+    TRY(event_queue_create(&s->queue, &s->layout, &s->forces, &s->closed_contacts, rule,
+                           !(s->options.fixed_step > 0.0)));
+    return event_queue_add_source(&s->queue, contact_source_events(&s->contact_events));
+}
+
 static dem_status set_up(dem_simulation *s)
 {
     const dem_model *model = s->model;
@@ -74,7 +85,7 @@ static dem_status set_up(dem_simulation *s)
     dem_method_traits method;
     TRY(dem_method_describe(&method, o->method));
     const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale};
-    if (run_is_local(s)) TRY(event_queue_create(&s->queue, &s->automaton, &near, !(o->fixed_step > 0.0)));
+    if (run_is_local(s)) TRY(set_up_events(s, &near));
     const ode_problem problem = right_hand_side_problem(s);
     TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
     s->y = integrator_state(&s->integrator);
@@ -134,6 +145,7 @@ void dem_simulation_destroy(dem_simulation *s)
     integrator_destroy(&s->integrator);
     kernel_destroy(&s->kernel);
     event_queue_destroy(&s->queue);
+    contact_source_destroy(&s->contact_events);
     automaton_destroy(&s->automaton);
     boundary_conditions_free(&s->boundaries);
     external_force_destroy(s->external);

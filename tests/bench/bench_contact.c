@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bench.h"
+#include "contact/automaton_step.h"
 #include "events/event_queue.h"
 
 enum { most = 100000 };

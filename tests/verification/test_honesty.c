@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "contact/contact_constraints.h"
+#include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "support.h"
 
@@ -113,12 +115,17 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     const event_listener nobody = {NULL, NULL};
     const double one[2] = {p->options.rtol * p->options.spacing, p->options.rtol * p->options.v_scale};
     automaton c;
+    contact_source source;
     event_queue q;
     assert_true(arrays != NULL && gsl != NULL);
     spread(p, y, y0);
     assert_ok(automaton_create(&c, &p->acting, &p->rule));
     assert_ok(automaton_start(&c, t, y0, &nobody));
-    assert_ok(event_queue_create(&q, &c, &(local_correction_rule){5, one[0], one[1]}, true));
+    const constraints closed = contact_constraints_of(&c);
+    assert_ok(contact_source_create(&source, &c));
+    assert_ok(event_queue_create(&q, &p->rule.layout, &p->acting, &closed, &(local_correction_rule){5, one[0], one[1]},
+                                 true));
+    assert_ok(event_queue_add_source(&q, contact_source_events(&source)));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
     (void)derive(t, y0, f0, p);
@@ -132,6 +139,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
         assert_close(y1[2 * p->n_all + k], product[2 * p->n + k], 1e-3 * one[1] + 1e-12);
     }
     event_queue_destroy(&q);
+    contact_source_destroy(&source);
     automaton_destroy(&c);
     gsl_odeiv2_step_free(gsl);
     free(arrays);

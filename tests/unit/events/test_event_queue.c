@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "contact/contact_constraints.h"
+#include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "verification/support.h"
 
@@ -18,6 +20,8 @@ typedef struct rig {
     dem_model *model;
     forces acting;
     automaton c;
+    contact_source contact;
+    constraints closed;
     event_queue q;
     dem_index n, n_all;
     double y0[most_state], f0[most_state], y1[most_state], f1[most_state], state[most_state];
@@ -40,9 +44,12 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     assert_ok(dem_model_create(&r->model, lattice, &plane, 1));
     r->acting = (forces){.model = r->model, .gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}};
     assert_ok(automaton_create(&r->c, &r->acting, &rule));
+    r->closed = contact_constraints_of(&r->c);
+    assert_ok(contact_source_create(&r->contact, &r->c));
     assert_ok(event_queue_create(
-        &r->q, &r->c, &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0},
-        error != NULL));
+        &r->q, &rule.layout, &r->acting, &r->closed,
+        &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0}, error != NULL));
+    assert_ok(event_queue_add_source(&r->q, contact_source_events(&r->contact)));
 }
 
 /* n free masses at heights y, in a row along x. */
@@ -67,6 +74,7 @@ static void open_masses(rig *r, dem_index n, const double *y, double eta, double
 static void close_rig(rig *r)
 {
     event_queue_destroy(&r->q);
+    contact_source_destroy(&r->contact);
     automaton_destroy(&r->c);
     dem_model_destroy(r->model);
 }
@@ -181,9 +189,9 @@ static void events_at_the_same_time_come_in_the_order_of_candidates(void **state
     (void)state;
     open_masses(&r, 6, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
-    for (dem_index k = 0; k < 6; k++) due[k] = r.q.contact.heap.due[k];
-    event_heap_clear(&r.q.contact.heap);
-    for (dem_index k = 5; k >= 0; k--) event_heap_set(&r.q.contact.heap, k, due[k]);
+    for (dem_index k = 0; k < 6; k++) due[k] = r.contact.heap.due[k];
+    event_heap_clear(&r.contact.heap);
+    for (dem_index k = 5; k >= 0; k--) event_heap_set(&r.contact.heap, k, due[k]);
     show(&r, 0.1);
     assert_int_equal(r.q.n_events, 6);
     for (int k = 0; k < 6; k++) {
@@ -290,7 +298,7 @@ static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **stat
     jumps.n_all = r.n_all;
     assert_ok(event_queue_add_source(&r.q, kicks_events(&jumps)));
     fall(&r, 0.0, h);
-    const double second = r.q.contact.heap.due[1];
+    const double second = r.contact.heap.due[1];
     jumps.t[0] = jumps.t[1] = second;
     jumps.t[2] = between;
     show(&r, h);
@@ -318,7 +326,7 @@ static void sources_are_undone_and_redone_to_the_bit(void **state)
     jumps.n_all = r.n_all;
     assert_ok(event_queue_add_source(&r.q, kicks_events(&jumps)));
     fall(&r, 0.0, h);
-    const double alone = r.q.contact.heap.due[1];
+    const double alone = r.contact.heap.due[1];
     const snapshot before = take_snapshot(&r, h);
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
@@ -328,7 +336,7 @@ static void sources_are_undone_and_redone_to_the_bit(void **state)
     const snapshot undone = take_snapshot(&r, h);
     assert_same(&undone, &before);
     show(&r, 0.0);
-    assert_close(r.q.contact.heap.due[1], alone, 0.0);
+    assert_close(r.contact.heap.due[1], alone, 0.0);
     show(&r, h);
     const snapshot again = take_snapshot(&r, h);
     assert_same(&again, &once);
@@ -542,7 +550,7 @@ static void the_neighbours_events_are_looked_for_anew(void **state)
     (void)state;
     open_pair(&r, &lattice, NULL);
     swing(&r, &lattice, h);
-    const double alone = r.q.contact.heap.due[1];
+    const double alone = r.contact.heap.due[1];
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
     triplets_start(&lattice, y);

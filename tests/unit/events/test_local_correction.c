@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "contact/automaton_step.h"
+#include "contact/contact_constraints.h"
 #include "events/local_correction.h"
 #include "verification/support.h"
 
@@ -27,6 +28,7 @@ typedef struct step {
     boundary_conditions b;
     forces acting;
     automaton c, before; /* contacts as they are, and as they were */
+    constraints closed;  /* those of c */
     dem_index n, n_all;
     double h;
     double *y0, *f0, *y1, *f1, *state, *first, *last;
@@ -200,7 +202,8 @@ static void open_step(step *s, kind k)
     s->y0 = zeros(s), s->f0 = zeros(s), s->y1 = zeros(s), s->f1 = zeros(s);
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
-    assert_ok(local_correction_create(&s->correction, &s->c.set,
+    s->closed = contact_constraints_of(&s->c);
+    assert_ok(local_correction_create(&s->correction, scene_layout(&s->c.set.scene), &s->acting, &s->closed,
                                       &(local_correction_rule){5, position_error, velocity_error}));
     assert_ok(changed_motion_create(&s->changed, scene_layout(&s->c.set.scene)));
 }
@@ -307,10 +310,11 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
 }
 
 /* Before an event of a candidate. */
-static dem_status open_at(local_correction *p, const dense_output *dense, dem_index candidate, double t, double *state)
+static dem_status open_at(local_correction *p, const automaton *c, const dense_output *dense, dem_index candidate,
+                          double t, double *state)
 {
     dem_index seeds[16];
-    const dem_index n = contact_set_seeds(p->near.set, candidate, seeds, 16);
+    const dem_index n = contact_set_seeds(&c->set, candidate, seeds, 16);
     assert_true(n <= 16);
     return local_correction_open(p, dense, seeds, n, t, state);
 }
@@ -318,7 +322,7 @@ static dem_status open_at(local_correction *p, const dense_output *dense, dem_in
 /* A velocity jumps at node i at a share of the step, and contacts are what the caller made them meanwhile. */
 static void begin(step *s, dem_index candidate, double share)
 {
-    assert_ok(open_at(&s->correction, &s->dense, candidate, start + share * s->h, s->state));
+    assert_ok(open_at(&s->correction, &s->c, &s->dense, candidate, start + share * s->h, s->state));
 }
 
 static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
@@ -601,14 +605,15 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     dem_lattice_free(&lattice);
     const forces acting = {.model = model, .gravity = {0.0, -g}};
     assert_ok(automaton_create(&c, &acting, &rule));
-    assert_ok(local_correction_create(&near, &c.set, &(local_correction_rule){5, 1.0, 1.0}));
+    const constraints closed = contact_constraints_of(&c);
+    assert_ok(local_correction_create(&near, &rule.layout, &acting, &closed, &(local_correction_rule){5, 1.0, 1.0}));
     assert_ok(changed_motion_create(&tr, &rule.layout));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
     y1[0] = v * h, y1[1] = y0[1] - 0.5 * g * h * h, y1[10] = v, y1[11] = -g * h;
     const dense_output p = {rule.layout, 0.0, h, h, y0, f0, y1, f1, false, &tr};
     changed_motion_start(&tr, h, y1, f1);
-    assert_ok(open_at(&near, &p, 0, at, y));
+    assert_ok(open_at(&near, &c, &p, 0, at, y));
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[11], -g * at, 1e-15);
     y[11] = 0.0;
@@ -655,7 +660,8 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
     s.acting = (forces){.model = s.model};
     assert_ok(automaton_create(&s.c, &s.acting, &rule));
-    assert_ok(local_correction_create(&s.correction, &s.c.set, &(local_correction_rule){5, 1.0, 1.0}));
+    assert_ok(
+        local_correction_create(&s.correction, &rule.layout, &s.acting, NULL, &(local_correction_rule){5, 1.0, 1.0}));
     assert_ok(changed_motion_create(&s.changed, &rule.layout));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);
@@ -668,7 +674,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     s.dense = (dense_output){rule.layout, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
     changed_motion_start(&s.changed, h, s.y1, s.f1);
     const dem_index hit = node_near(&s, 0.0, 0.0);
-    assert_ok(open_at(&s.correction, &s.dense, s.c.set.of_node[hit], at, s.state));
+    assert_ok(open_at(&s.correction, &s.c, &s.dense, s.c.set.of_node[hit], at, s.state));
     s.state[2 * (s.n + hit) + 1] += 5.0;
     assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
     triplets_reach(&l, at, s.first);

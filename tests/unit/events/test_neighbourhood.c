@@ -5,13 +5,14 @@
 
 #include <stdlib.h>
 
-#include "contact/automaton.h"
+#include "contact/contact_constraints.h"
 #include "verification/support.h"
 
 typedef struct rig {
     dem_model *model;
     forces acting;
     automaton c;
+    constraints closed;
     neighbourhood b;
     dem_index n;
     double *y, *x, *v, *a; /* [4 n] states and what the neighbourhood has of them */
@@ -33,7 +34,8 @@ static void open_rig(rig *r, double poissons_ratio, int n_rings)
         .penetration_tolerance = 1e-9, .max_step = 1e-6, .layout = {.dim = 2, .n_nodes = r->n, .n_rows = r->n}};
     r->acting = (forces){.model = r->model, .gravity = {0.0, -9.81}, .mass_damping = 3.0};
     assert_ok(automaton_create(&r->c, &r->acting, &rule));
-    assert_ok(neighbourhood_create(&r->b, &r->c.set, n_rings));
+    r->closed = contact_constraints_of(&r->c);
+    assert_ok(neighbourhood_create(&r->b, &rule.layout, &r->acting, &r->closed, n_rings));
     r->y = calloc(4 * (size_t)r->n, sizeof(double));
     r->x = calloc(3 * 2 * (size_t)r->n, sizeof(double));
     assert_true(r->y != NULL && r->x != NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact as a source of events: its keys are the numbers of the candidates. */
-#ifndef DEM_EVENTS_CONTACT_SOURCE_H
-#define DEM_EVENTS_CONTACT_SOURCE_H
+#ifndef DEM_CONTACT_CONTACT_SOURCE_H
+#define DEM_CONTACT_CONTACT_SOURCE_H
 
 #include "contact/automaton.h"
 #include "events/event_heap.h"

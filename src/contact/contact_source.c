@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact as a source of events: when candidates change, and what has changed of them. */
-#include "events/contact_source.h"
+#include "contact/contact_source.h"
 
 #include <stdlib.h>
 #include <string.h>

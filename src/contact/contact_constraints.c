@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Groups of closed contacts: their nodes, forces, rates, and what is put right at the end of a step. */
+#include "contact/contact_constraints.h"
+
+#include "base/status.h"
+#include "contact/impact_group.h"
+
+static scene_state state_of(const contact_set *c, constraint_state at)
+{
+    return scene_state_at(&c->scene, at.t, at.y);
+}
+
+static dem_status contact_each_node(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
+                                    void *context)
+{
+    const contact_set *c = &((const automaton *)self)->set;
+    const contact_forces *r = &c->forces;
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        const contact_candidate *candidate = &c->list[m];
+        TRY(add(context, candidate->node));
+        if (candidate_is_edge(candidate)) TRY(add(context, candidate->other));
+    }
+    return DEM_OK;
+}
+
+static void contact_solve(void *self, dem_index group, constraint_state at)
+{
+    contact_set *c = &((automaton *)self)->set;
+    contact_forces_solve(&c->forces, group, state_of(c, at));
+}
+
+/* ---- rates ---- */
+
+static dem_status add_contribution(const contact_set *c, const contact_contribution *of, const constraint_rates *to)
+{
+    const state_layout *l = scene_layout(&c->scene);
+    const double force[2] = {of->force.x, of->force.y}, friction[2] = {of->friction.x, of->friction.y};
+    TRY(to->add(to->context, state_impulse(l, of->obstacle), force));
+    TRY(to->add(to->context, state_friction_impulse(l, of->obstacle), friction));
+    to->totals[STATE_FRICTION] += of->power;
+    to->totals[STATE_WORK] += of->work;
+    return DEM_OK;
+}
+
+static dem_status contact_add_rates(const void *self, dem_index group, constraint_state at, const constraint_rates *to)
+{
+    const contact_set *c = &((const automaton *)self)->set;
+    const contact_forces *r = &c->forces;
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+        for (int q = 0; q < c->list[m].n_closed; q++) {
+            const contact_contribution of = contact_set_contribution(c, m, q, state_of(c, at));
+            TRY(add_contribution(c, &of, to));
+        }
+    return DEM_OK;
+}
+
+static void contact_add_all_rates(const void *self, constraint_state at, double *a)
+{
+    (void)automaton_add_rates(self, at.t, at.y, a);
+}
+
+/* ---- the end of a step ---- */
+
+static bool has_moved(const contact_set *c, const changed_motion *changed, dem_index group)
+{
+    const contact_forces *r = &c->forces;
+    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+        if (changed_motion_has(changed, r->candidates[m].node)) return true;
+    return false;
+}
+
+/* Contacts are put back on their surfaces and stopped there. */
+static void contact_settle(void *self, const changed_motion *changed)
+{
+    contact_set *c = &((automaton *)self)->set;
+    double *y1 = changed->y1;
+    contact_instant now = {changed->end, y1, y1 + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
+    for (dem_index g = 0; g < c->forces.n_groups; g++) {
+        const dem_index group = c->forces.groups[g];
+        if (!has_moved(c, changed, group)) continue;
+        (void)impact_group_project(c, group, &now);
+        impact_group_stop(c, group, &now);
+    }
+    contact_set_solve_all(c, instant_state(&now));
+}
+
+constraints contact_constraints_of(automaton *c)
+{
+    return (constraints){.self = c,
+                         .group_at = c->set.forces.at_node,
+                         .a = c->set.forces.a,
+                         .each_node = contact_each_node,
+                         .solve = contact_solve,
+                         .add_rates = contact_add_rates,
+                         .settle = contact_settle,
+                         .add_all_rates = contact_add_all_rates};
+}

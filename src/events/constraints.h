@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What ties nodes together for as long as it lasts, as closed contacts do. Nodes whose accelerations depend on one
+ * another at once are a group, which is solved as a whole. Groups change with events only. */
+#ifndef DEM_EVENTS_CONSTRAINTS_H
+#define DEM_EVENTS_CONSTRAINTS_H
+
+#include "time/changed_motion.h"
+
+/** Who takes the rates of quadratures. */
+typedef struct constraint_rates {
+    void *context;
+    dem_status (*add)(void *context, dem_index row, const double *rate); /* of a row of the state, [dim] */
+    double *totals;                                                      /* [STATE_TOTALS] are added to here */
+} constraint_rates;
+
+/** A state y = (x, v) at a time. */
+typedef struct constraint_state {
+    double t; /* s */
+    const double *y;
+} constraint_state;
+
+typedef struct constraints {
+    void *self;
+    const dem_index *group_at; /* [n_nodes] the group that a node is in, or -1 */
+    const double *a;           /* [n_nodes][dim] m/s^2, of the nodes of a group as solved for last */
+    /** Calls `add` for the nodes of a group, for some more than once.  \return what it returns, if not DEM_OK */
+    dem_status (*each_node)(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
+                            void *context);
+    /** Solves for the accelerations of a group; of the state its nodes and their neighbours are read. */
+    void (*solve)(void *self, dem_index group, constraint_state at);
+    /** What a group adds to the rates of quadratures, in a state that it was solved in last. */
+    dem_status (*add_rates)(const void *self, dem_index group, constraint_state at, const constraint_rates *to);
+    /** Takes from the end of a step the error that changes of the motion have left in the groups; then solves for all
+     *  of them there. */
+    void (*settle)(void *self, const changed_motion *changed);
+    /** The same of all groups at once, into the accelerations a [n_rows][dim] of a derivative. */
+    void (*add_all_rates)(const void *self, constraint_state at, double *a);
+} constraints;
+
+/** The group of a node, or -1; without constraints (NULL) there is none. */
+static inline dem_index constraints_group_at(const constraints *c, dem_index node)
+{
+    return c != NULL ? c->group_at[node] : -1;
+}
+
+#endif
