@@ -46,7 +46,7 @@ void automaton_destroy(automaton *c)
     contact_set_destroy(&c->set);
 }
 
-/* The candidates at a node: itself and its edges. */
+/* Resolves what is due at the candidates of a node: the node itself and its edges. */
 static dem_status settle_node(contact_set *c, dem_index node, contact_instant *now, bool *changed)
 {
     const surface *s = &c->scene.model->surface;
@@ -93,7 +93,7 @@ dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y
     return now.listener_status;
 }
 
-/* Puts closed nodes back where rounding has taken them from. */
+/* Puts nodes in contact back on their segments, from which rounding has moved them. */
 static void project_nodes(contact_set *c, double t, double *x)
 {
     for (dem_index k = 0; k < c->scene.model->n_contact_nodes; k++) {
@@ -143,7 +143,7 @@ dem_status automaton_check_start(const automaton *c, double t, const double *x)
     return DEM_OK;
 }
 
-/* Largest coordinate that a gap is made of, m. */
+/* Largest coordinate that enters a gap, m: its unit roundoff is that of the gap. */
 static double extent(const contact_set *c, dem_index k, dem_index feature, const candidate_positions *spot)
 {
     const dem_index id = surface_segment(&c->scene, contact_point_feature(&c->list[k], feature));
@@ -151,7 +151,7 @@ static double extent(const contact_set *c, dem_index k, dem_index feature, const
     return fmax(vec2_norm(spot->a), fmax(vec2_norm(line.start), vec2_norm(line.end)));
 }
 
-/* Closes what touches. */
+/* Closes the contacts of all candidates whose gap is zero to rounding. */
 static dem_status touch_all(contact_set *s, contact_instant *now)
 {
     for (dem_index k = 0; k < s->n; k++)
@@ -204,7 +204,7 @@ static void add_to_row(double *array, dem_index row, vec2 change)
     vec2_put(array, row, vec2_add(vec2_at(array, row), change));
 }
 
-/* What the closed contacts of one candidate add.  \return the power of the obstacles that they are on, W */
+/* Adds the rates of one candidate's closed contacts.  \return the power of moving obstacles in these contacts, W */
 static double add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
 {
     const state_layout *l = scene_layout(&s->scene);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The contact automaton FREE - SLIP - STICK of all candidates: what changes when one touches an obstacle, leaves it,
- * stops or begins to slide, passes an end or is stopped in a corner. Guards (candidate.c) and resets depend on (t, x,
- * v) and the forces that follow from them, and on nothing of the integrator. What an impact does to a velocity is
- * impact_law.c's. */
+ * stops or begins to slide, passes an end or is stopped in a corner. Root functions (candidate.c) and resets depend on
+ * (t, x, v) and the forces that follow from them, and on nothing of the integrator. How an impact changes a velocity is
+ * in impact_law.c. */
 #ifndef DEM_CONTACT_AUTOMATON_H
 #define DEM_CONTACT_AUTOMATON_H
 
@@ -11,10 +11,10 @@
 typedef struct automaton {
     contact_set set;
     broad_phase broad_phase;
-    double solved;  /* s, time of the state for which the reactions' forces are known; NAN: none */
-    bool quiet;     /* and all guards were > 0 in that state, so that nothing is due */
-    double way;     /* m, no candidate goes further in the step that was checked last */
-    bool all;       /* so that all candidates are to be asked, not only the active ones */
+    double solved;  /* s, time of the state for which the contacts' forces are known; NAN: none */
+    bool quiet;     /* and all root functions were > 0 in that state: no change is due */
+    double way;     /* m, bound of how far any candidate goes in the step checked last */
+    bool all;       /* by that, inactive candidates may touch: all have to be checked */
     dem_index idle; /* events in a row that changed nothing */
 } automaton;
 
@@ -36,19 +36,19 @@ dem_status automaton_check_start(const automaton *c, double t, const double *x);
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener);
 
-/** Opens all contacts without a word, for automaton_start() to find those of another motion.
+/** Opens all contacts without an event, so that automaton_start() can find those of another motion.
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_open_all(automaton *c);
 
-/** Takes up the contacts that candidates are said to have in the state y at t: what follows from them is worked out
- *  anew.
+/** Goes on with the closed contacts that the candidates have from a checkpoint of the state y at t: finds groups,
+ *  forces and active candidates anew.
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_restore(automaton *c, double t, const double *y);
 
-/** Values of all guards at a state at t, [n_candidates][CANDIDATE_ROOTS]: see candidate_root_functions(). */
+/** Values of all root functions in a state at t, [n_candidates][CANDIDATE_ROOTS]: see candidate_root_functions(). */
 void automaton_root_functions(automaton *c, double t, const double *y, double *g);
 
-/** Takes from the accelerations a [n][2] at a state what the closed contacts hold. */
+/** Adds to the accelerations a [n][2] in a state those by the forces of the closed contacts. */
 void automaton_constrain(automaton *c, double t, const double *y, double *a);
 
 /** Adds to the rates of the quadratures among the accelerations a [n_rows][2], after automaton_constrain() in the same
@@ -57,14 +57,14 @@ void automaton_constrain(automaton *c, double t, const double *y, double *a);
  *  \return power of moving obstacles on the bodies by these contacts, W, which is one part of the rate of work */
 double automaton_add_rates(const automaton *c, double t, const double *y, double *a);
 
-/** Makes every change that is due in the state y at t, in the order of node ids, until none is; refreshes the
- *  forces.
- *  \return DEM_ERROR_CONTACT on a storm, or for a node found inside an obstacle; else, everything done, the first
- *  status other than DEM_OK that the listener returned */
+/** Makes every change that is due in the state y at t, in the order of candidates, until none is; refreshes the forces.
+ *  \return DEM_ERROR_CONTACT on a storm, which is too many events of one candidate in a short time, or for a node found
+ *  inside an obstacle; otherwise, when everything is done, the first status other than DEM_OK that the listener
+ *  returned */
 dem_status automaton_resolve(automaton *c, double t, double *y, const event_listener *listener);
 
-/** The same at one candidate and those that share nodes with it, where nothing else is known to be due: reads and
- *  changes only what is near them, and leaves the rest of what follows from a change to the caller. */
+/** The same for one candidate and those that share nodes with it, where no other change is known to be due. Reads and
+ *  changes only the state near them; projection, other forces and the broad phase are left to the caller. */
 dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener);
 
 /** Closed contacts at positions x at t, in the order of candidates, into list [2 n_candidates]; returns their

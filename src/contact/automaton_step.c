@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What happens to the contacts within a step, and after it. */
+/* Changes of contacts within a step, and what is refreshed at its end. */
 #include "contact/automaton_step.h"
 
 #include "base/reduce.h"
 #include "contact/event_location.h"
 #include "contact/impact_group.h"
 
-/* No node that may touch goes further in the step, which begins where the last look was. */
+/* Bound of how far any candidate goes in the step, m: twice what the fastest at either end of the step would. The speed
+ * at its beginning is that of the last update of the broad phase. */
 static double furthest(const automaton *c, const dense_output *p)
 {
     return 2.0 * (p->t1 - p->t0) *
@@ -26,7 +27,7 @@ void automaton_solve_group(automaton *c, const dense_output *p, dem_index group,
     contact_forces_solve(&c->set.forces, group, end_of(c, group, p, state));
 }
 
-/* First time at which closed contacts of a candidate have to change that have to at the end of the step. */
+/* First time at which closed contacts of a candidate change, if they have to at the end of the step; else infinity. */
 static double next_due(automaton *c, const dense_output *p, dem_index k, double from, double *state)
 {
     contact_forces *r = &c->set.forces;
@@ -49,8 +50,8 @@ void automaton_begin_step(automaton *c, const dense_output *p, double *state)
     if (whole) c->solved = p->t1;
 }
 
-/* A free node that has not moved as far as it was clear, and yet is inside: it has passed a free end of the obstacle at
- * a distance, and is behind it. */
+/* Whether a free node is inside an obstacle though it has moved less than its clearance: then it has gone round a free
+ * end of the obstacle, and is marked as behind it. */
 static bool come_round(contact_set *c, dem_index k, const candidate_positions *spot)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -87,7 +88,7 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
 {
     contact_set *s = &c->set;
     const double last =
-        rooted ? p->end - 4.0 * event_location_resolution(p) : INFINITY; /* later it is the root found */
+        rooted ? p->end - 4.0 * event_location_resolution(p) : INFINITY; /* a later root is the one already found */
     double first = INFINITY;
     automaton_begin_step(c, p, state);
     for (dem_index a = 0; a < automaton_n_active(c); a++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who sleeps, and until when. */
+/* Which candidates are inactive, and until when. */
 #include "contact/broad_phase.h"
 
 #include <stdlib.h>
@@ -31,13 +31,13 @@ double broad_phase_speed(const contact_set *c, const double *v)
     return reduce_max(sqrt(square)) + surface_speed(&c->scene);
 }
 
-/* A node that was behind an obstacle and is in front of it, or round the free end again, is in front. */
+/* A node is no longer behind an obstacle once its distance to it is positive, in front of it or beyond its free end. */
 static void come_back(contact_set *c, dem_index k, surface_query at)
 {
     if (surface_gap_of(&c->scene, at, c->list[k].behind[0]).distance > 0.0) contact_set_pass_behind(c, k, -1);
 }
 
-/* Looks how far a candidate is from everything else, and lets it sleep if that is further than `reach`. */
+/* Measures the clearance of a candidate, which is inactive if that is more than `reach`. */
 static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state state, double reach)
 {
     contact_candidate *candidate = &c->list[k];
@@ -60,7 +60,8 @@ static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state sta
     candidate->clearance.at[1] = spot.b;
 }
 
-/* What is inactive until it may touch, and what is active until it has moved half as far as it was clear. */
+/* Whether a clearance has to be measured again: that of an inactive candidate once it may touch something, that of an
+ * active one once it has moved by half of it. */
 static bool worth_a_look(const broad_phase *w, const contact_scene *scene, const contact_candidate *candidate,
                          scene_state state, double reach)
 {
@@ -72,7 +73,7 @@ static bool worth_a_look(const broad_phase *w, const contact_scene *scene, const
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
 {
     w->speed = broad_phase_speed(c, state.v);
-    const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* further is found after the step */
+    const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* one that goes further is found after the step */
     w->n = 0;
     w->earliest = (double)INFINITY;
     for (dem_index k = 0; k < c->scene.model->n_contact_nodes && c->ledger.counts.behind > 0; k++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gaps and guards of one contact candidate. */
+/* Gaps and root functions of one contact candidate. */
 #include "contact/candidate.h"
 
 #include "contact/node_motion.h"
@@ -32,8 +32,8 @@ static contact_gap node_gap(const contact_scene *scene, const contact_candidate 
     return (contact_gap){gap.distance, gap.segment, 0.0, gap.normal};
 }
 
-/* How far from an edge vertices are looked at, as a share of its length: in front of it and behind it, where a step
- * may take one at most. */
+/* Which vertices an edge's gap is taken to, as shares of its length: up to the first in front of it and up to the
+ * second behind it, as far as a step may take one. */
 static const double edge_reach = 0.5, edge_depth = 0.25;
 
 static obstacle_edge edge_query(const contact_scene *scene, const contact_candidate *candidate,
@@ -101,7 +101,8 @@ contact_gap candidate_around(const contact_scene *scene, const contact_candidate
     return (contact_gap){nearest.distance, nearest.vertex, nearest.place, nearest.normal};
 }
 
-/* An edge that no vertex is near is as far from all as its node is from the obstacles, less its length. */
+/* An edge without a vertex within its reach is as far from all vertices as its first node is from the obstacles, less
+ * its length. */
 static double edge_clearance(const contact_scene *scene, const contact_candidate *candidate,
                              const candidate_positions *spot)
 {
@@ -121,10 +122,10 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
     return gap.distance;
 }
 
-/* ---- guards of closed contacts ---- */
+/* ---- root functions of closed contacts ---- */
 
-/* Distance to the nearer end of the segment or edge, and the penetration tolerance: an end is passed when a contact is
- * beyond it by that. */
+/* Distance to the nearer end of the segment or edge plus the penetration tolerance: a contact that far beyond an end
+ * has passed it. */
 static double end_guard(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state,
                         int *end)
 {
@@ -142,7 +143,7 @@ static double end_guard(const contact_scene *scene, const contact_candidate *can
     return fmin(place, length - place) + scene->rule.penetration_tolerance;
 }
 
-/* A contact that sticks by friction has a grip; one that slides has a sign. */
+/* Whether a contact sticks by friction: it does not slide, nor is it held in a corner. */
 static bool sticks(const contact_candidate *candidate, int q)
 {
     return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
@@ -155,15 +156,15 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
     const contact_frame f = contact_frame_at(scene, candidate, q, state);
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
-    for (int p = 0; p < f.n && rests; p++) /* then it heads where it is driven */
+    for (int p = 0; p < f.n && rests; p++) /* then the acceleration says where it heads */
         speed += f.weight[p] * vec2_dot(forces_acceleration(scene->forces, f.node[p], state.x, state.v), f.tangent);
     if (rests) speed -= f.carried;
     const double heading =
-        candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge against the body */
+        candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge opposite to the body */
     return end * heading > 0.0 ? end : 0;
 }
 
-/* In units of the penetration tolerance per step: slower than this is rounding. */
+/* In penetration tolerances per longest step: slower sliding than this is rounding. */
 static const double rest_noise = 1e-16;
 
 bool candidate_turns(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
@@ -183,7 +184,8 @@ double candidate_grip(const contact_scene *scene, const contact_candidate *candi
     return limit + contact_point_slack(scene, f, x) - fabs(force->tangent);
 }
 
-/* The gap as a guard, whose root is the contact time (7): finite where there is nothing. */
+/* Root function of a gap, whose root is the contact time (7). It is bounded, for the gap is infinite where there is
+ * nothing. */
 static double gap_guard(const contact_scene *scene, contact_gap gap)
 {
     return fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a candidate can touch, and the guards that tell when its contacts change. Pure functions of (t, x, v) and of the
- * forces that follow from them; nothing here changes a state. */
+/* What a candidate can touch, and the root functions that tell when its contacts change. Pure functions of (t, x, v)
+ * and of the forces that follow from them; nothing here changes a state. */
 #ifndef DEM_CONTACT_CANDIDATE_H
 #define DEM_CONTACT_CANDIDATE_H
 
 #include "contact/contact_forces.h"
 #include "time/dense_output.h"
 
-/** Guard functions per candidate; each is > 0 while nothing happens and falls through 0 when something does. */
+/** Root functions per candidate; each is > 0 while its contacts stay as they are and falls through 0 at a change. */
 enum { CANDIDATE_ROOTS = 4 };
 
 /** Distance to what a candidate is not in contact with. */
@@ -27,20 +27,20 @@ typedef struct candidate_positions {
 candidate_positions candidate_place(const contact_candidate *candidate, double t, const double *x);
 candidate_positions candidate_place_at(const contact_candidate *candidate, const dense_output *p, double t);
 
-/** How far a candidate and obstacles have moved towards each other at most since it was seen to be clear, m. */
+/** Bound of how far a candidate and the obstacles have moved towards each other since its clearance was measured, m. */
 double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot);
 
-/** Gap of a candidate, infinity for an inactive one, a lower bound while it has not moved as far as it was clear. What
- *  it is in contact with is left out: of a node on a segment that segment's obstacle, whose ends are guarded by
- *  themselves; of an edge its vertex. */
+/** Gap of a candidate: infinite for an inactive one, a lower bound while it has moved less than its clearance. What it
+ *  is in contact with is left out: for a node on a segment the whole obstacle of that segment, whose ends have a root
+ *  function of their own; for an edge its vertex. */
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot);
 
-/** contact_gap_velocity() where some surfaces move: apart, so that those at rest cost nothing. */
+/** contact_gap_velocity() where some surfaces move: a function of its own, so that others do not pay for it. */
 vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
                                  const candidate_positions *spot, vec2 v);
 
-/** A velocity v of the point of a candidate that is nearest to what its gap is to, relative to that. */
+/** Velocity of the point of a candidate at its gap, relative to the surface there; v is that of the point itself. */
 static inline vec2 contact_gap_velocity(const contact_scene *scene, const contact_candidate *candidate,
                                         const contact_gap *gap, const candidate_positions *spot, vec2 v)
 {
@@ -69,9 +69,9 @@ bool candidate_turns(const contact_scene *scene, const contact_candidate *candid
 double candidate_grip(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
                       const contact_force *force, const double *x);
 
-/** Values of the guards in a state, [CANDIDATE_ROOTS]: gap + penetration tolerance; smallest normal force; distance to
- *  the nearer end + penetration tolerance of what slides, grip of what sticks; speed of sliding. What does not apply
- *  is 1.
+/** Values of the root functions in a state, [CANDIDATE_ROOTS]: gap + penetration tolerance; smallest normal force;
+ *  distance to the nearer end + penetration tolerance of a sliding contact, grip of a sticking one; speed of sliding.
+ *  One that does not apply is 1.
  *  \param force  of its closed contacts in that state */
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
                               const contact_force force[2], scene_state state, double *g);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which reset of a candidate is due, in which order. */
+/* Which change of a candidate's contacts is due, and in which order. */
 #include "contact/candidate_resolve.h"
 
 #include "base/status.h"
@@ -7,12 +7,13 @@
 #include "contact/impact_rest.h"
 #include "contact/impact_solve.h"
 
-/* Of the penetration tolerance: as deep counts as touching, so that near ties are taken together. */
+/* Share of the penetration tolerance: a candidate as deep as this touches, so that several that touch at nearly the
+ * same time are resolved together. */
 static const double touch_share = 0.99;
 
 /* ---- free candidates ---- */
 
-/* A node deeper inside than an impact can be has passed round the free end that it is at; else something is wrong. */
+/* A node deeper inside than it can be at an impact has gone round a free end if it is at one; else it is an error. */
 static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, double depth, const contact_instant *now)
 {
     const vec2 x = vec2_at(now->x, c->list[k].node);
@@ -27,7 +28,7 @@ static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, doub
     return DEM_OK;
 }
 
-/* A node that touches: what it hits; right on an apex it is the side that comes down on it. */
+/* A node that touches hits the segments there; right on an apex it is an edge at the node that hits the vertex. */
 static dem_status touch_node(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
     dem_index at;
@@ -113,9 +114,10 @@ static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, 
     return taken ? -1 : contact_set_of_edge(c, beyond);
 }
 
-/* A vertex that has come to the end of an edge: its node is put there, and the next edge takes over. The vertex
- * hits that if the body bends in there, and comes to rest in the notch if it would not get far out of it; it glides
- * on, or leaves if the body bends away faster than a hop that counts. */
+/* A vertex that has come to the end of an edge: the node there is put on it, and the next edge takes over by an impact.
+ * Where the body bends in, the vertex hits that edge, and comes to rest in the notch if it would rebound by no more
+ * than a hop that counts as rest. Otherwise it slides on along the next edge, or leaves if the body bends away too
+ * fast. */
 static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, contact_instant *now)
 {
     const dem_index node = backwards ? c->list[k].node : c->list[k].other, feature = c->list[k].closed[q].feature;
@@ -147,7 +149,7 @@ static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
 static dem_status begin_to_slide(contact_set *c, dem_index k, int q, contact_instant *now)
 {
     contact_point *point = &c->list[k].closed[q];
-    point->slide = point->friction > 0.0 ? -1 : 1; /* against what friction holds */
+    point->slide = point->friction > 0.0 ? -1 : 1; /* against the friction that held it */
     return enter(c, k, point->feature, DEM_EVENT_SLIP, now);
 }
 
@@ -169,7 +171,7 @@ static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_ins
     return DEM_OK;
 }
 
-/* Something else in the way of a candidate with one closed contact. */
+/* A candidate with one closed contact that touches something else. */
 static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is due at one candidate in a state: it touches, lets go, stops or begins to slide, passes an end or is stopped
- * in a corner. */
+/* Changes of contacts that are due at one candidate in a state: it touches, is released, stops or begins to slide,
+ * passes an end or is stopped in a corner. */
 #ifndef DEM_CONTACT_CANDIDATE_RESOLVE_H
 #define DEM_CONTACT_CANDIDATE_RESOLVE_H
 
@@ -10,7 +10,7 @@
  *  \return DEM_ERROR_CONTACT on a storm, or for what is found deep inside */
 dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, bool *changed);
 
-/** A candidate with this gap touches: it hits what is there, or has passed round a free end. */
+/** Resolves a candidate with this gap that touches: an impact, unless it has gone round a free end. */
 dem_status candidate_resolve_touch(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now);
 
 #endif

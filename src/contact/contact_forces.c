@@ -7,10 +7,10 @@
 
 #include "base/status.h"
 
-/* Of a row's own mobility: what is left of it, below which the others hold the contact already. */
+/* Share of a row's own mobility: with a pivot below it the other rows hold the contact already. */
 static const double redundant = 1e-10;
 
-/* In place of the group of a candidate: it is among those whose groups are found next. */
+/* Stands for the group of a candidate whose group is to be found again. */
 enum { collected = -2 };
 
 /* What the system is solved for. */
@@ -18,7 +18,7 @@ typedef enum aim { FORCE, IMPULSE, SHIFT } aim;
 
 /* ---- groups ---- */
 
-/* Halves the way for the next one. */
+/* The root of a node's tree. Path halving shortens later searches. */
 static dem_index root_of(contact_forces *r, dem_index node)
 {
     for (; r->root[node] != node; node = r->root[node]) r->root[node] = r->root[r->root[node]];
@@ -54,7 +54,7 @@ static void sort_candidates(contact_forces *r)
     for (dem_index p = 0; p < n; p++) r->rank[r->order[p]] = p;
 }
 
-/* How far from the diagonal rows share nodes, the rows being those of a group if all its contacts stuck. */
+/* Half bandwidth of a group's system if all its contacts stuck: the largest distance between rows that share a node. */
 static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_rows)
 {
     dem_index width = 0;
@@ -124,7 +124,7 @@ static void set_at_nodes(contact_forces *r, dem_index k, dem_index group)
     if (candidate_is_edge(&r->candidates[k])) r->at_node[r->candidates[k].other] = group;
 }
 
-/* Puts a candidate among the n whose groups are to be found, unless it is there or is not closed. */
+/* Adds a candidate to the n whose groups are to be found, unless it is there or has no closed contact. */
 static dem_index collect(contact_forces *r, dem_index k, dem_index n)
 {
     if (r->candidates[k].n_closed == 0 || r->group[k] == collected) return n;
@@ -133,7 +133,7 @@ static dem_index collect(contact_forces *r, dem_index k, dem_index n)
     return n + 1;
 }
 
-/* The same for all of a group, which there is no more. */
+/* Takes a group off the list and collects all its candidates. */
 static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
 {
     if (group < 0) return n;
@@ -146,7 +146,7 @@ static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
     return n;
 }
 
-/* Joins the nodes of the candidates that were collected; a group has one root. */
+/* Joins the nodes of the collected candidates, so that those of a group have one root. */
 static void join_nodes(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) {
@@ -160,8 +160,8 @@ static void join_nodes(contact_forces *r, dem_index n)
     }
 }
 
-/* Makes groups of the candidates that were collected, from the last to the first, so that each takes the place of the
- * one that was the first of its group. */
+/* Makes groups of the collected candidates, from the last to the first, so that the last one put into a group is the
+ * first of it. */
 static void make_groups(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[r->order[r->ranks[p]]].node)] = -1;
@@ -242,8 +242,8 @@ static vec2 carried_by(const contact_scene *scene, dem_index feature, dem_index 
     return obstacle_motion_sliding(&wall, vec2_at(state->v, node));
 }
 
-/* A node on one segment: what holds it is minus the force towards the segment, and friction on that, both of them
- * relative to what the segment carries. */
+/* A node on one segment, a_w the acceleration with which it would stay on it (0 if that is at rest):
+ * N = -m (a - a_w).n; T = -m (a - a_w).t if it sticks, -sign mu N if it slides. */
 static inline void hold_node(contact_forces *r, dem_index k, const scene_state *state, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
@@ -306,7 +306,8 @@ static double along(const contact_forces *r, vec2 wall, vec2 direction)
     return surface_speed(r->scene) > 0.0 ? vec2_dot(wall, direction) : 0.0;
 }
 
-/* The unknowns of a group and what they are asked for; u [n][2]: accelerations or velocities as they are. */
+/* Sets the equations of a group: the motion that each asks for, less that of u [n][2], which are free accelerations or
+ * velocities.  \return their number */
 static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_state state, const double *u)
 {
     dem_index n = 0;
@@ -329,7 +330,7 @@ static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_stat
     return n;
 }
 
-/* How far from the diagonal rows share nodes. */
+/* Half bandwidth: the largest distance between rows that share a node. */
 static dem_index band_width(contact_forces *r, dem_index n)
 {
     dem_index width = 0;
@@ -355,8 +356,8 @@ static double entry(const contact_forces *r, const contact_equation *j, const co
     return mobility * vec2_dot(j->direction, k->push);
 }
 
-/* Elimination without exchange of rows, after which `wanted` holds the unknowns; one that the rest determine already
- * is 0. */
+/* Gaussian elimination without pivoting, after which `wanted` holds the unknowns. One whose contact the other rows hold
+ * already is 0. */
 static void eliminate(contact_forces *r, dem_index n, dem_index width)
 {
     const dem_index line = 2 * width + 1;
@@ -455,7 +456,7 @@ void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
     hold(r, group, &state, r->a);
 }
 
-/* A node by itself stops exactly. */
+/* A node by itself gets the velocity of the obstacle exactly, without the linear system. */
 static void stop_node(contact_forces *r, dem_index k, scene_state state, double *v)
 {
     const contact_candidate *candidate = &r->candidates[k];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Forces in closed contacts. Contacts that share nodes are coupled: each group of them is one linear system, in the
- * order of the bodies' boundaries so that it is banded. The same system takes velocities and positions to where closed
- * contacts ask for. */
+ * order of the bodies' boundaries so that it is banded. The same system yields the impulses that stop a group, and the
+ * displacements that put it back on the surfaces. */
 #ifndef DEM_CONTACT_CONTACT_FORCES_H
 #define DEM_CONTACT_CONTACT_FORCES_H
 
@@ -57,11 +57,12 @@ static inline dem_index contact_forces_first(const contact_forces *r, dem_index 
 /** Finds all groups.  \return DEM_ERROR_MEMORY */
 dem_status contact_forces_regroup(contact_forces *r);
 
-/** Finds the groups again when these candidates have opened or closed contacts, and no others: costs what the groups
- *  have that they were in and that they come to.  \return DEM_ERROR_MEMORY, with the groups as they should be */
+/** Finds the groups again when these candidates have opened or closed contacts, and no others: the cost is that of the
+ *  groups that they leave and join.
+ *  \return DEM_ERROR_MEMORY, with the groups as they should be */
 dem_status contact_forces_regroup_some(contact_forces *r, const dem_index *changed, dem_index n);
 
-/** Takes from the free accelerations a [n][2] what all closed contacts hold; fills force. */
+/** Adds to the free accelerations a [n][2] those by the forces of all closed contacts; fills force. */
 void contact_forces_hold(contact_forces *r, scene_state state, double *a);
 
 /** Fills force for the contacts of one group in a state. */

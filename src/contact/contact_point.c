@@ -35,7 +35,7 @@ typedef struct vertex_motion {
 /* Vertex V on the edge from a to b, P = (1 - s) a + s b the point of the edge nearest to it, N normal and t tangent of
  * the edge, gap g = (P - V).N. With v_P the velocity of the point of the body at P and omega = (v_b - v_a).N/L,
  *   g' = v_P.N,  s' = -v_P.t/L,  g'' = a_P.N - 2 omega v_P.t  (at g = 0):  a_P.N = 2 omega v_P.t keeps it closed.
- * Of a vertex that moves it is the velocity and the acceleration less its own that count. */
+ * If the vertex moves, velocities and accelerations are relative to it. */
 static inline contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
                                        const contact_point *point, const vertex_motion *vertex, scene_state state)
 {

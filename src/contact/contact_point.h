@@ -16,16 +16,16 @@ typedef struct contact_point {
     double force, friction; /* N, along normal and tangent, at the last accepted step */
 } contact_point;
 
-/** How far a candidate is known to be from all that it could touch besides its closed contacts. */
+/** A lower bound of a candidate's distance to all that it can touch besides its closed contacts. */
 typedef struct contact_clearance {
-    bool inactive;      /* it is so far, */
-    double active_from; /* m, until the bodies may have gone this far since the start */
-    double t;           /* s, when it was */
-    vec2 at[2];         /* m, where its nodes were then, */
-    double distance;    /* m, this far away */
+    bool inactive;      /* too far from everything to touch it */
+    double active_from; /* m, and so until the broad phase's `travelled` is this */
+    double t;           /* s, when the distance was measured */
+    vec2 at[2];         /* m, where its nodes were at that time */
+    double distance;    /* m, the distance then */
 } contact_clearance;
 
-/** Changes of a candidate in a short time. */
+/** Counts a candidate's changes in a short time, which are limited. */
 typedef struct contact_storm {
     double start; /* s */
     dem_index n;  /* changes since then */
@@ -52,11 +52,11 @@ typedef struct contact_frame {
     vec2 velocity;        /* m/s, of the point relative to that */
     double gap;           /* m, along the normal */
     double place;         /* m along a segment from its start; fraction of an edge from its start */
-    double turning;       /* m/s^2, acceleration of the point along the normal that keeps it touching: 2 omega v_t, and
-                             that of what stays on the obstacle there and slides as the point does */
-    double carried;       /* m/s^2, along the tangent, of the latter */
-    double keep[2];       /* m/s^2, the same, and that along the tangent which keeps it stuck, with what draws back
-                             what the integrator's error has opened */
+    double turning;       /* m/s^2, normal acceleration of the point that keeps it touching: 2 omega v_t, and that of
+                             a point which slides with it on the moving obstacle */
+    double carried;       /* m/s^2, tangential acceleration of the latter */
+    double keep[2];       /* m/s^2, normal and tangential acceleration that keep it closed and stuck, with a part that
+                             draws back what the integrator's error has opened */
     double mobility;      /* 1/kg, sum of weight^2/m */
 } contact_frame;
 
@@ -65,13 +65,13 @@ static inline bool candidate_is_edge(const contact_candidate *candidate)
     return candidate->other >= 0;
 }
 
-/** What a candidate touches under this number: a node touches segments, an edge vertices. */
+/** The feature with this number: a node touches segments, an edge touches vertices. */
 static inline surface_feature contact_point_feature(const contact_candidate *candidate, dem_index id)
 {
     return (surface_feature){candidate_is_edge(candidate) ? SURFACE_VERTEX : SURFACE_SEGMENT, id};
 }
 
-/** The law between a candidate and what it touches under this number. */
+/** The contact law between a candidate and the feature with this number. */
 static inline contact_law contact_point_law(const contact_scene *scene, const contact_candidate *candidate,
                                             dem_index id)
 {
@@ -85,21 +85,21 @@ double contact_point_friction(const contact_scene *scene, const contact_candidat
 contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q,
                                scene_state state);
 
-/** The same where some obstacles move: apart, so that those at rest cost nothing more. */
+/** The same where some obstacles move: a function of its own, so that runs without any do not pay for it. */
 contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
                                    scene_state state);
 
-/** What rounding of the coordinates may make of the force of a contact, N. */
+/** Bound of the error of a contact's force by rounding of the coordinates, N. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
 
-/** Velocity of the point seen from outside, m/s. */
+/** Velocity of the point itself, not relative to the obstacle, m/s. */
 vec2 contact_frame_velocity(const contact_frame *f, const double *v);
 
-/** What rounding may leave of the velocity of a point at rest, m/s: 0 for a node on an obstacle at rest, whose velocity
- *  is set. */
+/** Bound of the velocity that rounding leaves to a point at rest, m/s: 0 for a node on an obstacle at rest, whose
+ *  velocity is set to 0. */
 double contact_point_noise(const contact_frame *f, const double *v);
 
-/** What the library tells of it at t. */
+/** What the public functions report of closed contact q at t. */
 dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q, double t,
                                    const double *x);
 

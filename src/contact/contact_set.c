@@ -121,8 +121,8 @@ static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index 
     return false;
 }
 
-/* Which contacts are of a corner: both of a node on two segments, and a vertex on two edges that meet in it. One that
- * is not any more is at rest. */
+/* Marks the contacts of corners: both of a node on two segments, and those of a vertex with two edges that meet at it.
+ * One that is no longer of a corner is at rest. */
 static void mark_corners(contact_set *c, dem_index k)
 {
     contact_candidate *candidate = &c->list[k];
@@ -138,7 +138,7 @@ static void mark_corners(contact_set *c, dem_index k)
     }
 }
 
-/* The same of an edge and those that meet it: they may be of one corner. */
+/* The same for an edge and those that share a node with it: they may be of one corner. */
 static void mark_around(contact_set *c, dem_index k)
 {
     const surface *s = &c->scene.model->surface;
@@ -207,7 +207,7 @@ void contact_set_solve_all(contact_set *c, scene_state state)
     for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, c->forces.groups[g], state);
 }
 
-/* A force without what should come from outside is none: the last known stays. */
+/* After a failure of the external force the contact forces would be wrong: the last ones are kept. */
 void contact_set_store_all(contact_set *c)
 {
     if (external_force_failed(c->scene.forces->external)) return;
@@ -222,7 +222,7 @@ double contact_set_stop(contact_set *c, dem_index group, const contact_instant *
     contact_forces *r = &c->forces;
     const scene_state state = instant_state(now);
     double energy = 0.0;
-    for (int after = 0; after < 2; after++) { /* impulses at points take -J.(v + v')/2 */
+    for (int after = 0; after < 2; after++) { /* an impulse J takes the energy -J.(v + v')/2 */
         for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
             const contact_candidate *candidate = &c->list[k];
             for (int q = 0; q < candidate->n_closed; q++) {

@@ -9,19 +9,19 @@
 /** What the impact under way does to a contact. */
 typedef struct contact_impact {
     bool fresh;      /* the contact was not closed before */
-    bool opens;      /* and will not be after */
+    bool opens;      /* it will not be closed after */
     bool approached; /* its point moved towards the surface */
-    bool rests;      /* what it gets away is no more than a hop that counts as rest */
+    bool rests;      /* its rebound is no more than a hop that counts as rest */
     bool plastic;    /* it does not rebound, for it will last */
     vec2 before;     /* m/s, of the point of the body */
     vec2 impulse;    /* N s, given to the body */
-    vec2 stop;       /* N s, of which last to stop it with its group; m/s, its velocity until then */
+    vec2 stop;       /* N s, what contact_set_stop() gave it last; m/s, its velocity until then */
     double energy;   /* J, taken by it */
 } contact_impact;
 
-/** And to those of a candidate: all zero when no impact is under way, but for `stop`. */
+/** The same for all contacts of a candidate: zero when no impact is under way, but for `stop`. */
 typedef struct candidate_impact {
-    int n; /* contacts that take part: behind the closed ones are those that have opened */
+    int n; /* contacts that take part: the closed ones, then those that have opened */
     contact_impact of[2];
 } candidate_impact;
 
@@ -42,7 +42,7 @@ typedef struct contact_set {
 dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule);
 void contact_set_destroy(contact_set *c);
 
-/** A candidate of the same nodes without contacts, of which nothing is known but behind what it is. */
+/** A candidate without contacts and clearance; only the obstacles that it is behind are kept. */
 static inline contact_candidate candidate_reset(const contact_candidate *candidate)
 {
     return (contact_candidate){.node = candidate->node,
@@ -52,7 +52,7 @@ static inline contact_candidate candidate_reset(const contact_candidate *candida
                                .behind = {candidate->behind[0], candidate->behind[1]}};
 }
 
-/** What was known of a candidate's distance to other things holds no more. */
+/** Marks a candidate's clearance as unknown. */
 static inline void candidate_forget_clearance(contact_candidate *candidate)
 {
     candidate->clearance.inactive = false;
@@ -98,11 +98,12 @@ void contact_set_solve_forces(contact_set *c, dem_index k, scene_state state);
 void contact_set_solve_all(contact_set *c, scene_state state);
 void contact_set_store_all(contact_set *c);
 
-/** Stops a group: closed contacts neither open nor slide where they stick. Leaves in `stop` of each the impulse that
- *  this takes.  \return the energy that it takes, J */
+/** Takes from the velocities of a group what its closed contacts do not allow. Leaves in `stop` of each the impulse
+ *  that this takes.
+ *  \return the energy that it takes, J */
 double contact_set_stop(contact_set *c, dem_index group, const contact_instant *now);
 
-/** What a closed contact does to its obstacle's account, with the forces last solved for. */
+/** What a closed contact adds to the rates of its obstacle, with the forces last solved for. */
 typedef struct contact_contribution {
     dem_index obstacle;
     vec2 force, friction; /* N, on the body: all of it, and the part along the surface */
@@ -118,7 +119,7 @@ static inline dem_index contact_set_group_at(const contact_set *c, dem_index nod
     return c->forces.at_node[node];
 }
 
-/** An event of a candidate at a feature: what is known without the impact. */
+/** An event of a candidate at a feature, with all that is known before an impact is resolved. */
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
                             const contact_instant *now);
 
@@ -129,7 +130,7 @@ void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse
  *  \param carried  m/s, velocity of the obstacle there, with which it does work */
 void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal, vec2 carried);
 
-/** Tells of an impact and enters its energy, J, and the impulse (N s) that the features gave together. */
+/** Reports an impact and enters its energy, J, and the impulse (N s) that the features gave together. */
 void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now);
 
 #endif

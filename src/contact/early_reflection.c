@@ -24,8 +24,7 @@ void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, co
     contact_set_enter_impact(c, &event, -0.5 * vec2_dot(impulse, vec2_add(f.velocity, after)), impulse, now);
 }
 
-/* Whether a candidate may come to touch within the window: what it is known to be clear of may be further than it
- * gets. */
+/* Whether a candidate may touch within the window, judged by its clearance alone, which saves computing most gaps. */
 static bool may_arrive(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
                        const candidate_positions *v)
 {
@@ -33,7 +32,7 @@ static bool may_arrive(const contact_set *c, const contact_candidate *candidate,
     return candidate->clearance.distance - candidate_moved(&c->scene, candidate, x) < way;
 }
 
-/* Whether a candidate comes to touch within the window if it goes on straight: near a vertex it may pass by. */
+/* Whether a candidate touches within the window if it goes on straight: near a vertex it may pass by. */
 static bool arrives(const contact_set *c, const contact_candidate *candidate, const candidate_positions *x,
                     const candidate_positions *v)
 {
@@ -51,7 +50,7 @@ void early_reflection(contact_set *c, contact_instant *now)
         const candidate_positions spot = candidate_place(&candidate, now->t, now->x),
                                   v = candidate_place(&candidate, now->t, now->v);
         if (candidate.n_closed > 0 || contact_set_coupled(c, k) || !may_arrive(c, &candidate, &spot, &v)) continue;
-        candidate_forget_clearance(&candidate); /* its true gap */
+        candidate_forget_clearance(&candidate); /* so that the gap is exact */
         const contact_gap gap = candidate_gap(&c->scene, &candidate, &spot);
         if (gap.feature < 0) continue;
         const vec2 at = vec2_add(vec2_scale(1.0 - gap.place, v.a), vec2_scale(gap.place, v.b));

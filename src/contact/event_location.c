@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bracketing, dips and roots along the path of a step. */
+/* Roots of a candidate's root functions on the dense output of a step: brackets, dips between samples, secants. */
 #include "contact/event_location.h"
 
 #include <float.h>
@@ -44,7 +44,7 @@ static void bracket_close(bracket *b, double t, double value, bool beyond)
     }
 }
 
-/* The guard of a free candidate at one time, and how fast it grows. */
+/* The root function of a free candidate at one time, and its derivative. */
 typedef struct sample {
     double t, guard, slope;
 } sample;
@@ -67,14 +67,15 @@ static double guard_at(const contact_scene *scene, const contact_candidate *cand
     return fmin(candidate_gap(scene, candidate, &spot).distance, 1.0) + scene->rule.penetration_tolerance;
 }
 
-/* Whether the guard is lower somewhere between two samples than at both; a vertex may be beside the edge at one. */
+/* Whether the root function may be lower between two samples than at both; at one of them the vertex may be beside the
+ * edge, where there is no slope. */
 static bool dips(const sample *s, const sample *next)
 {
     return (s->slope < 0.0 || next->guard < s->guard) && (next->slope > 0.0 || s->guard < next->guard);
 }
 
-/* A time between two samples at which the guard is as low as it gets, by golden section; the first found at or below 0
- * will do. Where nothing is near an edge its guard is level, and lower towards the lower sample. */
+/* Time of the minimum between two samples, by golden section; a value at or below 0 ends the search. Where no vertex is
+ * near an edge its root function is constant, and the search goes towards the lower sample. */
 static double lowest(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                      const sample *s, const sample *next)
 {
@@ -99,7 +100,7 @@ static double lowest(const contact_scene *scene, const contact_candidate *candid
     return ga < gb ? a : b;
 }
 
-/* The zero of the guard between a time when it is above and one when it is not. */
+/* The root between a time when the function is above 0 and one when it is not. */
 static double crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                        sample clear, sample deep)
 {
@@ -118,8 +119,8 @@ static double fastest(const dense_output *p, double t, const contact_candidate *
     return candidate_is_edge(candidate) ? fmax(v, vec2_norm(node_motion_velocity(p, t, candidate->other))) : v;
 }
 
-/* How far an edge may be off the straight line between its ends in a step, m: h^2/2 times the largest acceleration of
- * its nodes there, four times what a constant one does, and its turn. */
+/* How far an edge may deviate in a step from uniform motion between its ends, m: h^2/2 times the largest acceleration
+ * of its nodes at the ends, four times what a constant one does, and as much for its rotation. */
 static double bend(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
@@ -136,8 +137,8 @@ static double bend(const contact_scene *scene, const contact_candidate *candidat
     return 0.5 * h * h * (a + turn);
 }
 
-/* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the
- * nearest is further in front than the edge can have come from there. */
+/* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the nearest
+ * is further in front than the edge can have moved. */
 static bool edge_is_clear(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                           double from, double reach)
 {
@@ -150,7 +151,7 @@ static bool edge_is_clear(const contact_scene *scene, const contact_candidate *c
     return around.distance + scene->rule.penetration_tolerance > way + bend(scene, candidate, p);
 }
 
-/* Whether a candidate ends the step so near to where it was clear that it was so all the way. */
+/* Whether a candidate ends the step so near to where its clearance was measured that it has touched nothing. */
 static bool stays_clear(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                         double reach)
 {
@@ -158,7 +159,7 @@ static bool stays_clear(const contact_scene *scene, const contact_candidate *can
     return candidate_moved(scene, candidate, &spot) + reach < candidate->clearance.distance;
 }
 
-/* The first crossing of a candidate whose gap is the true one. */
+/* The first crossing of a candidate whose gap is exact, no lower bound. */
 static double crossing_within(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                               double from, double reach)
 {
@@ -168,7 +169,7 @@ static double crossing_within(const contact_scene *scene, const contact_candidat
     const sample last = sample_at(scene, candidate, p, p->end);
     sample s = sample_at(scene, candidate, p, from);
     if (s.guard <= 0.0) return from;
-    const bool on_its_way = s.guard + last.guard <= reach; /* no gap of a node changes faster than that moves */
+    const bool on_its_way = s.guard + last.guard <= reach; /* a node's gap changes no faster than the node moves */
     if (!candidate_is_edge(candidate) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, candidate, p, from + h * k / n);
@@ -192,7 +193,7 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
                           surface_speed(scene)); /* no candidate goes further */
     if (stays_clear(scene, candidate, p, reach)) return INFINITY;
     contact_candidate near = *candidate;
-    near.clearance.distance = 0.0; /* its true gap: a lower bound has no slope to show a dip by */
+    near.clearance.distance = 0.0; /* for an exact gap: a lower bound has no slope that shows a dip */
     return crossing_within(scene, &near, p, from, reach);
 }
 
@@ -204,7 +205,7 @@ static void put_node(const dense_output *p, double t, dem_index i, double *state
     dense_output_velocity(p, t, i, state + state_velocities(&p->layout) + state_row(&p->layout, i));
 }
 
-/* A node and all whose positions its force depends on. */
+/* Puts a node and all those on which its force depends into the state at t. */
 static void put_around(const forces *f, const dense_output *p, double t, dem_index i, double *state)
 {
     put_node(p, t, i, state);
@@ -224,15 +225,14 @@ void event_location_state(const contact_forces *r, dem_index group, const dense_
     if (forces_are_driven(r->scene->forces)) put_node(p, t, state_time_row(&p->layout), state);
 }
 
-/* The state at t as far as the group's forces depend on it, and those. */
+/* Solves for a group's forces at t, from the part of the state that they depend on. */
 static void solve_at(contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
 {
     event_location_state(r, group, p, t, state);
     contact_forces_solve(r, group, scene_state_at(r->scene, t, state));
 }
 
-/* Forces and guards of a candidate in the state at t: the lowest of the guards, each in units of what it was at
- * first. */
+/* The lowest of a candidate's root functions in the state at t, each divided by its value at first. */
 static double lowest_guard(contact_forces *r, dem_index k, double t, const double *state, const double *scale)
 {
     double guard[CANDIDATE_ROOTS], low = INFINITY;

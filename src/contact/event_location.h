@@ -5,16 +5,17 @@
 
 #include "contact/candidate.h"
 
-/** Width to which a time in the step is located, s: what ARKODE's root finder uses. */
+/** Width to which the time of an event is located, s: that of ARKODE's root finder. */
 double event_location_resolution(const dense_output *p);
 
 /** First time in the step, after `from`, at which a free candidate is as deep as the penetration tolerance; infinity if
- *  never. The rest of the step is sampled eight times, and every dip between samples followed to its bottom. */
+ *  never. The rest of the step is sampled eight times, and between samples every dip is searched for its minimum. */
 double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                                double from);
 
-/** First time in the step, after `from`, at which a candidate of a group, due at its end, is due. It stays the only one
- *  looked at.  \param[out] state  [4 n] scratch */
+/** First time in the step, after `from`, at which a candidate's closed contacts have to change that have to at its end.
+ *  Looks at no other candidate.
+ *  \param[out] state  [4 n] scratch */
 double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,
                              double *state);
 

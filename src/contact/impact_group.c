@@ -7,10 +7,10 @@
 #include "base/status.h"
 #include "contact/impact_rest.h"
 
-/* Sweeps over a group of contacts that are resolved in turn; after half of them they do so without rebound. */
+/* Sweeps in which the contacts of a group are resolved in turn; those of the second half are without rebound. */
 enum { most_sweeps = 200 };
 
-static const double group_noise = 1e-11; /* of the speeds at hand: what is left to the closing of a group */
+static const double group_noise = 1e-11; /* of the largest speed: slower approaches are left to the group's stop */
 
 double impact_group_project(contact_set *c, dem_index group, contact_instant *now)
 {
@@ -29,7 +29,7 @@ double impact_group_project(contact_set *c, dem_index group, contact_instant *no
     return furthest;
 }
 
-/* Notes where the contacts of the group start from; returns their largest speed. */
+/* Stores the velocities of the group's contacts before the impact; returns the largest of them. */
 static double prepare(contact_set *c, dem_index group, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -50,7 +50,7 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
     return scale;
 }
 
-/* One contact of the group by itself: whether it approaches, and is resolved. */
+/* Resolves one contact of the group by itself if it approaches; returns whether it did. */
 static bool resolve_approach(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
 {
     contact_impact *impact = &c->impacts[k].of[q];
@@ -68,8 +68,7 @@ static bool resolve_approach(contact_set *c, dem_index k, int q, double toleranc
     return true;
 }
 
-/* The contacts of a group are resolved in turn, those of candidate k first. Returns false if that has not come to an
- * end. */
+/* Resolves the contacts of a group in turn, those of candidate k first. Returns whether none approaches in the end. */
 static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -86,7 +85,7 @@ static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant
     return !approached;
 }
 
-/* Which contacts of the group last, and how they slide. */
+/* Decides which contacts of the group last, and how they slide. */
 static void judge(contact_set *c, dem_index group, double tolerance, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -112,8 +111,8 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
     }
 }
 
-/* If contacts last that have rebounded, takes all impulses back, to be given again with those plastic: what stays has
- * not rebounded, and friction goes with the impulse given. */
+/* If contacts last that have rebounded, takes all impulses back, so that they are given again with those contacts
+ * plastic: a contact that lasts has not rebounded, and its friction follows from the impulse without rebound. */
 static bool take_back(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -136,8 +135,8 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
     return any;
 }
 
-/* What still approaches after all sweeps is held for now: it stops exactly with the others, and opens if nothing
- * presses. */
+/* Keeps contacts closed for now that still approach after all sweeps: they stop with the others by one linear system,
+ * and open if nothing presses them. */
 static void keep_approaching(contact_set *c, dem_index group)
 {
     const contact_forces *r = &c->forces;
@@ -146,7 +145,7 @@ static void keep_approaching(contact_set *c, dem_index group)
             if (c->impacts[m].of[q].approached) c->impacts[m].of[q].opens = false;
 }
 
-/* Takes the contacts that open out of the closed ones, but keeps them behind these. */
+/* Takes the contacts that open out of a candidate's closed ones, but keeps them in the list behind these. */
 static void part(contact_candidate *candidate, candidate_impact *impact)
 {
     candidate_forget_clearance(candidate);
@@ -175,8 +174,8 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
     }
 }
 
-/* Stops the groups that have a node in common with a candidate: what the integrator's error has left them of velocity
- * is no approach. */
+/* Stops the groups that share a node with a candidate: velocities that the integrator's error has left in them are no
+ * approach. */
 static void stop_around(contact_set *c, dem_index k, contact_instant *now)
 {
     const surface *s = &c->scene.model->surface;
@@ -191,7 +190,7 @@ static void stop_around(contact_set *c, dem_index k, contact_instant *now)
     }
 }
 
-/* What the sweeps have left of velocities that closed contacts do not allow goes. */
+/* Takes away what the sweeps have left of velocities that closed contacts do not allow. */
 static void settle_velocities(contact_set *c, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -207,7 +206,7 @@ static void settle_velocities(contact_set *c, contact_instant *now)
     }
 }
 
-/* Ledger and tells what the contacts of a candidate got. */
+/* Enters in the ledger, and reports, the impulses and changes of a candidate's contacts. */
 static void tell_party(contact_set *c, dem_index k, contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -232,7 +231,8 @@ static void tell_party(contact_set *c, dem_index k, contact_instant *now)
     c->impacts[k] = (candidate_impact){0};
 }
 
-/* Takes up the hit among the closed contacts of the candidate, in place of those it does not go with. */
+/* Adds the contact that hits to the closed ones of the candidate, in place of those that it cannot be closed together
+ * with. */
 static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
 {
     contact_candidate *candidate = &c->list[k];

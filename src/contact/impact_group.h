@@ -5,10 +5,11 @@
 
 #include "contact/impact_target.h"
 
-/** Puts a group of contacts on their surfaces, and enters what that puts in.  \return how far nodes have moved, m */
+/** Moves the nodes of a group so that its contacts touch, and enters the energy that this puts in.
+ *  \return how far nodes have moved, m */
 double impact_group_project(contact_set *c, dem_index group, contact_instant *now);
 
-/** Stops a group of contacts, and enters what that takes. */
+/** Takes from the velocities of a group what its closed contacts do not allow, and enters its energy and impulses. */
 void impact_group_stop(contact_set *c, dem_index group, contact_instant *now);
 
 /** The impact of an edge, or of a node that shares contacts with others: its group is put on the surfaces, its

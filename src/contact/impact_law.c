@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Restitution (8), (9), friction (10) and Coulomb's, Moreau's law for a corner, and the complementarity of reactions.
- * Nowhere else. */
+ * These laws are nowhere else. */
 #include "contact/impact_law.h"
 
 #include <stdbool.h>
@@ -26,7 +26,7 @@ static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
     }
     vec2_parts(v, s[0].normal, s[1].normal, p);
     if (p[0] <= 0.0 && p[1] <= 0.0 && fabs(vec2_cross(s[0].normal, s[1].normal)) > parallel_below) return;
-    const int k = alone[0] <= alone[1] ? 0 : 1; /* as good as parallel: rounding decides, and they are one */
+    const int k = alone[0] <= alone[1] ? 0 : 1; /* nearly parallel, where rounding decides: they count as one */
     p[k] = alone[k];
     p[1 - k] = 0.0;
 }

@@ -11,7 +11,7 @@ typedef struct impact_surface {
     double restitution; /* eta, 0 to 1 */
     double friction;    /* mu */
     dem_friction_law law;
-    vec2 drift; /* m/s, how it moves along itself, where velocities are not relative to it but to a corner */
+    vec2 drift; /* m/s, velocity of the surface in the frame of the corner, to which velocities are relative */
 } impact_surface;
 
 /** Velocity after an impact with one or two surfaces. For one it is (9), v - (1 + eta) n (n.v) if n.v < 0, with (8)
@@ -23,9 +23,9 @@ typedef struct impact_surface {
  *  \param[out] kick  [n] what each surface adds to the velocity */
 vec2 impact_law_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick);
 
-/** Height of the hop that impacts keep up which are taken at a depth of 1 and put back on the surface, under a constant
- *  push: v'^2 = eta^2 (v^2 + 2 a) tends to 2 a eta^2/(1 - eta^2). At most 50, and 0 for eta = 1, where there is no
- *  limit. */
+/** Height of the hop to which repeated impacts tend under a constant push a, each taken at a depth of 1 and put back on
+ *  the surface: v'^2 = eta^2 (v^2 + 2 a) tends to 2 a eta^2/(1 - eta^2). At most 50, and 0 for eta = 1, where there is
+ *  no limit. */
 double impact_law_kept_up(const impact_surface *surface);
 
 /** Which of one or two surfaces hold a node at rest on them against `force` (N): the set for which no reaction pulls

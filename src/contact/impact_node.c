@@ -7,10 +7,10 @@
 #include "base/status.h"
 #include "contact/impact_rest.h"
 
-static const double noise = 64.0 * DBL_EPSILON; /* of the speeds at hand: what rounding leaves */
+static const double noise = 64.0 * DBL_EPSILON; /* relative rounding of a velocity */
 
-/* What a node hits: its walls, how they move, and how that moves relative to which the laws of an impact hold: the
- * wall, or the corner of two. */
+/* What a node hits: one or two walls, their velocities, and the frame relative to which the laws of impact hold, that
+ * of the wall or of the corner. */
 typedef struct hit_walls {
     surface_line line[2];
     vec2 velocity[2]; /* m/s */
@@ -36,7 +36,7 @@ typedef struct node_impact {
     vec2 before, after, kick[2];
 } node_impact;
 
-/* How far a node has to be moved to be on one segment's line and not beyond a vertex of it, or where two meet. */
+/* The displacement that puts a node on one segment's line, but not beyond a vertex of it, or where two lines meet. */
 static vec2 way_back(const contact_set *c, impact_target hit, const hit_walls *walls, surface_query at)
 {
     const surface_line a = walls->line[0], b = walls->line[hit.n - 1];
@@ -62,9 +62,9 @@ static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, 
     }
 }
 
-/* Of the segments that are hit, those on which a node with relative velocity v stays. At rest it is all that push it;
- * in a corner at rest means that it would not get further out than a hop before the corner has it back. Otherwise it
- * is the one segment it moves along. */
+/* Of the segments that are hit, those on which a node with relative velocity v stays. A node at rest stays on all that
+ * it presses; in a corner it is at rest if it would get no further out than a hop before it comes back. Otherwise it
+ * can stay on the one segment along which it moves. */
 static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls, vec2 v,
                              const contact_instant *now)
 {
@@ -79,7 +79,7 @@ static impact_target lasting(const contact_set *c, dem_index k, impact_target hi
     list_surfaces(c, k, hit, walls, wall);
     for (int q = 0; q < hit.n; q++) away[q] = vec2_dot(v, wall[q].normal);
     const int holding = impact_law_holding(wall, hit.n, a, push);
-    const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* what holds in a corner returns a node to it */
+    const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* deceleration of a node that leaves the corner */
     if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= impact_rest_speed(c, at, back, &wall[0], false)))) {
         for (int q = 0; q < hit.n; q++)
             if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
@@ -99,7 +99,7 @@ static vec2 without_normals(const contact_set *c, impact_target held, double t, 
     return vec2_along(v, -vec2_dot(v, n), n);
 }
 
-/* Leaves what is closed and closes what is held, quietly. */
+/* Opens the node's contacts and closes those on `held`, without an event. */
 static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const contact_instant *now)
 {
     contact_candidate *candidate = &c->list[k];
@@ -118,7 +118,7 @@ static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const
     return contact_set_regroup_some(c, &k, 1);
 }
 
-/* Tells that contacts began or ceased to last where no impact tells it. */
+/* Reports that a contact has closed or opened, where no impact reports it. */
 static void report_change(contact_set *c, dem_index k, int was_closed, dem_index feature, bool approached,
                           contact_instant *now)
 {
@@ -130,7 +130,7 @@ static void report_change(contact_set *c, dem_index k, int was_closed, dem_index
     ledger_enter(&c->ledger, &event, now);
 }
 
-/* Ledger an impact by which the relative velocity has changed, each surface having added its kick. */
+/* Enters an impact in the ledger and reports it; each surface has added its kick to the relative velocity. */
 static void enter(contact_set *c, dem_index k, const node_impact *impact, contact_instant *now)
 {
     const double m = c->scene.model->lattice.mass[c->list[k].node];
@@ -138,7 +138,7 @@ static void enter(contact_set *c, dem_index k, const node_impact *impact, contac
     vec2 kick[2] = {impact->kick[0], impact->kick[1]};
     double energy = 0.5 * m * (vec2_dot(impact->before, impact->before) - vec2_dot(impact->after, impact->after));
     vec2 rest =
-        vec2_sub(impact->after, impact->before); /* what rounding and closing add goes with the first that acts */
+        vec2_sub(impact->after, impact->before); /* what rounding and closing add counts for the first that acts */
     for (int q = 0; q < hit.n; q++) rest = vec2_sub(rest, kick[q]);
     const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
     kick[first] = vec2_add(kick[first], rest);
@@ -166,7 +166,7 @@ dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, con
     p.after = impact_law_rebound(p.surface, hit.n, p.before, p.kick);
     if (vec2_norm(p.after) <= noise * vec2_norm(p.before)) p.after = (vec2){0.0, 0.0};
     const impact_target held = lasting(c, k, hit, &p.walls, p.after, now);
-    if (held.n > 0) { /* what stays has not rebounded, and friction goes with the impulse given */
+    if (held.n > 0) { /* a contact that lasts has not rebounded */
         for (int q = 0; q < hit.n; q++)
             for (int h = 0; h < held.n; h++)
                 if (held.feature[h] == hit.feature[q]) p.surface[q].restitution = 0.0;

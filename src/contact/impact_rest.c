@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-static const double noise = 64.0 * DBL_EPSILON; /* what rounding leaves, as a share */
+static const double noise = 64.0 * DBL_EPSILON; /* relative rounding of a coordinate */
 
 impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index feature, vec2 normal)
 {
@@ -19,8 +19,8 @@ int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, doub
     return speed < 0.0 ? -1 : 1;
 }
 
-/* Hops of this many penetration tolerances are kept up where one contact's impact opens another that shares a node, or
- * the other side of a notch: each is taken a penetration tolerance deep. */
+/* Hops of this many penetration tolerances never end where the impact of one contact opens another that shares a node,
+ * or the other side of a notch, for each is taken at the depth of the tolerance. */
 static const double shared_tolerances = 8.0;
 
 double impact_rest_speed(const contact_set *c, vec2 x, double back, const impact_surface *on, bool shared)

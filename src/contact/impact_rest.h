@@ -12,11 +12,11 @@ impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index 
 /** The sign with which a contact begins: it slides the way it moves; at rest it sticks if there is friction. */
 int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, double speed);
 
-/** Speed at or below which what an acceleration `back` returns to a surface is at rest: the hop would be lower than the
- *  position tolerance, than what rounding leaves of the coordinates, or than the one that impacts taken at the depth of
- *  the penetration tolerance keep up; or it would be shorter than twice the window. A rest speed that is given adds to
- *  that and replaces none of it: a smaller one would leave bounces that never end. Nothing is at rest (-1) that does
- *  not return.
+/** Speed at or below which a point counts as at rest on a surface to which an acceleration `back` returns it: its hop
+ *  would be lower than the position tolerance, than the rounding of coordinates, or than the hop that impacts keep up
+ *  for ever because each is taken at the depth of the penetration tolerance; or it would be shorter than twice the
+ *  window. A rest speed that is given adds to these limits and replaces none: a smaller one would leave bounces that
+ *  never end. -1 if nothing returns it.
  *  \param shared  the impact may open other contacts that share a node */
 double impact_rest_speed(const contact_set *c, vec2 x, double back, const impact_surface *on, bool shared);
 

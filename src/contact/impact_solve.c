@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which impact it is. */
+/* Chooses between the impact of a node by itself and that of a group. */
 #include "contact/impact_solve.h"
 
 #include "contact/impact_group.h"

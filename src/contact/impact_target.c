@@ -14,13 +14,13 @@ double impact_target_depth(const contact_set *c, dem_index k, const contact_inst
            located * (fmax(speed, other) + surface_speed(&c->scene));
 }
 
-/* A node that comes near. */
+/* A node that may hit several segments. */
 typedef struct approaching {
     surface_query at;
     vec2 v;
 } approaching;
 
-/* How fast it leaves the line of a segment. */
+/* Its velocity away from the line of a segment, m/s. */
 static double receding(const contact_set *c, dem_index s, const approaching *node)
 {
     const obstacle_motion wall = surface_motion(&c->scene, s, node->at);

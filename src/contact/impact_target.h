@@ -11,8 +11,8 @@ typedef struct impact_target {
     dem_index feature[2];
 } impact_target;
 
-/** How deep a candidate can be at an impact, m: twice the penetration tolerance, how far it moves in ten times the
- *  time to which events are located, and how far it may have been moved to straighten a contact beside it. */
+/** How deep a candidate can be at an impact, m: twice the penetration tolerance, plus the way that it moves in ten
+ *  times the width to which events are located, plus the largest displacement by which contacts were put back. */
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now);
 
 /** Whether a node at a point is in a corner of two segments, rather than on one nearly straight surface or in a
@@ -22,8 +22,8 @@ bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other,
 /** What a touching node meets: the segment approached fastest, and a second one that forms a corner with it. */
 impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now);
 
-/** The edge at a node whose side a vertex meets where the node is, and the vertex: when a flat side comes down with a
- *  node right on an apex, the side's normal counts. Returns -1 where there is none. */
+/** The edge at a node that a vertex touches where the node is, and that vertex: where a flat side comes down with a
+ *  node right on an apex, the normal of the side counts. Returns -1 where there is none. */
 dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is kept of contact events: energies, impulses given by the obstacles, counts. */
+/* Sums over contact events: energies, impulses given by the obstacles, counts. */
 #ifndef DEM_CONTACT_LEDGER_H
 #define DEM_CONTACT_LEDGER_H
 
@@ -13,7 +13,7 @@ typedef struct contact_ledger {
     dem_counts counts;                  /* those of contacts */
 } contact_ledger;
 
-/** The state being changed: views into y = (x, v), and who hears of events. */
+/** The state that events change, as views into y = (x, v), and the listener to call. */
 typedef struct contact_instant {
     double t;
     double *x, *v;
@@ -32,7 +32,7 @@ void ledger_destroy(contact_ledger *b);
 /** Adds an impulse (N s) to an obstacle's: `tangential` is the part of it along the surface. */
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential);
 
-/** Counts the event and tells the listener. */
+/** Counts the event and calls the listener. */
 void ledger_enter(contact_ledger *b, const dem_event *event, contact_instant *now);
 
 #endif

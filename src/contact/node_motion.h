@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Nodes on the path of a step, as vectors of two components. */
+/* Positions and velocities of nodes on the dense output of a step, as vectors of two components. */
 #ifndef DEM_CONTACT_NODE_MOTION_H
 #define DEM_CONTACT_NODE_MOTION_H
 

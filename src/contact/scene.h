@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What contacts stand in: the model, the rules that hold during a run, and a state at a time. */
+/* What contacts are computed from: the model, the rules of a run, and a state at a time. */
 #ifndef DEM_CONTACT_SCENE_H
 #define DEM_CONTACT_SCENE_H
 
@@ -22,23 +22,23 @@ typedef struct contact_rule {
 /** What does not change during a run. */
 typedef struct contact_scene {
     const dem_model *model;
-    const forces *forces; /* on the nodes of the model, but those of contact */
+    const forces *forces; /* on the nodes of the model, without those of contacts */
     contact_rule rule;
 } contact_scene;
 
-/** By how much free ends of obstacles count as longer, m: beyond it an impact is not due to the end any more. */
+/** By how much free ends of obstacles count as longer, m: a candidate further out than this cannot hit the end. */
 static inline double scene_margin(const contact_scene *scene)
 {
     return 10.0 * scene->rule.penetration_tolerance;
 }
 
-/** A state in which contacts are asked: the nodes' positions and velocities [n][2] at a time. */
+/** A state for which contacts are computed: the nodes' positions and velocities [n][2] at a time. */
 typedef struct scene_state {
     double t; /* s */
     const double *x, *v;
 } scene_state;
 
-/** Where things stand in the states. */
+/** The layout of the states. */
 static inline const state_layout *scene_layout(const contact_scene *scene)
 {
     return &scene->rule.layout;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The questions of contacts to the obstacles. */
+/* What contacts ask of the obstacles. */
 #include "contact/surface_feature.h"
 
 bool surface_at_free_end(const contact_scene *scene, dem_index id, double along, double tolerance)

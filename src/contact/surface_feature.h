@@ -120,7 +120,7 @@ static inline double surface_speed(const contact_scene *scene)
     return scene->model->obstacles.speed;
 }
 
-/** Whether the surface moves that a segment is of, and how the point of it moves that is there. */
+/** Whether the surface of a segment moves, and the motion of its point at a place. */
 static inline bool surface_moves(const contact_scene *scene, dem_index id)
 {
     const obstacle_set *o = &scene->model->obstacles;
@@ -133,8 +133,8 @@ static inline obstacle_motion surface_motion(const contact_scene *scene, dem_ind
     return obstacles_motion(o, o->segments[id].obstacle, at.t, at.x);
 }
 
-/** How the corner moves in which two segments meet: as both, if they do not move against each other, else along both
- *  normals as each does. Of obstacles that turn against each other it is the velocity alone. */
+/** Motion of the corner in which two segments meet: theirs if both move alike, else the one whose normal components are
+ *  those of both. For obstacles that turn against each other only the velocity is exact. */
 obstacle_motion surface_corner_motion(const contact_scene *scene, const dem_index ids[2], surface_query at);
 
 /** Smallest of the signed distances of a point to the surfaces, leaving out up to two obstacles (-1: none). Free ends
