@@ -54,7 +54,7 @@ static bool is_free(const contact_source *s, dem_index k)
     return s->automaton->set.list[k].n_closed == 0;
 }
 
-/* When the free ones of a share of the candidates touch. */
+/* Finds when the free candidates of a thread's share touch. */
 static void look_at_free(contact_source *s, int n_shares, int share)
 {
     automaton *c = s->automaton;
@@ -78,13 +78,13 @@ static void look_ahead(contact_source *s)
     for (dem_index a = 0; a < automaton_n_active(c); a++) {
         const dem_index k = automaton_active_candidate(c, a);
         const bool known =
-            is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind; /* else others may know more */
+            is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind; /* no node has gone behind one */
         const double due = known ? s->crossing[k] : automaton_next_change(c, step, k, step->t0, s->state);
-        if (isfinite(due)) event_heap_set(&s->heap, k, due); /* the heap is empty: most candidates never enter it */
+        if (isfinite(due)) event_heap_set(&s->heap, k, due); /* the heap was cleared: most candidates need no entry */
     }
 }
 
-/* Nothing of a step has changed yet. */
+/* Forgets what was saved for the step before. */
 static void forget_saved(contact_source *s)
 {
     for (dem_index m = 0; m < s->n_saved; m++) s->kept[s->saved[m]] = false;
@@ -122,7 +122,7 @@ static dem_index n_moving(const event_place *at)
     return at->near->end[at->near->n_rings - 1];
 }
 
-/* Does something to every candidate that has a node in the neighbourhood which moves. */
+/* Calls a function for every candidate that has a moving node of the neighbourhood. */
 static void each_candidate(contact_source *s, const event_place *at,
                            void (*act)(contact_source *s, const event_place *at, dem_index k))
 {
@@ -158,8 +158,8 @@ static void keep_candidate(contact_source *s, const event_place *at, dem_index k
     s->before[s->n_saved++] = s->automaton->set.list[k];
 }
 
-/* What errors have left closed contacts near the event of velocities that they do not allow goes first: it would be
- * taken for sliding or for an approach. */
+/* Takes away velocities that errors have left in closed contacts near the event, and that these do not allow: they
+ * would be taken for sliding or for an approach. */
 static void calm(contact_source *s, const event_place *at)
 {
     contact_set *c = &s->automaton->set;
@@ -190,7 +190,7 @@ static void look_again(contact_source *s, const event_place *at, dem_index k)
     event_heap_set(&s->heap, k, automaton_next_change(s->automaton, at->step, k, at->t, at->state));
 }
 
-/* How far candidates may go: some are faster now. */
+/* Bound of how far candidates go in the step, m: some are faster after the event. */
 static double furthest(const contact_source *s, const event_place *at)
 {
     const dense_output *step = at->step;
@@ -221,7 +221,7 @@ static void contact_source_undo(void *self)
     if (!s->has_ledger) return;
     for (dem_index m = 0; m < s->n_saved; m++) c->set.list[s->saved[m]] = s->before[m];
     copy_ledger(&s->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
-    (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved); /* groups that there were have room */
+    (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved); /* cannot fail: these groups had room before */
     c->idle = s->idle;
     forget_saved(s);
 }

@@ -9,17 +9,17 @@
 
 typedef struct contact_source {
     automaton *automaton;
-    const dense_output *step; /* in hand */
+    const dense_output *step; /* the accepted one */
     double *state;            /* [4 n] scratch, the queue's */
-    event_heap heap;          /* candidates, and when something happens at them */
+    event_heap heap;          /* candidates by the time of their next change */
     double *crossing;         /* [n candidates] s, when a free one touches, while a step is begun */
     bool *kept;               /* [n candidates] whether one is among `saved` */
     dem_index n_saved;
     dem_index *saved;          /* [n_saved] those that may have changed */
     contact_candidate *before; /* [n_saved] as they were before the step */
-    bool has_ledger;           /* whether an event has come, so that there is a */
-    contact_ledger ledger;     /* from before the step */
-    dem_index idle;            /* and the automaton's count of events that changed nothing */
+    bool has_ledger;           /* whether `ledger` is set: there has been an event */
+    contact_ledger ledger;     /* as it was before the step */
+    dem_index idle;            /* before the step, the automaton's events in a row that changed nothing */
 } contact_source;
 
 /** Borrows the automaton. Free with contact_source_destroy().  \return DEM_ERROR_MEMORY */

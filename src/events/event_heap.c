@@ -66,7 +66,7 @@ static void sink(event_heap *h, dem_index p, dem_index key)
     put(h, p, key);
 }
 
-/* The last key takes the place of one that goes. */
+/* Removes the key at a place, which the last key takes. */
 static void take_out(event_heap *h, dem_index p)
 {
     const dem_index last = h->keys[--h->n];

@@ -19,7 +19,7 @@ void event_heap_destroy(event_heap *h);
 
 void event_heap_clear(event_heap *h);
 
-/** From now on the key is due then; infinity: never. */
+/** Sets when a key is due; infinity: never. */
 void event_heap_set(event_heap *h, dem_index key, double due);
 
 /** The key that is due first, or -1. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who is next; what has changed. */
+/* Resolves the events of a step one by one, and corrects its end. */
 #include "events/event_queue.h"
 
 #include <stdlib.h>
@@ -38,11 +38,11 @@ void event_queue_destroy(event_queue *q)
     *q = (event_queue){0};
 }
 
-/* ---- who is next ---- */
+/* ---- the next event ---- */
 
-/* What is due next: of sources at the same time the first. */
+/* The next event; of several sources due at the same time that of the first. */
 typedef struct due_event {
-    const event_source *source; /* NULL: nothing is */
+    const event_source *source; /* NULL: there is none */
     double t;                   /* s */
     dem_index key;
 } due_event;
@@ -96,9 +96,9 @@ static dem_status hear(void *context, const dem_event *event)
     return DEM_OK;
 }
 
-/* By what the square of a velocity's error grows in a step that is longer by the ratio. A step that begins a time tau
- * after a jump estimates h^5 K^3 v (tau (1/104 - 1/120) - h/2080) for it, which vanishes for tau = 0.375 h; for
- * tau < h/4 it is a sixth of the error or more. */
+/* Factor by which the square of a velocity's error grows in a step that is longer by the ratio; 0 for steps that begin
+ * a time tau < h/4 after the event, whose own estimate sees the error. That estimate is h^5 K^3 v (tau (1/104 - 1/120)
+ * - h/2080), which vanishes for tau = 0.375 h; for tau < h/4 it is a sixth of the error or more. */
 static double growth(double ratio)
 {
     const double third = ratio * ratio * ratio;
@@ -117,7 +117,7 @@ static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
     return DEM_OK;
 }
 
-/* The event itself, where all sources know that it comes. */
+/* Resolves an event, after all sources have prepared for it. */
 static dem_status resolve(event_queue *q, const due_event *due, const event_place *at)
 {
     const event_listener listener = {hear, q};
@@ -125,7 +125,7 @@ static dem_status resolve(event_queue *q, const due_event *due, const event_plac
     return due->source->resolve(due->source->self, due->key, at, &listener);
 }
 
-/* What is due, and what follows from it. */
+/* Resolves an event and corrects the rest of the step for it. */
 static dem_status take(event_queue *q, const due_event *due)
 {
     const event_place at = {q->step, due->t, &q->correction.near, q->state};
@@ -145,7 +145,8 @@ static dem_status take(event_queue *q, const due_event *due)
     return DEM_OK;
 }
 
-/* Accelerations at the end of the step depend on the new positions of nodes and neighbours. */
+/* Computes the acceleration of a node at the end of the step again: it depends on the new positions of the node and its
+ * neighbours. */
 static void renew(const event_queue *q, dem_index i, const double *y)
 {
     const unsigned held = forces_held(q->acting, i);
@@ -158,7 +159,7 @@ static void renew(const event_queue *q, dem_index i, const double *y)
     if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));
 }
 
-/* The rates of the quadratures that constraints add to, from all of them. */
+/* Computes the rates again of the quadratures that constraints add to. */
 static dem_status renew_rates(event_queue *q)
 {
     const state_layout *l = &q->layout;
@@ -171,7 +172,7 @@ static dem_status renew_rates(event_queue *q)
     return DEM_OK;
 }
 
-/* The same of a node whose motion has not changed. */
+/* The same for a node whose own motion has not changed. */
 static dem_status renew_beside(event_queue *q, dem_index i, const double *y)
 {
     if (changed_motion_has(&q->changed, i)) return DEM_OK;
@@ -180,8 +181,8 @@ static dem_status renew_beside(event_queue *q, dem_index i, const double *y)
     return DEM_OK;
 }
 
-/* Derivatives at the end of the step, for the change of nodes and constraints: they are those of the state to the bit,
- * but for the power of damping and boundaries. */
+/* Computes the derivative at the end of the step again where nodes and constraints have changed: it is that of the
+ * state to the bit, but for the power of damping and boundaries. */
 static dem_status renew_end(event_queue *q)
 {
     const double *y1 = q->changed.y1;
@@ -195,7 +196,7 @@ static dem_status renew_end(event_queue *q)
     return renew_rates(q);
 }
 
-/* The error that the local corrections leave in constraints goes. */
+/* Removes the error that local corrections leave in the constraints. */
 static dem_status settle_end(event_queue *q)
 {
     if (q->constraints != NULL) q->constraints->settle(q->constraints->self, &q->changed);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The events of all sources inside one accepted step, in the order of time. Each is taken where and when
- * it happens, and what follows from it for the rest of the step is corrected on a neighbourhood, which may bring
- * further events: the whole body is never stopped. Everything can be taken back. */
+/* The events of all sources inside one accepted step, in the order of time. Each is resolved where and when it happens,
+ * and the rest of the step is corrected for it on a neighbourhood, which may bring further events: the integration of
+ * the whole body is never stopped. All of it can be taken back. */
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
@@ -14,14 +14,14 @@ typedef struct event_queue {
     const constraints *constraints; /* NULL: none */
     local_correction correction;
     changed_motion changed;
-    const dense_output *step; /* in hand */
+    const dense_output *step; /* the accepted one */
     double *state;            /* [4 n] scratch, the caller's */
-    double now;               /* s, everything until here is done */
-    bool settled;             /* and the end of the step is */
+    double now;               /* s, events until here are resolved */
+    bool settled;             /* the end of the step is corrected as well */
     bool quiet;               /* nothing happens in the step */
     double error;             /* of all local corrections, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */
-    double most;              /* of it; beyond it the step is to be rejected, and nothing more is done */
+    double most;              /* of `error`; beyond it the step is rejected, and no further event resolved */
     dem_index n_sources, source_capacity;
     event_source *sources; /* [n_sources] by their kind */
     dem_index seed_capacity;
@@ -37,27 +37,30 @@ dem_status event_queue_create(event_queue *out, const state_layout *l, const for
                               const local_correction_rule *rule, bool controlled);
 void event_queue_destroy(event_queue *q);
 
-/** Adds a source of events, before the first step: of events at the same time its come after those of the sources
- *  that are there. Borrows what the source works on.  \return DEM_ERROR_MEMORY */
+/** Adds a source of events, before the first step: of several events at the same time those of sources added earlier
+ *  come first. Borrows what the source works on.
+ *  \return DEM_ERROR_MEMORY */
 dem_status event_queue_add_source(event_queue *q, event_source source);
 
-/** Looks what happens in an accepted step. It ends in y1, with derivative f1, which are changed with it, and is given
- *  the changed motions; it must stay where it is.  \param state  [4 n] scratch */
+/** Begins with an accepted step: finds the first event of every source. The step ends in y1, with derivative f1, which
+ *  change with it; it gets the changed motions, and must stay where it is.
+ *  \param state  [4 n] scratch */
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 
-/** Makes the sources, and the step up to there, what they are at t; the end is whole when t is not before it.
+/** Resolves the events up to t, and takes back those after it, so that sources and motion are those at t; the end of
+ *  the step is complete when t is not before it.
  *  \return what a source returns for an event, DEM_ERROR_INTEGRATOR if what follows from an event is not finite,
  *  DEM_ERROR_MEMORY */
 dem_status event_queue_show(event_queue *q, double t);
 
-/** How far beyond what is allowed the error of the step is that comes from its events: 1 is just allowed. */
+/** Error of the step by its events, in units of the largest allowed. */
 double event_queue_error(const event_queue *q);
 
-/** How long the next step may be, s, for what the events have done; infinity if that sets no bound. Its own estimate
- *  may not tell. */
+/** Bound of the next step, s, by the error that the events would cause in it, which its own estimate may miss; infinity
+ *  if there is none. */
 double event_queue_reach(const event_queue *q);
 
-/** Takes all back: the sources and the end of the step are as they were. */
+/** Takes back all events: the sources and the end of the step are as they were. */
 void event_queue_undo(event_queue *q);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rings, stages and the change. */
+/* The stages of the motion without the event, then those of its change. */
 #include "events/local_correction.h"
 
 #include <stdlib.h>
@@ -30,7 +30,7 @@ void local_correction_destroy(local_correction *p)
     *p = (local_correction){0};
 }
 
-/* The last ring that moves. */
+/* The last ring on which the motion changes. */
 static int last_ring(const local_correction *p)
 {
     return p->near.n_rings - 1;
@@ -41,8 +41,8 @@ static dem_index n_moving(const local_correction *p)
     return p->near.end[last_ring(p)];
 }
 
-/* Rings on which accelerations change at a stage: one more for every two stages, the first because a node may be put
- * back on its surface; damped springs one more for each. */
+/* The last ring on which accelerations change at a stage: one more for every two stages, from 1 on because a node may
+ * be put back on its surface; one more for every stage where springs are damped. */
 static int reach(const local_correction *p, int stage)
 {
     const int before = stage == END ? p->table.stages : stage;
@@ -64,7 +64,7 @@ static double **array_of(local_correction *p, int k)
     return &change[(k - CHANGES) / (LOCAL_CORRECTION_STAGES + 1)][(k - CHANGES) % (LOCAL_CORRECTION_STAGES + 1)];
 }
 
-/* Room for so many nodes and rows of the quadratures; what there is of `used` is kept. */
+/* Makes room for n nodes and rows of the quadratures, and keeps the first `used` of them. */
 static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 {
     if (n <= p->capacity) return DEM_OK;
@@ -90,7 +90,7 @@ static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 
 /* ---- quadratures ---- */
 
-/* The number of the pair of the quadratures at a place; one that is new has not changed. */
+/* Finds the number of a row of the quadratures by its place in a state; a new row has not changed. */
 static dem_status find_quadrature(local_correction *p, dem_index place, dem_index *out)
 {
     const dem_index n = p->near.n;
@@ -119,8 +119,7 @@ static const forces *acting(const local_correction *p)
     return p->near.acting;
 }
 
-/* Power of the forces on node j of the neighbourhood; those from outside are those asked for last, at the same
- * state. */
+/* Power of the forces on node j of the neighbourhood; external forces are those evaluated last, in the same state. */
 static forces_power node_power(const local_correction *p, dem_index j, const double *x, const double *v)
 {
     const external_force *c = acting(p)->external;
@@ -168,7 +167,7 @@ static double stage_time(const local_correction *p, const dense_output *step, in
     return stage == p->last ? step->t1 : p->t + p->table.c[stage] * p->h;
 }
 
-/* Puts the time into a state, for those who are driven by it. */
+/* Puts the time into a state, for forces that depend on it. */
 static void put_time(const local_correction *p, const dense_output *step, int stage, double *y)
 {
     const dem_index row = state_time_row(&step->layout);
@@ -177,7 +176,7 @@ static void put_time(const local_correction *p, const dense_output *step, int st
                           y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }
 
-/* How n nodes go on to a stage without the event. */
+/* Positions and velocities of n nodes at a stage, without the event. */
 static void fetch_stage(local_correction *p, int stage, dem_index n)
 {
     const double s = p->table.c[stage];
@@ -203,7 +202,7 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
     return add_rates(p, stage, -1.0, (constraint_state){s.t, y});
 }
 
-/* At the end of the step that is known. */
+/* The end of the step, whose state and derivative are known. */
 static dem_status open_end(local_correction *p, const dense_output *step)
 {
     const state_layout *l = &step->layout;
@@ -220,7 +219,7 @@ static dem_status open_end(local_correction *p, const dense_output *step)
     return add_rates(p, p->last, -1.0, state);
 }
 
-/* The state at the event. What it is due by has the bits that it was found with. */
+/* The state at the event. Nodes that the event was found with get the bits of the dense output. */
 static void open_start(local_correction *p, const dense_output *step, double *y)
 {
     const neighbourhood_state s = {p->t, p->x[0], p->v[0], y};
@@ -315,9 +314,9 @@ static motion_change jump_at(const local_correction *p, int stage, dem_index j)
     return (motion_change){{x[0], x[1]}, {v[0], v[1]}, {a[0], a[1]}};
 }
 
-/* What takes the slope of a node's velocity at the event, which parabolas have to a term of h^2 only, to its
- * acceleration after the event. A contact that begins to slide is pushed by the little by which friction falls short: a
- * slope that is wrong by more would turn it back at once, and again at every attempt. */
+/* The change that makes the slope of a node's velocity at the event its acceleration after the event: parabolas have
+ * that slope with an error of order h^2. A contact that begins to slide is pushed by the small force that exceeds
+ * friction: with a slope that is wrong by more it would turn back at once, and again at every attempt. */
 static vec2 change_of_slope(const local_correction *p, dem_index j, const motion_polynomial *motion)
 {
     const unsigned held = forces_held(acting(p), p->near.nodes[j].i);
@@ -327,9 +326,9 @@ static vec2 change_of_slope(const local_correction *p, dem_index j, const motion
     return (vec2){held & DEM_COMPONENT_X ? 0.0 : change.x, held & DEM_COMPONENT_Y ? 0.0 : change.y};
 }
 
-/* Adds a change to a motion. Heun's position at the end lacks h^3/6 times the rate at which the acceleration grows: it
- * goes with parabolas, as that of the step does. A quintic closes the gap within the step: after an event from which
- * the acceleration grows from 0 that takes ten times the velocity that there is soon after. */
+/* Adds a change to a motion. Heun's position at the end lacks h^3/6 times the rate at which the acceleration grows, as
+ * does that of the step, which fits parabolas. A quintic would close the gap within the step, and after an event from
+ * which the acceleration grows from 0 that takes ten times the velocity that there is soon after. */
 static void add_change_of_node(const local_correction *p, dem_index j, motion_polynomial *motion)
 {
     const motion_change end = jump_at(p, END, j);
@@ -344,7 +343,7 @@ static void add_change_of_node(const local_correction *p, dem_index j, motion_po
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
 
-/* Makes the change of a node, or a pair of the quadratures, one of the step. */
+/* Adds the change of a node, or of a row of the quadratures, to the step. */
 static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j, dem_index place,
                         motion_polynomial *motion)
 {

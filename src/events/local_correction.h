@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an event inside a step does to the rest of the step: the change d of the motion that follows from it solves
+/* Correction of the rest of a step for an event inside it: the change d of the motion that follows from it solves
  *   d'' = a(x + d, constraints after) - a(x, constraints before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
  * damped). So it is integrated on a neighbourhood of 3 (6) rings round the event, by one step of Fehlberg's pair;
- * outside it is 0 to the bit. For methods of order 2 Heun's pair will do, and 1 (2) rings. Inside the step the change
+ * outside it is 0 to the bit. For methods of order 2 Heun's pair and 1 (2) rings suffice. Inside the step the change
  * is interpolated as the step is: by quintics, or by parabolas. */
 #ifndef DEM_EVENTS_LOCAL_CORRECTION_H
 #define DEM_EVENTS_LOCAL_CORRECTION_H
@@ -21,7 +21,7 @@ typedef struct local_correction_rule {
 } local_correction_rule;
 
 typedef struct local_correction {
-    neighbourhood near; /* the change spreads over all its rings but the frame */
+    neighbourhood near; /* the change spreads over all its rings but the last */
     local_correction_rule rule;
     butcher_table table;
     int last;                /* stage at the end of the step */
@@ -30,13 +30,13 @@ typedef struct local_correction {
     dem_index n_quadratures; /* rows of the quadratures that change, behind the nodes of the neighbourhood */
     dem_index capacity;
     dem_index *book;            /* [n_quadratures] their places in a state */
-    motion_polynomial *motions; /* of the nodes, without the event, from there on */
-    double *block;              /* those that follow, [n + n_quadratures][2]: */
+    motion_polynomial *motions; /* of the nodes after t, without the event */
+    double *block;              /* memory of the arrays that follow, [n + n_quadratures][2] each */
     double *x[LOCAL_CORRECTION_STAGES], *v[LOCAL_CORRECTION_STAGES],
-        *a[LOCAL_CORRECTION_STAGES]; /* at each stage, without the event: and x'' */
+        *a[LOCAL_CORRECTION_STAGES]; /* x, v, x'' at each stage, without the event */
     double *dx[LOCAL_CORRECTION_STAGES + 1], *dv[LOCAL_CORRECTION_STAGES + 1],
-        *da[LOCAL_CORRECTION_STAGES + 1]; /* the change, and at the end */
-    double *changed[3];                   /* x, v, x'' with it at a stage */
+        *da[LOCAL_CORRECTION_STAGES + 1]; /* their changes, at the end of the step as well */
+    double *changed[3];                   /* x, v, x'' with the change at a stage */
 } local_correction;
 
 /** Borrows forces and constraints (NULL: none). Free with local_correction_destroy(). */
@@ -44,13 +44,14 @@ dem_status local_correction_create(local_correction *out, const state_layout *l,
                                    const constraints *c, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 
-/** Before an event that may change some nodes at once: gathers the neighbourhood round them and what moves it, and
- *  puts the state of its nodes at t into `state` [4 n]. The constraints are to be solved for the end of
- *  the step. */
+/** Called before an event that may change some nodes, the seeds, at once: gathers their neighbourhood, computes its
+ *  motion without the event at all stages, and puts its state at t into `state` [4 n]. The constraints are to be solved
+ *  for the end of the step. */
 dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
                                  dem_index n_seeds, double t, double *state);
 
-/** After the event has changed `state` and the constraints: integrates the change and makes it one of the step.
+/** Called when the event has changed `state` and the constraints: integrates the change of motion and adds it to the
+ *  step.
  *  \param[out] error  squared, of all unknowns of the bodies together, in units of the tolerance */
 dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
                                   double *error);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Breadth first; then springs by local numbers. */
+/* Finds nodes breadth first, then lists springs by local numbers. */
 #include "events/neighbourhood.h"
 
 #include <stdlib.h>
@@ -69,7 +69,7 @@ static dem_status add_tied_node(void *context, dem_index i)
     return add_node(context, i);
 }
 
-/* The group at a node, with all its nodes. */
+/* Adds the group of constraints at a node, with all its nodes. */
 static dem_status add_group(neighbourhood *b, dem_index j, int ring)
 {
     const dem_index group = constraints_group_at(b->constraints, b->nodes[j].i);
@@ -111,7 +111,7 @@ static dem_status reserve_bonds(neighbourhood *b, dem_index n)
     return DEM_OK;
 }
 
-/* The springs of a node, but those that were listed from their other end. */
+/* Lists the springs of a node, but those listed from their other end. */
 static void add_bonds(neighbourhood *b, dem_index j)
 {
     const springs *s = &b->acting->model->springs;
@@ -178,8 +178,8 @@ void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem
     }
 }
 
-/* Forces (1) of springs on the nodes of some rings; f [n][2] has room for more. The loop in the middle is for vector
- * instructions. */
+/* Forces (1) of springs on the nodes of some rings; f [n][2] has room for one ring more. Compilers make vector
+ * instructions of the loop in the middle. */
 static void pull(const neighbourhood *b, int rings, const double *x, double *f)
 {
     const dem_index n = b->bonds_end[rings];

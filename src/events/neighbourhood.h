@@ -31,7 +31,7 @@ typedef struct neighbourhood {
     const constraints *constraints; /* NULL: none */
     bool plain;                     /* springs are all that acts between nodes, and forces do not depend on time */
     int n_rings;                    /* the last is a frame: its nodes accelerate others, but are not accelerated */
-    int32_t *number;                /* [n_nodes] of a node of the lattice here; -1: it is not */
+    int32_t *number;                /* [n_nodes] the number here of a node of the lattice; -1: none */
     dem_index n, capacity;
     neighbourhood_node *nodes;                /* [n] */
     dem_index end[NEIGHBOURHOOD_RINGS];       /* nodes of ring r or nearer */
@@ -70,12 +70,11 @@ typedef struct neighbourhood_state {
 /** Puts the first n nodes into the state of all. */
 void neighbourhood_put(const neighbourhood *b, const neighbourhood_state *s, dem_index n);
 
-/** Asks for the forces from outside, if there are any, on the nodes of some rings at t: the answer is by their numbers
- *  here. */
+/** Evaluates the external force, if there is one, on the nodes of some rings at t; its values go by local numbers. */
 void neighbourhood_push(const neighbourhood *b, int rings, double t, const double *x, const double *v);
 
-/** Accelerations a [n][2] of the nodes of some rings, constraints included, in a state that neighbourhood_put()
- *  has put as far as one ring more. */
+/** Accelerations a [n][2] of the nodes of some rings, constraints included, in a state that neighbourhood_put() has
+ *  filled as far as the next ring. */
 void neighbourhood_accelerate(neighbourhood *b, int rings, const neighbourhood_state *s, double *a);
 
 #endif
