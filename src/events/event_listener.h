@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who hears of events. */
+/* The function that is called at events. */
 #ifndef DEM_EVENTS_EVENT_LISTENER_H
 #define DEM_EVENTS_EVENT_LISTENER_H
 

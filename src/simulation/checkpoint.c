@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries are structs of numbers of 8 bytes, without gaps. */
+/* What a checkpoint contains: entries that are structs of numbers of 8 bytes, without gaps. */
 #include "simulation/checkpoint.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ typedef struct touch_entry {
     double place, force, friction;
 } touch_entry;
 
-/* A candidate with something to remember. */
+/* A candidate that differs from one that has never touched anything. */
 typedef struct candidate_entry {
     dem_index k, n_closed, behind[2], storm;
     double storm_start;
@@ -86,7 +86,7 @@ static bool is_within(dem_index value, dem_index low, dem_index high)
     return value >= low && value <= high;
 }
 
-/* Whether an entry is one of a candidate. */
+/* Whether an entry can be that of a candidate. */
 static bool is_possible(const contact_set *c, const candidate_entry *e)
 {
     const obstacle_set *o = &c->scene.model->obstacles;
@@ -144,7 +144,7 @@ static dem_status get_contacts(contact_set *c, const dem_record *record)
 
 /* ---- all of it ---- */
 
-/* What goes both ways. */
+/* Puts the entries into a record, or gets them from it. */
 static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem_counts *counts)
 {
     contact_ledger *ledger = &s->automaton.set.ledger;
@@ -194,7 +194,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
     return record_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
 }
 
-/* The state, if it is one. */
+/* Finds the state in a record, and checks it. */
 static dem_status find_state(const dem_simulation *s, const dem_record *record, const double **out)
 {
     const size_t n = (size_t)state_size(&s->layout);
@@ -219,7 +219,7 @@ static dem_status check_sizes(const dem_simulation *s, const dem_record *record)
     return DEM_OK;
 }
 
-/* Where obstacles are follows from how they move: the record is of those that move alike. */
+/* Positions of obstacles follow from their velocities, so that those of the record must be the model's. */
 static dem_status check_velocities(const dem_simulation *s, const dem_record *record)
 {
     const obstacle_set *o = &s->model->obstacles;
@@ -248,7 +248,7 @@ static dem_status check_numbers(const numbers *n)
     return DEM_OK;
 }
 
-/* What may be wrong with a record. */
+/* Gets everything from a record, with all checks. */
 static dem_status get(dem_simulation *s, const dem_record *record, numbers *n, const double **y)
 {
     const record_way way = {.from = record};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Telling in turn. */
+/* Calls observers in the order in which they were added. */
 #include "simulation/observers.h"
 
 #include <math.h>

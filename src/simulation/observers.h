@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The observers of a simulation: who is called for what, and whose frame comes next. */
+/* The observers of a simulation: which are called for what, and which has the next frame. */
 #ifndef DEM_SIMULATION_OBSERVERS_H
 #define DEM_SIMULATION_OBSERVERS_H
 
@@ -25,15 +25,16 @@ dem_status observers_add(observers *a, const dem_observer *observer, double show
 
 bool observers_want_events(const observers *a);
 
-/** Tell everyone; the first status other than DEM_OK counts. */
+/** Call every observer; the first status other than DEM_OK is returned. */
 dem_status observers_event(const observers *a, const dem_simulation *simulation, const dem_event *event);
 dem_status observers_step(const observers *a, const dem_simulation *simulation);
 dem_status observers_record(const observers *a, const dem_simulation *simulation, dem_record *record);
 
-/** Whose frame is due first, up to t_end (s), and when; one at t_end is not lost to rounding. -1: nobody's. */
+/** The observer whose frame is due first until `end` and t_end (s), and when; a frame at t_end is not lost to rounding.
+ *  -1: none. */
 int observers_due(const observers *a, double end, double t_end, double *t);
 
-/** Shows a member its frame. */
+/** Calls observer k for its frame. */
 dem_status observers_frame(observers *a, int k, const dem_simulation *simulation);
 
 #endif

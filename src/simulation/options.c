@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Validity and defaults. */
+/* Checks and defaults of options. */
 #include "simulation/options.h"
 
 #include "base/reduce.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a simulation is asked for. */
+/* Checks the options of a simulation and fills in defaults. */
 #ifndef DEM_SIMULATION_OPTIONS_H
 #define DEM_SIMULATION_OPTIONS_H
 

@@ -45,7 +45,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-/* What a run has to remember of them. */
+/* Puts what a checkpoint contains of them into a record, or gets it. */
 static dem_status pass(dem_peaks *p, const record_way *way)
 {
     TRY(record_pass(way, "peaks.left", &p->left, sizeof p->left));

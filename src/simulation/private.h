@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The moving state: what a simulation has, and where things stand in it. The loop is simulation.c's, what is
- * integrated right_hand_side.c's, what is seen of it query.c's, what a record has of it checkpoint.c's. */
+/* A simulation and its state. The time loop is in simulation.c, the right-hand side of the ODE in right_hand_side.c,
+ * what observers and callers see in query.c, what a checkpoint contains in checkpoint.c. */
 #ifndef DEM_SIMULATION_PRIVATE_H
 #define DEM_SIMULATION_PRIVATE_H
 
@@ -13,7 +13,7 @@
 #include "simulation/observers.h"
 #include "time/integrator.h"
 
-/* What is known of the state as seen; each is worked out once, when first asked for. */
+/* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
     bool has_events, has_state, has_contacts, has_energy, has_strain, has_body;
     dem_index n_contacts;
@@ -28,26 +28,26 @@ struct dem_simulation {
     dem_options options; /* every default replaced */
     state_layout layout; /* of y */
     boundary_conditions boundaries;
-    external_force *external; /* NULL: no force from outside */
-    forces forces;            /* on nodes, but those of contact */
+    external_force *external; /* NULL: none */
+    forces forces;            /* on nodes, without those of contacts */
     kernel kernel;
     overlap overlap;
     automaton automaton;
-    contact_source contact_events; /* those inside steps, */
-    constraints closed_contacts;
-    event_queue queue; /* in the order of time; empty where the whole body stops at events */
+    contact_source contact_events; /* those inside steps */
+    constraints closed_contacts;   /* as events see them */
+    event_queue queue;             /* of the events inside steps; without sources if the whole body stops at them */
     integrator integrator;
     double t;              /* s, of y */
     double step;           /* s, length of the last committed step */
-    double *y;             /* [4 n] state (x, v) after the last committed step, the engine's */
-    double *initial;       /* [4 n] state before there is an engine */
+    double *y;             /* [4 n] state (x, v) after the last committed step, the integrator's */
+    double *initial;       /* [4 n] state before there is an integrator */
     double *frame;         /* [4 n] state interpolated to a frame or to t_end */
     dense_output path;     /* the step in hand */
     bool in_hand;          /* whether there is one */
     bool at_event;         /* whether it ends with one */
     bool started;          /* whether the contacts of the initial state have been taken up */
-    bool advanced;         /* whether it has gone on: no more observers */
-    bool advancing;        /* whether it does so just now */
+    bool advanced;         /* whether the run has begun: no more observers */
+    bool advancing;        /* whether an advance is under way */
     double seen_t;         /* s, of what observers and callers see: */
     const double *seen;    /* y or frame */
     dem_contact *contacts; /* [2 n_candidates + 2 n_edges] closed ones, as seen */
@@ -57,8 +57,8 @@ struct dem_simulation {
     dem_index unrecorded;           /* steps since the last record */
     dem_record *record;             /* the last one, */
     bool has_record;                /* if there is one */
-    dem_record *rollback;           /* what was before contacts change that ask for the force from outside, */
-    bool has_rollback;              /* while they do */
+    dem_record *rollback;           /* the state before contacts change, in case the external force fails, */
+    bool has_rollback;              /* if there is one */
     dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
     observers observers;
 };

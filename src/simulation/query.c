@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A state is interpolated, and what follows from it worked out, when it is first asked for. */
+/* A state is interpolated, and what follows from it computed, when it is first asked for. */
 #include "simulation/query.h"
 
 #include "base/reduce.h"
@@ -18,12 +18,13 @@ void query_inside(dem_simulation *s, double t)
     s->measures->has_events = !run_is_local(s);
 }
 
-/* Contacts and ledger as seen. The queue goes back for that and on again, to the same end. */
+/* The contacts and ledger at the time seen: the queue takes back later events, and resolves them again when the run
+ * goes on, with the same result. */
 static const automaton *contact_of(const dem_simulation *s)
 {
     dem_simulation *self = (dem_simulation *)s;
     if (!s->measures->has_events)
-        (void)event_queue_show(&self->queue, s->seen_t); /* what it did once it can do again */
+        (void)event_queue_show(&self->queue, s->seen_t); /* cannot fail: these events were resolved before */
     s->measures->has_events = true;
     return &s->automaton;
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What observers and callers see of a run: the state at some time, and all that dem.h tells of it. */
+/* What observers and callers see of a run: the state at some time, and all that dem.h can be asked about it. */
 #ifndef DEM_SIMULATION_QUERY_H
 #define DEM_SIMULATION_QUERY_H
 
 #include "simulation/private.h"
 
-/** Looks at a state y, [4 n], at t. */
+/** Makes y, [4 n], at t the state that is seen. */
 void query_at(dem_simulation *s, double t, const double *y);
 
-/** Looks at a time within the step in hand. */
+/** Makes the state at a time within the step in hand the one that is seen. */
 void query_inside(dem_simulation *s, double t);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* y = (x, v) with x' = v and m v' = F(x, v, t), less what closed contacts hold; then what is integrated along. */
+/* y = (x, v) with x' = v, m v' = F(x, v, t) plus the forces of closed contacts, and the rates of the quadratures. */
 #include "simulation/right_hand_side.h"
 
 #include "base/reduce.h"
@@ -48,7 +48,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     return 1;
 }
 
-/* Where nothing but springs, triangles and weight acts. */
+/* Takes a fused step where nothing but springs, triangles and weight acts. */
 static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;

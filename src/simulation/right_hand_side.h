@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the integrator asks of a simulation: derivatives, root functions, and how stiff it has become. */
+/* What the integrator calls: derivatives, root functions, and by how much the highest frequency has risen. */
 #ifndef DEM_SIMULATION_RIGHT_HAND_SIDE_H
 #define DEM_SIMULATION_RIGHT_HAND_SIDE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Another motion in the place of the one that a simulation has come to: the step in hand ends where it is seen. */
+/* Replaces the motion of a simulation: the step in hand ends at the time that is seen. */
 #include <string.h>
 
 #include "base/reduce.h"
@@ -14,7 +14,7 @@ static int held(const dem_simulation *s, dem_index i)
     return s->boundaries.held != NULL ? s->boundaries.held[i] : 0;
 }
 
-/* Whether one of both arrays may be put in the place of `now`. */
+/* Whether one of the two arrays may replace `now`. */
 static dem_status check(const dem_simulation *s, const char *what, const double *wanted, const double *now)
 {
     for (dem_index k = 0; wanted != NULL && k < state_row(&s->layout, s->layout.n_nodes); k++) {
@@ -34,14 +34,14 @@ static double mechanical_energy(const dem_simulation *s, const double *y)
     return dem_energy_motion(e) + e.gravity;
 }
 
-/* Puts x and v into a state, and what that takes into its ledger. */
+/* Puts x and v into a state, and the energy that this takes into its work. */
 static void put(const dem_simulation *s, const double *x, const double *v, double *y)
 {
     const state_layout *l = &s->layout;
     const size_t size = (size_t)state_row(l, l->n_nodes) * sizeof *y;
     double *own_v = y + state_velocities(l), *work = own_v + state_total_index(l, STATE_WORK);
     const double before = mechanical_energy(s, y);
-    if (x != NULL) memmove(y, x, size); /* what is seen may be handed back */
+    if (x != NULL) memmove(y, x, size); /* x may be the array that is seen */
     if (v != NULL) memmove(own_v, v, size);
     *work += mechanical_energy(s, y) - before;
 }

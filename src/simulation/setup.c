@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How a simulation comes to be, from a model or from a record, and its end. */
+/* Creates a simulation, from a model or from a record, and destroys it. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The moving state and the time loop. An accepted step is first taken (`path` is then in hand), shown to the
- * observers whose frames fall into it, and committed: its end becomes the state, the contacts change, and the next
- * step is taken. An advance to t_end stops within a step in hand, which the next advance goes on with: t_end is
- * never stepped to. */
+/* The time loop. An accepted step is first taken, and is then in hand (`path`); it is shown to the observers whose
+ * frames fall into it; then it is committed: its end becomes the state, the contacts change, and the next step is
+ * taken. An advance to t_end stops within a step in hand, with which the next advance goes on: no step is shortened to
+ * end at t_end. */
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
@@ -58,13 +58,13 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
 
 /* ---- the loop ---- */
 
-/* Nothing goes on that a force from outside has not been there for. */
+/* Stops the run if the external force has failed: what came after was computed with a force of 0. */
 static dem_status stop_if_force_failed(const dem_simulation *s, dem_status status)
 {
     return run_force_failed(s) ? DEM_STOPPED : status;
 }
 
-/* Keeps the state with its contacts, which are about to change at once. */
+/* Keeps the state before contacts change at once, in case the external force fails meanwhile. */
 static dem_status take_rollback(dem_simulation *s)
 {
     if (s->external == NULL) return DEM_OK;
@@ -74,7 +74,7 @@ static dem_status take_rollback(dem_simulation *s)
     return DEM_OK;
 }
 
-/* The force from outside has failed: back to the last state that it was there for. */
+/* The external force has failed: goes back to the last state for which it was known. */
 static dem_status roll_back(dem_simulation *s)
 {
     dem_status status = DEM_OK;
@@ -89,8 +89,8 @@ static dem_status roll_back(dem_simulation *s)
     return status_first(status, reduce_status(external_force_failure(s->external), 0.0));
 }
 
-/* What the next try of a step is shortened by: its error is too large, or its events fail, which they may if it is much
- * too long. */
+/* Factor by which the next attempt at a step is shorter: its error is too large, or its events fail, which they may if
+ * it is much too long. 1 if the step is good or shortening does not help. */
 static double shortening(const dem_simulation *s, dem_status status)
 {
     const double error = run_is_local(s) ? event_queue_error(&s->queue) : 0.0;
@@ -98,7 +98,7 @@ static double shortening(const dem_simulation *s, dem_status status)
     return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
 }
 
-/* Takes back a step that will not do: the next goes from its start. */
+/* Gives up a step that cannot be taken, with the integrator back at its start. */
 static dem_status give_up(dem_simulation *s, dem_status status)
 {
     if (status == DEM_OK)
@@ -140,7 +140,7 @@ static dem_status take_step(dem_simulation *s)
     return DEM_OK;
 }
 
-/* The contacts of the state have changed, with this status, and v has jumped: from there the integrator goes on. */
+/* Restarts the integrator after the contacts of the state have changed, with this status, and v has jumped. */
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
     TRY(stop_if_force_failed(s, DEM_OK));
@@ -155,7 +155,7 @@ static void look_for_overlaps(dem_simulation *s)
     s->unlooked = 0;
 }
 
-/* The end of the step in hand becomes the state.  \return whether vertex contacts were put back */
+/* Makes the end of the step in hand the state.  \return whether vertex contacts were put back */
 static bool settle_step(dem_simulation *s)
 {
     const dense_output *p = &s->path;
@@ -179,7 +179,8 @@ static dem_status resolve_event(dem_simulation *s)
     return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
-/* The integrator goes on from the end of the step as events and vertex contacts put back (`moved`) have left it. */
+/* Lets the integrator go on from the end of the step as it was changed by events and by vertex contacts put back
+ * (`moved`). */
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
@@ -199,7 +200,7 @@ static dem_status commit_step(dem_simulation *s)
     return tell_step(s);
 }
 
-/* Contacts of the initial state come before the first step, when the observers are there to be called. */
+/* Closes the contacts of the initial state before the first step, when the observers are there to be called. */
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {hear_event, s};
@@ -215,7 +216,7 @@ static bool wants_record(const dem_simulation *s)
     return every > 0 && (!s->has_record || s->unrecorded >= every);
 }
 
-/* A run goes on from its record as one does that is resumed. */
+/* Takes a record and goes on from it, so that the run has the bits of one that is resumed. */
 static dem_status take_record(dem_simulation *s)
 {
     s->has_record = false;
