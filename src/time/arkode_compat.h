@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ARKODE as SUNDIALS 7 has it, for 6.4 and later too. */
+/* The interface of ARKODE in SUNDIALS 7, for 6.4 and later too. */
 #ifndef DEM_TIME_ARKODE_COMPAT_H
 #define DEM_TIME_ARKODE_COMPAT_H
 
@@ -9,7 +9,7 @@
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_version.h>
 
-/** Given every message of an error. */
+/** Called with the message of every error. */
 typedef void (*arkode_listener)(const char *message, void *user);
 
 typedef struct arkode_errors {
@@ -34,8 +34,8 @@ static inline void arkode_tell(int line, const char *function, const char *file,
     if (code < 0) e->listener(message != NULL ? message : SUNGetErrMsg(code), e->user);
 }
 
-/** Before anything is made in the context: what goes wrong there speaks through it. Warnings have a logger, which would
- * print them. */
+/** To be called before anything is created in the context, so that all its errors reach the listener. Warnings would be
+ *  printed by a logger, which this removes. */
 static inline int arkode_listen_first(SUNContext context, arkode_errors *errors)
 {
     int failed = SUNContext_ClearErrHandlers(context);

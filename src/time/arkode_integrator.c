@@ -41,9 +41,9 @@ typedef struct arkode_integrator {
     double asked;            /* s, first step given to ARKODE after a restart; 0: its own */
     bool knows_f0;           /* f0 is that of y0, */
     bool gives_f0;           /* and what ARKODE is given when it asks for it */
-    bool refused;            /* the last derivative cannot be had, whatever the step */
+    bool refused;            /* the last derivative cannot be computed for any step */
     dem_counts counts;
-    char message[256]; /* ARKODE's last complaint */
+    char message[256]; /* ARKODE's last error */
 } arkode_integrator;
 
 /* ---- callbacks ---- */
@@ -90,8 +90,8 @@ static dense_output held_path(const arkode_integrator *I)
                           .f1 = nvector_values(I->f1)};
 }
 
-/* ARKODE asks at the ends of a step and, while it closes in on a root, inside: there the quintic of the dense output
- * stands in for ARKODE's cubic, so that the root is one of the state which the event is then taken from. */
+/* ARKODE calls this at the ends of a step and, while it brackets a root, inside: there the quintic of the dense output
+ * replaces ARKODE's cubic, so that the root is that of the state in which the event is resolved. */
 static int call_root_functions(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
     arkode_integrator *I = user;
@@ -151,7 +151,8 @@ static dem_status allocate(arkode_integrator *I)
     return DEM_OK;
 }
 
-/* The norm is a mean over all entries, the quadratures too, which have no part in the error. */
+/* The norm is a mean over all entries, among them the quadratures, which have no part in the error: `share` makes it
+ * one over the nodes. */
 static void fill_weights(arkode_integrator *I)
 {
     const state_layout *l = &I->problem.layout;
@@ -185,7 +186,7 @@ static int set_table(arkode_integrator *I)
     return failed;
 }
 
-/* The first step after the restart that follows. */
+/* Sets the first step after the restart that follows. */
 static int ask_step(arkode_integrator *I, double h)
 {
     I->asked = h;
@@ -202,7 +203,7 @@ static int set_adaptivity(arkode_integrator *I)
     failed |= ARKodeSetErrorBias(a, 1.0);
     failed |= ARKodeSetMaxGrowth(a, 10.0);
     failed |= ARKodeSetMinReduction(a, 0.1);
-    failed |= ARKodeSetFixedStepBounds(a, 1.0, 1.0); /* else growth below 1.5 is ignored and the step count is luck */
+    failed |= ARKodeSetFixedStepBounds(a, 1.0, 1.0); /* else growth below 1.5 is ignored and the step count jumps */
     failed |= ARKodeSetMaxFirstGrowth(a, 10.0);
     failed |= ARKodeSetMaxEFailGrowth(a, 0.3);
     failed |= ARKodeSetSmallNumEFails(a, 2);
@@ -288,7 +289,7 @@ static dem_status arkode_integrator_create(void **out, const ode_problem *proble
     return status;
 }
 
-/* ARKODE begins anew from the state, of which the derivative may be known. */
+/* Restarts ARKODE from the state, whose derivative may be known. */
 static dem_status reset(arkode_integrator *I)
 {
     nvector_share(I->y0, I->y);
@@ -336,7 +337,7 @@ static dem_status fail_step(arkode_integrator *I, int flag)
     return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
 }
 
-/* From the end of the dense output handed out. */
+/* Goes on from the end of the step that was handed out. */
 static void go_on(arkode_integrator *I)
 {
     if (!I->at_end) return;

@@ -38,7 +38,7 @@ typedef struct changed_motion_node {
 typedef struct changed_motion {
     state_layout layout;
     double end;       /* s, of the step */
-    double *y1, *f1;  /* state there and its derivative, the engine's */
+    double *y1, *f1;  /* state there and its derivative, the integrator's */
     dem_index *place; /* [n_rows] of a node, or a quadrature, in the list, -1: its motion has not changed */
     dem_index n, capacity;
     changed_motion_node *list; /* [n] those whose motion has changed, and those that are kept */

@@ -44,8 +44,8 @@ static inline ends ends_of(const dense_output *p)
     return (ends){p->y0, p->y0 + v, p->f0 + v, p->y1, p->y1 + v, p->f1 + v};
 }
 
-/* What the velocities leave open of the displacement, m. Below the rounding of the positions it is noise, which the
- * bump's slope would turn into velocity when h is tiny. */
+/* The part of the displacement that the integral of the velocities' cubic lacks, m. Below the rounding of the positions
+ * it is noise, which the bump's slope would turn into velocity when h is tiny. */
 static inline double defect(const ends *e, dem_index k, double h)
 {
     const double x0 = e->x0[k], x1 = e->x1[k], v0 = e->v0[k], v1 = e->v1[k];
@@ -126,7 +126,7 @@ void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, 
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, NULL, &out[2]);
 }
 
-/* Of all numbers of x and v. */
+/* Interpolates all numbers of x and v. */
 static inline void fill(bool parabolic, const dense_output *p, double t, double *restrict y)
 {
     const dem_index n = state_velocities(&p->layout);
@@ -160,7 +160,7 @@ void dense_output_state(const dense_output *p, double t, double *y)
     }
 }
 
-/* The same of one number in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
+/* The same for one number, in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
 static inline void write_quintic(const ends *e, double h, dem_index k, motion_component c)
 {
     const double bump = 30.0 * (1.0 / h) * defect(e, k, h), jump = e->v1[k] - e->v0[k];

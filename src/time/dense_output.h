@@ -23,7 +23,7 @@ typedef struct dense_output {
 void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out);
 void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out);
 
-/** The same up to the end, which is asked for most often. */
+/** The same up to the end, which is the most frequent case. */
 static inline void dense_output_position(const dense_output *p, double t, dem_index i, double *out)
 {
     if (t == p->t1)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What takes the steps, whichever method they are of: ARKODE for those of Runge and Kutta, or Verlet's. */
+/* Takes the steps of every method: by ARKODE for Runge-Kutta methods, or by velocity Verlet. */
 #ifndef DEM_TIME_INTEGRATOR_H
 #define DEM_TIME_INTEGRATOR_H
 
@@ -14,34 +14,34 @@ typedef struct integrator {
 dem_status integrator_create(integrator *out, const ode_problem *problem, double t, const double *y);
 void integrator_destroy(integrator *e);
 
-/** Takes one accepted step, or goes to the first root within it (`*rooted`). The path's arrays belong to the engine and
- *  hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
+/** Takes one accepted step, or goes to the first root within it (`*rooted`). The step's arrays belong to the integrator
+ *  and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 
-/** The end of the step just taken, [4 n], and its derivative, for who changes both before settling. */
+/** The end of the step just taken, [4 n], and its derivative, for a caller that changes both before settling. */
 void integrator_end(integrator *e, double **y1, double **f1);
 
 /** Takes the step just taken back: the next goes from its start, and is shorter by the factor. Not for fixed steps. */
 dem_status integrator_redo(integrator *e, double factor);
 
-/** Makes the state at the end of the step just taken, where it was cut short too, the one to go on from. The step's
- *  path holds on until the next step or restart. */
+/** Makes the end of the step just taken, also where it was cut short, the state to go on from. The step holds on until
+ *  the next step or restart. */
 void integrator_settle(integrator *e, const dense_output *step);
 
-/** The state from which the next step goes, [4 n]. Who changes it restarts the engine there: it is no copy, and the end
- *  of the step that led to it changes with it. */
+/** The state from which the next step starts, [4 n]. A caller that changes it restarts the integrator there: it is no
+ *  copy, and the end of the step that led to it changes with it. */
 double *integrator_state(const integrator *e);
 
 /** Bounds the first step after the restart or resumption that follows, s. */
 dem_status integrator_bound(integrator *e, double longest);
 
-/** Goes on from the end of the step just settled, which has been changed and its derivative with it. */
+/** Goes on from the end of the step just settled, after the caller has changed it and its derivative. */
 dem_status integrator_resume(integrator *e);
 
 /** How long the next step is to be, s; 0 where steps are fixed. */
 double integrator_next_step(const integrator *e);
 
-/** Begins anew, so that nothing before it shows: as an engine does that is created there, but with counts. */
+/** Begins anew, independently of all before: like an integrator created there, but with counts. */
 dem_status integrator_renew(integrator *e, const integrator_start *from);
 
 /** Goes on from another state, or from its own as it has been changed. */

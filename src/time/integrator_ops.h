@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What every integrator does: a table of functions, of which each method's file has one. */
+/* The functions of an integrator: a table, of which each method's file has one. */
 #ifndef DEM_TIME_INTEGRATOR_OPS_H
 #define DEM_TIME_INTEGRATOR_OPS_H
 

@@ -119,7 +119,7 @@ static void fill(double value, N_Vector z)
     for (dem_index k = 0; k < c->space->length; k++) to[k] = value;
 }
 
-/* Numbers to write that are those of none of the operands, which all hold theirs until they are written. */
+/* Numbers of z to write, apart from those of the operands, which are read until the result is complete. */
 static double *apart_from(N_Vector z, const double *const *in, int n)
 {
     content *c = content_of(z);

@@ -16,7 +16,7 @@ typedef struct nvector_space nvector_space;
 nvector_space *nvector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors);
 void nvector_space_free(nvector_space *s);
 
-/** A vector of the space, of no certain numbers; NULL without memory. For N_VDestroy(). */
+/** A vector of the space with undefined numbers; NULL without memory. For N_VDestroy(). */
 N_Vector nvector_create(nvector_space *s, SUNContext context);
 
 /** Its numbers, to read. */
@@ -25,7 +25,7 @@ const double *nvector_values(N_Vector v);
 /** Its numbers, all of them to be written. */
 double *nvector_fresh(N_Vector v);
 
-/** Its numbers, some of them to be changed, also for those who share them. */
+/** Its numbers, some of them to be changed, for the vectors that share them as well. */
 double *nvector_shared(N_Vector v);
 
 /** From now on `to` has the numbers of `from`. */

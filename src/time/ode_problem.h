@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an engine integrates. It knows no physics but that y = (x, v) with x' = v. */
+/* What an integrator integrates. It knows no physics but that y = (x, v) with x' = v. */
 #ifndef DEM_TIME_ODE_PROBLEM_H
 #define DEM_TIME_ODE_PROBLEM_H
 
@@ -17,16 +17,16 @@ typedef struct ode_problem {
     state_layout layout; /* of y; what stands behind the nodes is integrated along, and has no part in the error */
     dem_index n_roots;   /* root functions, each looked for as it falls through 0; may be 0 */
     bool prescribes;     /* whether some x' are given, so that they are not v */
-    /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An engine that knows v may leave
-     *  u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or 2
-     *  if nothing may. */
+    /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An integrator that knows v may
+     *  leave u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or
+     *  2 if nothing may. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
-    /** Does the step of all nodes but the quadratures, whose positions and velocities at its end are given, and fills
-     *  their rates: to the bits that kick, drift, derivative and kick give. Returns as `derivative`, or -1: not from
-     *  this state. NULL: from none. */
+    /** Takes the step of all nodes at once, and fills the rates of the quadratures, whose positions and velocities at
+     *  its end are given: with the bits of kick, drift, derivative and kick in turn. Returns as `derivative`, or -1 if
+     *  it cannot from this state. NULL: it never can. */
     int (*fused_step)(const ode_fused_step *step, void *context);
     void (*root_functions)(double t, const double *y, double *g, void *context);
-    /** How many times higher than about the rest shape the highest frequency may be, >= 1. NULL: it is not. */
+    /** Bound of the highest frequency in units of that about the rest shape, >= 1. NULL: it is 1. */
     double (*stiffening)(const double *y, void *context);
     void *context;
     dem_method method;
@@ -37,15 +37,15 @@ typedef struct ode_problem {
     int n_threads;
 } ode_problem;
 
-/** Where an engine begins anew. */
+/** Where an integrator begins anew. */
 typedef struct integrator_start {
     double t, next_step; /* s */
     const double *y;     /* [4 n] */
     dem_counts counts;   /* of which steps, rejections, evaluations and retries are read */
 } integrator_start;
 
-/** Length of a fixed step from y, s: halved as often as it takes that it is no longer in units of the highest frequency
- *  than about the rest shape. */
+/** Length of a fixed step from y, s: halved until its product with the highest frequency is no larger than about the
+ *  rest shape. */
 static inline double ode_problem_fixed_step(const ode_problem *p, const double *y)
 {
     enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are reported */

@@ -157,7 +157,7 @@ static void kick_stretch(verlet_integrator *V, double h, stretch s)
     V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
 }
 
-/* A velocity that the derivative does not take over as it is, is prescribed. */
+/* Kicks what is free: a component is prescribed whose x' in the derivative differs from its velocity. */
 static void kick_free(verlet_integrator *V, double h)
 {
     const dem_index n = state_velocities(&V->problem.layout);
@@ -166,7 +166,7 @@ static void kick_free(verlet_integrator *V, double h)
         v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
 }
 
-/* All nodes at once where that can be, and the quadratures: 0, 1 on failure, or -1. */
+/* The fused step of all nodes if it is possible, and the quadratures: 0, 1 on failure, or -1 if it is not. */
 static int take_fused_step(verlet_integrator *V, double h)
 {
     const ode_problem *p = &V->problem;
@@ -212,8 +212,8 @@ static bool falls(double before, double after)
     return before > 0.0 && after <= 0.0;
 }
 
-/* Where the first of the root functions that fall between both ends would be 0 if they were straight; 1 if none
- * falls. */
+/* Where the first of the root functions that fall through 0 between both ends does so by linear interpolation; 1 if
+ * none does. */
 static double first_secant(const verlet_integrator *V, const double *low, const double *high)
 {
     double share = 1.0;
