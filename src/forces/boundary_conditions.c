@@ -75,7 +75,7 @@ vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double
     return force;
 }
 
-/* Force times velocity, summed. */
+/* Power of a force on its nodes, W. */
 static double push_power(const boundary_condition *b, double t, const double *v)
 {
     vec2 sum = {0.0, 0.0};
@@ -88,7 +88,7 @@ static void put_component(double *array, dem_index i, int c, vec2 value)
     array[2 * i + c] = c == 0 ? value.x : value.y;
 }
 
-/* m (a - what a would be without), times velocity, summed. */
+/* Prescribes components of f and a; returns the power that this takes, the sum of m (a - a without it).v. */
 static double prescribe(const boundary_condition *b, const double *mass, double t, double *f, double *a)
 {
     const vec2 velocity = boundary_condition_velocity(b, t), acceleration = boundary_condition_acceleration(b, t);
@@ -163,7 +163,7 @@ static dem_status check_one(const dem_boundary *b, dem_index k)
     return DEM_OK;
 }
 
-/* Whether the node may be driven by boundary k; `held` tells what others prescribe of it, and whether k names it. */
+/* Checks that boundary k may drive the node; `held`: components that others prescribe, and whether k names it. */
 static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, const dem_lattice *l, bool touches,
                              unsigned char *held)
 {

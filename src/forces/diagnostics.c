@@ -70,7 +70,7 @@ static void measure_triangles(const forces *f, const double *x, dem_strain *stra
     strain->inverted = reduce_count(strain->inverted);
 }
 
-/* The lower end of a spring, by which it is found: -1 for none. */
+/* The end of a spring with the lower number; -1 without a spring. */
 static dem_index lower_end(const dem_model *model, dem_index spring)
 {
     if (spring < 0) return -1;
@@ -133,7 +133,7 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
     return load;
 }
 
-/* What a prescribed component of a node's motion takes, N. */
+/* Force that the prescribed components of a node's motion take, N. */
 static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i, const double *x, const double *v)
 {
     const vec2 wanted = boundary_condition_acceleration(b, v[f->clock]);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Questions, and answers that are not there. */
+/* Evaluates the external force, and keeps its failure. */
 #include "forces/external_force.h"
 
 #include <stdlib.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Power: of a node, each force times its velocity, and of all of them, which is summed up spring by spring and boundary
- * by boundary. */
+/* Power: of one node, each force times its velocity; of all nodes, summed spring by spring and boundary by boundary. */
 #include "forces/forces.h"
 
 vec2 forces_of_damaged(const forces *f, dem_index i, const double *x, const double *v)

@@ -28,7 +28,7 @@ typedef struct forces {
     double mass_damping;                   /* 1/s */
     const boundary_conditions *boundaries; /* NULL: none */
     external_force *external;              /* NULL: none from outside */
-    dem_index clock;                       /* where the time stands among the velocities */
+    dem_index clock;                       /* index of the time among the velocities */
 } forces;
 
 /* ---- what it depends on ---- */
@@ -39,7 +39,7 @@ static inline bool forces_push(const forces *f)
     return f->boundaries != NULL && f->boundaries->first != NULL;
 }
 
-/** Whether any of it depends on time. */
+/** Whether any force depends on time. */
 static inline bool forces_are_driven(const forces *f)
 {
     return forces_push(f) || f->external != NULL;
@@ -83,7 +83,7 @@ typedef struct forces_neighbours {
     const element_state *state;      /* NULL: the elements of the node are whole */
     const dem_index *other, *others; /* ends of springs that are to come, and where they end */
     dem_index corner, corners;       /* the same of corners, two to each slot of a triangle */
-    dem_index node;                  /* the one it is at */
+    dem_index node;                  /* the present one */
 } forces_neighbours;
 
 static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index i)
@@ -117,7 +117,7 @@ static inline bool forces_next_neighbour(forces_neighbours *n)
 
 /* ---- accelerations ---- */
 
-/* Of the elements that are whole; `state` is NULL where that is all of them, which the compiler is to know. */
+/* Force of the elements that are whole; `state` is NULL where that is all of them, which compilers have to see. */
 static inline vec2 forces_of_whole_elements(const forces *f, const element_state *state, dem_index i, const double *x,
                                             const double *v)
 {
@@ -158,13 +158,13 @@ static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const d
     return forces_acceleration_by(f, i, force, vec2_at(v, i));
 }
 
-/** That with a force from outside, N. */
+/** The same with an external force, N. */
 static inline vec2 forces_with_external(const forces *f, dem_index i, vec2 own, vec2 external)
 {
     return vec2_along(own, f->model->inverse_mass[i], external);
 }
 
-/** All of it. */
+/** Acceleration of node i, m/s^2, free of contact, with the external force. */
 static inline vec2 forces_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
     const vec2 a = forces_own_acceleration(f, i, x, v);
@@ -194,7 +194,7 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
 /** Power that damping takes, of all springs and masses, W, >= 0. */
 double forces_damping_power(const forces *f, const double *x, const double *v);
 
-/** Energy that hangs on the position of node i, J: its springs, its triangles and its weight. */
+/** Energy that depends on the position of node i, J: that of its springs, its triangles and its weight. */
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)
 {
     const dem_model *model = f->model;

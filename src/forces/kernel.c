@@ -176,7 +176,7 @@ static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, d
     k->ops->drift(p->x1 + at, p->v1 + at, start, p->h, 2 * (last - first));
 }
 
-/* What others than its own thread read of a share of blocks, and nodes in no block. */
+/* Drifts those ends of a thread's share of blocks that other threads read, and nodes in no block. */
 static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
 {
     const layout *l = &k->model->layout;
@@ -187,7 +187,7 @@ static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
     drift(k, p, LAYOUT_LANES * high, t + 1 < k->n_threads ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
-/* One row by itself; what it adds to the sum. */
+/* Computes the acceleration of one row; returns what it adds to the sum. */
 static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
 {
     const sweep_fused_step *p = y->fused_step;
@@ -205,7 +205,7 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
     return sum;
 }
 
-/* The sum over a state: the sweep's has the broken springs too, and those may be of any length. */
+/* The sum over a state; the sweep's own contains broken springs too, which may be of any length. */
 static double sum_up(const kernel_state *y, dem_index n)
 {
     double sum = 0.0;
@@ -243,7 +243,7 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
     return sum;
 }
 
-/* What comes from outside is asked for all nodes at once. */
+/* Adds the external force, evaluated for all nodes at once. */
 static double push(const forces *f, const kernel_state *y)
 {
     external_force *c = f->external;

@@ -44,8 +44,8 @@ bool kernel_can_fuse(const kernel *k, const forces *f);
  *  \return a sum over them that is not finite if one of them is not */
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 
-/** How many times higher than about the rest shape the highest frequency may be at positions x for the folding guard,
- *  >= 1: omega_max^2 and what the guard adds to it at most. */
+/** Bound of the highest frequency at positions x in units of that about the rest shape, >= 1, for the folding guard:
+ *  from omega_max^2 and what the guard adds to it at most. */
 double kernel_stiffening(kernel *k, const forces *f, const double *x);
 
 #endif
