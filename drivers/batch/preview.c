@@ -30,14 +30,30 @@ static void print_friction(FILE *out, const dem_model *model)
     if (n_rough > most_listed) (void)fprintf(out, "friction   on %lld obstacles in all\n", (long long)n_rough);
 }
 
+/* How an obstacle moves. */
+static void print_fields(FILE *out, const dem_obstacle *obstacle)
+{
+    const char *before = "";
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++) {
+        const double *value = (const double *)(const void *)((const char *)obstacle + field->offset);
+        if (!dem_obstacle_moves(obstacle, field)) continue;
+        (void)fprintf(out, "%s %s ", before, field->name);
+        (void)(field->n == 1 ? fprintf(out, "%g %s", value[0], field->unit)
+                             : fprintf(out, "(%g, %g) %s", value[0], value[1], field->unit));
+        before = ",";
+    }
+}
+
 static void print_motion(FILE *out, const dem_model *model)
 {
     dem_index n = 0, n_moving = 0;
     const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
     for (dem_index o = 0; o < n; o++) {
-        const double *v = obstacles[o].velocity;
-        if ((v[0] == 0.0 && v[1] == 0.0) || ++n_moving > most_listed) continue;
-        (void)fprintf(out, "motion     obstacle %lld: velocity (%g, %g) m/s\n", (long long)o + 1, v[0], v[1]);
+        if (!dem_obstacle_moves(&obstacles[o], NULL) || ++n_moving > most_listed) continue;
+        (void)fprintf(out, "motion     obstacle %lld:", (long long)o + 1);
+        print_fields(out, &obstacles[o]);
+        (void)fputs("\n", out);
     }
     if (n_moving > most_listed) (void)fprintf(out, "motion     of %lld obstacles in all\n", (long long)n_moving);
 }

@@ -354,6 +354,15 @@ static double *make_points(size_t *n_points, const schema_instance *obstacle)
     return NULL;
 }
 
+/* Fields of an obstacle that say how it moves have the names of their keys. */
+static void set_motion(dem_obstacle *made, const schema_instance *group)
+{
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++)
+        memcpy((char *)made + field->offset, schema_value_of(group, field->name)->reals,
+               (size_t)field->n * sizeof(double));
+}
+
 static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "obstacle");
@@ -370,7 +379,7 @@ static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *e
                                .restitution = schema_real(group, "restitution"),
                                .friction = schema_real(group, "friction"),
                                .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
-        memcpy(made->velocity, schema_value_of(group, "velocity")->reals, sizeof made->velocity);
+        set_motion(made, group);
         if (good && !check_crossings(made, k + 1, schema_place(group, "points"), errors)) return false;
     }
     return d->obstacles != NULL;

@@ -40,11 +40,6 @@ static inline box box_grown(box b, double margin)
     return (box){b.x0 - margin, b.y0 - margin, b.x1 + margin, b.y1 + margin};
 }
 
-static inline box box_moved(box b, double x, double y)
-{
-    return (box){b.x0 + x, b.y0 + y, b.x1 + x, b.y1 + y};
-}
-
 static inline bool box_meets(box a, box b)
 {
     return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;

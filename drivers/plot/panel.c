@@ -131,16 +131,27 @@ static bool draw_pixels(const panel *p, const snapshot *s, const panel_look *loo
 
 /* ---- all of it ---- */
 
+/* The outline of an obstacle where it is at t. */
+static bool fill_moved(const dem_obstacle *obstacle, double t, box view, obstacle_fill *out)
+{
+    double *points = malloc(2 * (size_t)obstacle->n_points * sizeof *points);
+    dem_obstacle moved = *obstacle;
+    if (points == NULL) return false;
+    dem_obstacle_points(obstacle, t, points);
+    moved.points = points;
+    const bool good = obstacle_fill_outline(&moved, view, out);
+    free(points);
+    return good;
+}
+
 static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
 {
     dem_index n;
     const dem_obstacle *obstacles = dem_film_obstacles(s->film, &n);
     for (dem_index k = 0; k < n; k++) {
         obstacle_fill solid;
-        const double x = s->t * obstacles[k].velocity[0], y = s->t * obstacles[k].velocity[1]; /* how far it has gone */
-        if (!obstacle_fill_outline(&obstacles[k], box_moved(p->view, -x, -y), &solid)) return false;
-        for (size_t i = 0; i < solid.n; i++)
-            place(p, (const double[]){solid.xy[2 * i] + x, solid.xy[2 * i + 1] + y}, solid.xy + 2 * i);
+        if (!fill_moved(&obstacles[k], s->t, p->view, &solid)) return false;
+        for (size_t i = 0; i < solid.n; i++) place(p, solid.xy + 2 * i, solid.xy + 2 * i);
         c->fills(c, canvas_dark, solid.n, 1, solid.xy);
         free(solid.xy);
     }

@@ -149,6 +149,15 @@ static double letters_for(const show *s, double room)
     return LEGEND_LETTERS * fmin(1.0, room / longest);
 }
 
+/* What says how an obstacle moves. */
+static uint64_t add_motion(uint64_t hash, const dem_obstacle *obstacle)
+{
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++)
+        hash = digest_add(hash, (const char *)obstacle + field->offset, (size_t)field->n * sizeof(double));
+    return hash;
+}
+
 /* n panels to a picture; the hash takes in what all of them share. */
 static strip plan(show *s, size_t n)
 {
@@ -164,7 +173,7 @@ static strip plan(show *s, size_t n)
     s->hash = digest_add(s->hash, &planned.view, sizeof planned.view);
     for (dem_index k = 0; k < n_obstacles; k++) {
         s->hash = digest_add(s->hash, obstacles[k].points, 2 * (size_t)obstacles[k].n_points * sizeof(double));
-        s->hash = digest_add(s->hash, obstacles[k].velocity, sizeof obstacles[k].velocity);
+        s->hash = add_motion(s->hash, &obstacles[k]);
     }
     return planned;
 }

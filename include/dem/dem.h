@@ -47,6 +47,23 @@ typedef struct dem_obstacle {
     double velocity[2]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
 } dem_obstacle;
 
+/** A field of dem_obstacle that says how it moves: of this name in decks and files too. */
+typedef struct dem_motion_field {
+    const char *name, *unit;
+    dem_index n;   /**< 1 or 2 numbers of type double, */
+    size_t offset; /**< this many bytes behind the begin of dem_obstacle */
+} dem_motion_field;
+
+/** Field k of those of all ways to move; NULL beyond the last. What an obstacle does in several ways adds up. */
+DEM_API const dem_motion_field *dem_motion_field_at(dem_index k);
+
+/** Whether an obstacle moves in the way that a field is of, or in any (NULL). */
+DEM_API int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by);
+
+/** Where the points of an obstacle are at t.
+ *  \param[out] points  [n_points][2], m; may be those of the obstacle */
+DEM_API void dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points);
+
 /** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
  *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
 DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);

@@ -120,7 +120,7 @@ static double fastest(const dense_output *p, double t, const contact_candidate *
 }
 
 /* How far an edge may deviate in a step from uniform motion between its ends, m: h^2/2 times the largest acceleration
- * of its nodes at the ends, four times what a constant one does, and as much for its rotation. */
+ * of its nodes at the ends, four times what a constant one does, and of the surfaces, and as much for its rotation. */
 static double bend(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
@@ -134,7 +134,7 @@ static double bend(const contact_scene *scene, const contact_candidate *candidat
         vec2_sub(node_motion_position(p, p->end, candidate->other), node_motion_position(p, p->end, candidate->node)));
     const double turn =
         2.0 * vec2_norm(vec2_sub(vb, va)) / length * (fmax(vec2_norm(va), vec2_norm(vb)) + surface_speed(scene));
-    return 0.5 * h * h * (a + turn);
+    return 0.5 * h * h * (a + turn + surface_acceleration(scene));
 }
 
 /* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the nearest

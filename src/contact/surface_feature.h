@@ -117,7 +117,13 @@ typedef struct surface_query {
 /** No surface is faster, m/s; 0 if all rest. */
 static inline double surface_speed(const contact_scene *scene)
 {
-    return scene->model->obstacles.speed;
+    return scene->model->obstacles.bounds.speed;
+}
+
+/** No surface is accelerated more, m/s^2; 0 if each goes on as it does. */
+static inline double surface_acceleration(const contact_scene *scene)
+{
+    return scene->model->obstacles.bounds.acceleration;
 }
 
 /** Whether the surface of a segment moves, and the motion of its point at a place. */

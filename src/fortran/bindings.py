@@ -15,16 +15,17 @@ NUMBERS = {
 
 # What C leaves open: how many of a thing a pointer is for. Structs are one unless they are here; other names are to be
 # in one of both. "function.argument" goes before "argument".
-ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_obstacles", "n_frames"}
+ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_obstacles", "n_frames",
+       "obstacle", "by"}
 MANY = {
     "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "n_edges": "*",
     "nodes": "*", "springs": "*", "area": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
     "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_force.force": "2, *",
-    "direction": "2"}
+    "direction": "2", "points": "2, *"}
 MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",
     "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
-    "dem_simulation_set_motion.v"}
+    "dem_simulation_set_motion.v", "dem_obstacle_moves.by"}
 FILLED = {"out", "state"}  # structs of which nothing is read
 ZERO_AT_ENTRY = {"dem_force.force"}
 

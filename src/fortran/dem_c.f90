@@ -351,6 +351,12 @@ module dem_c
     real(c_double) :: velocity(2) = 0
   end type
 
+  type, bind(c) :: dem_motion_field
+    type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
+    integer(dem_index) :: n = 0
+    integer(c_size_t) :: offset = 0
+  end type
+
   type, bind(c) :: dem_csr
     integer(dem_index) :: n_nodes = 0
     type(c_ptr) :: row = c_null_ptr, neighbour = c_null_ptr, spring = c_null_ptr, stiffness = c_null_ptr
@@ -511,6 +517,24 @@ module dem_c
   end interface
 
   interface
+
+    type(c_ptr) function dem_motion_field_at(k) bind(c)
+      import
+      integer(dem_index), value :: k
+    end function
+
+    integer(c_int) function dem_obstacle_moves(obstacle, by) bind(c)
+      import
+      type(dem_obstacle), intent(in) :: obstacle
+      type(dem_motion_field), intent(in), optional :: by
+    end function
+
+    subroutine dem_obstacle_points(obstacle, t, points) bind(c)
+      import
+      type(dem_obstacle), intent(in) :: obstacle
+      real(c_double), value :: t
+      real(c_double), intent(out) :: points(2, *)
+    end subroutine
 
     integer(dem_status) function dem_obstacle_check(obstacle, segments) bind(c)
       import

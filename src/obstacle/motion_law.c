@@ -1,24 +1,128 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rest, and constant velocity. */
+/* The list of kinds of motion, and their sum. */
 #include "obstacle/motion_law.h"
+
+#include <string.h>
+
+#include "base/status.h"
+#include "obstacle/uniform_motion.h"
+
+static const motion_kind *const kinds[] = {&uniform_motion};
+enum { N_KINDS = sizeof kinds / sizeof kinds[0] };
+
+static bool moves_by(const motion_law *law, int kind)
+{
+    return (law->kinds & 1u << kind) != 0;
+}
 
 motion_law motion_law_of(const dem_obstacle *obstacle)
 {
-    const vec2 velocity = vec2_at(obstacle->velocity, 0);
-    return (motion_law){velocity.x != 0.0 || velocity.y != 0.0, velocity};
+    motion_law law = {.of = obstacle};
+    for (int k = 0; k < N_KINDS; k++)
+        if (kinds[k]->bounds(obstacle).speed != 0.0) law.kinds |= 1u << k;
+    law.moves = law.kinds != 0;
+    return law;
 }
 
+/* To add to -0 changes no bit, the sign of a zero neither. */
 pose motion_law_pose(const motion_law *law, double t)
 {
-    return (pose){.centre = vec2_scale(t, law->velocity), .velocity = law->velocity, .axis = {1.0, 0.0}};
+    const vec2 none = {-0.0, -0.0};
+    pose sum = {.centre = none, .velocity = none, .acceleration = {0.0, 0.0}, .axis = {1.0, 0.0}};
+    for (int k = 0; k < N_KINDS; k++)
+        if (moves_by(law, k)) kinds[k]->add(law->of, t, &sum);
+    return sum;
 }
 
-double motion_law_speed(const motion_law *law)
+motion_bounds motion_law_bounds(const motion_law *law)
 {
-    return vec2_norm(law->velocity);
+    motion_bounds sum = {0};
+    for (int k = 0; k < N_KINDS; k++) {
+        if (!moves_by(law, k)) continue;
+        const motion_bounds b = kinds[k]->bounds(law->of);
+        sum.speed += b.speed;
+        sum.acceleration += b.acceleration;
+        sum.rate = fmax(sum.rate, b.rate);
+    }
+    return sum;
+}
+
+static void read_field(const dem_obstacle *obstacle, const dem_motion_field *field, double value[2])
+{
+    memcpy(value, (const char *)obstacle + field->offset, (size_t)field->n * sizeof *value);
+}
+
+static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstacle, dem_index o)
+{
+    for (dem_index f = 0; f < kind->n_fields; f++) {
+        const dem_motion_field *field = &kind->fields[f];
+        double value[2] = {0.0, 0.0};
+        read_field(obstacle, field, value);
+        for (int d = 0; d < 2; d++)
+            CHECK(isfinite(value[d]), DEM_ERROR_MODEL, "obstacle %lld: %s of %g %s is not finite", (long long)o,
+                  field->name, value[d], field->unit);
+    }
+    const motion_bounds b = kind->bounds(obstacle);
+    CHECK(isfinite(b.speed) && isfinite(b.acceleration) && isfinite(b.rate), DEM_ERROR_MODEL,
+          "obstacle %lld: %s makes it move by up to %g m/s and %g m/s^2, which cannot be computed with", (long long)o,
+          kind->fields[0].name, b.speed, b.acceleration);
+    return DEM_OK;
+}
+
+dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o)
+{
+    for (int k = 0; k < N_KINDS; k++) TRY(check_kind(kinds[k], obstacle, o));
+    return DEM_OK;
+}
+
+static bool is_same_kind(const motion_kind *kind, const dem_obstacle *a, const dem_obstacle *b)
+{
+    for (dem_index f = 0; f < kind->n_fields; f++) {
+        double one[2] = {0.0, 0.0}, other[2] = {0.0, 0.0};
+        read_field(a, &kind->fields[f], one);
+        read_field(b, &kind->fields[f], other);
+        if (one[0] != other[0] || one[1] != other[1]) return false;
+    }
+    return true;
 }
 
 bool motion_law_is_same(const motion_law *a, const motion_law *b)
 {
-    return a->velocity.x == b->velocity.x && a->velocity.y == b->velocity.y;
+    if (a->kinds != b->kinds) return false;
+    for (int k = 0; k < N_KINDS; k++)
+        if (moves_by(a, k) && !is_same_kind(kinds[k], a->of, b->of)) return false;
+    return true;
+}
+
+/* ---- public ---- */
+
+const dem_motion_field *dem_motion_field_at(dem_index k)
+{
+    for (int kind = 0; kind < N_KINDS && k >= 0; k -= kinds[kind++]->n_fields)
+        if (k < kinds[kind]->n_fields) return &kinds[kind]->fields[k];
+    return NULL;
+}
+
+static bool has_field(const motion_kind *kind, const dem_motion_field *field)
+{
+    for (dem_index f = 0; f < kind->n_fields; f++)
+        if (kind->fields[f].offset == field->offset) return true;
+    return false;
+}
+
+int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
+{
+    const motion_law law = motion_law_of(obstacle);
+    bool moves = by == NULL && law.moves;
+    for (int k = 0; k < N_KINDS; k++) moves = moves || (moves_by(&law, k) && has_field(kinds[k], by));
+    return moves;
+}
+
+void dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points)
+{
+    const motion_law law = motion_law_of(obstacle);
+    const pose at = motion_law_pose(&law, t);
+    memmove(points, obstacle->points, 2 * (size_t)obstacle->n_points * sizeof *points);
+    for (dem_index k = 0; k < obstacle->n_points && law.moves; k++)
+        vec2_put(points, k, pose_outside(&at, vec2_at(points, k)));
 }

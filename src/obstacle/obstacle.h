@@ -29,7 +29,7 @@ typedef struct obstacle_set {
     segment *segments;         /* [n_segments] obstacle by obstacle, in order */
     obstacle_vertex *vertices; /* [n_vertices] obstacle by obstacle, in the order of the segments that end there */
     motion_law *laws;          /* [n] how each moves */
-    double speed;              /* m/s, nothing of any is faster; 0: all stand at rest */
+    motion_bounds bounds;      /* of all; speed 0: all stand at rest */
     box_tree *trees;           /* [n] of the segments of each */
     box_tree vertex_tree;      /* of the vertices of those at rest; others are in none of its boxes */
     dem_index *first_vertex;   /* [n + 1] vertices first_vertex[k] .. first_vertex[k+1]-1 are of obstacle k */
@@ -60,7 +60,7 @@ obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards,
 /** Whether an obstacle moves: quickly known where none does. */
 static inline bool obstacles_moves(const obstacle_set *o, dem_index obstacle)
 {
-    return o->speed > 0.0 && o->laws[obstacle].moves;
+    return o->bounds.speed > 0.0 && o->laws[obstacle].moves;
 }
 
 /** How the point of an obstacle moves that is at x at t. */

@@ -137,8 +137,8 @@ static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
 {
     const dem_index o = set->n;
     TRY(copy_points(&set->list[o], obstacle));
-    set->laws[o] = motion_law_of(obstacle);
-    set->speed = fmax(set->speed, motion_law_speed(&set->laws[o]));
+    set->laws[o] = motion_law_of(&set->list[o]);
+    set->bounds = motion_bounds_of_both(set->bounds, motion_law_bounds(&set->laws[o]));
     set->n++;
     polyline_compile(set, o);
     return plant_tree(set, o);

@@ -14,9 +14,7 @@ dem_status polyline_check(const dem_obstacle *obstacle, dem_index o)
           "obstacle %lld: friction must be >= 0, got %g", (long long)o, obstacle->friction);
     CHECK(obstacle->friction_law != DEM_FRICTION_PAPER || obstacle->friction <= 1.0, DEM_ERROR_MODEL,
           "obstacle %lld: friction of the paper's law must be in [0, 1], got %g", (long long)o, obstacle->friction);
-    for (int k = 0; k < 2; k++)
-        CHECK(isfinite(obstacle->velocity[k]), DEM_ERROR_MODEL, "obstacle %lld: velocity (%g, %g) m/s is not finite",
-              (long long)o, obstacle->velocity[0], obstacle->velocity[1]);
+    TRY(motion_law_check(obstacle, o));
     for (dem_index k = 0; k < 2 * obstacle->n_points; k++)
         CHECK(isfinite(obstacle->points[k]), DEM_ERROR_MODEL, "obstacle %lld: point %lld is not finite", (long long)o,
               (long long)(k / 2));

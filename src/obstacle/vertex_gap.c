@@ -144,7 +144,7 @@ obstacle_vertex_gap obstacles_vertex_gap(const obstacle_set *o, double t, const 
     const line l = line_along(edge, false);
     obstacle_vertex_gap deepest = {INFINITY, -1, 0.0, l.normal};
     look_deeper(o, &o->vertex_tree, 0, &l, &deepest);
-    for (dem_index k = 0; k < o->n && o->speed > 0.0; k++)
+    for (dem_index k = 0; k < o->n && o->bounds.speed > 0.0; k++)
         if (o->laws[k].moves) look_deeper_moving(o, k, t, edge, &deepest);
     return deepest;
 }
@@ -190,7 +190,7 @@ double obstacles_clearance(const obstacle_set *o, double t, const obstacle_edge 
 {
     const line here = line_along(edge, false);
     double nearest = look_nearer(o, &o->vertex_tree, 0, &here, edge->reach);
-    for (dem_index k = 0; k < o->n && o->speed > 0.0; k++) {
+    for (dem_index k = 0; k < o->n && o->bounds.speed > 0.0; k++) {
         if (!o->laws[k].moves) continue;
         const pose at = motion_law_pose(&o->laws[k], t);
         const obstacle_edge inside = edge_inside(edge, &at);

@@ -22,18 +22,25 @@ static dem_status write_law(const hdf5_file *file, const char *group, const dem_
     return hdf5_write_attribute_text(file, group, "friction_law", law);
 }
 
-static bool moves(const dem_obstacle *o)
+enum { NAME = 80 }; /* of a dataset */
+
+static void name_field(char name[NAME], const char *group, const dem_motion_field *field)
 {
-    return o->velocity[0] != 0.0 || o->velocity[1] != 0.0;
+    (void)snprintf(name, NAME, "%s/%s", group, field->name);
 }
 
 /* What is at rest has none. */
-static dem_status write_velocity(const hdf5_file *file, const char *group, const dem_obstacle *o)
+static dem_status write_motion(const hdf5_file *file, const char *group, const dem_obstacle *o)
 {
-    char name[64];
-    (void)snprintf(name, sizeof name, "%s/velocity", group);
-    const hdf5_rows rows = {name, HDF5_F64, 1, {0}, 0, 0};
-    return moves(o) ? hdf5_write(file, rows, 2, o->velocity) : DEM_OK;
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++) {
+        char name[NAME];
+        name_field(name, group, field);
+        const hdf5_rows rows = {name, HDF5_F64, 1, {0}, 0, 0};
+        if (!dem_obstacle_moves(o, field)) continue;
+        TRY(hdf5_write(file, rows, (hsize_t)field->n, (const char *)o + field->offset));
+    }
+    return DEM_OK;
 }
 
 dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
@@ -47,7 +54,7 @@ dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
         const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
         TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
         TRY(write_law(file, group, &obstacles[o]));
-        TRY(write_velocity(file, group, &obstacles[o]));
+        TRY(write_motion(file, group, &obstacles[o]));
     }
     return DEM_OK;
 }
@@ -80,17 +87,26 @@ static dem_status read_points(const hdf5_file *file, const char *name, dem_obsta
     return hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, shape.extent[0], 0}, points);
 }
 
-static dem_status read_velocity(const hdf5_file *file, const char *group, dem_obstacle *o)
+static dem_status read_field(const hdf5_file *file, const char *group, const dem_motion_field *field, dem_obstacle *o)
 {
-    char name[64];
+    char name[NAME];
     bool present = false;
     hdf5_untrusted_shape shape;
-    (void)snprintf(name, sizeof name, "%s/velocity", group);
+    const hsize_t n = (hsize_t)field->n;
+    name_field(name, group, field);
     TRY(hdf5_untrusted_find(file, name, &present));
     if (!present) return DEM_OK;
     TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
-    if (shape.rank != 1 || shape.extent[0] != 2) return hdf5_untrusted_refuse(file, name, "is not of shape [2]");
-    return hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, 2, 0}, o->velocity);
+    if (shape.rank != 1 || shape.extent[0] != n)
+        return hdf5_untrusted_refuse(file, name, n == 1 ? "is not of shape [1]" : "is not of shape [2]");
+    return hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, n, 0}, (char *)o + field->offset);
+}
+
+static dem_status read_motion(const hdf5_file *file, const char *group, dem_obstacle *o)
+{
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++) TRY(read_field(file, group, field, o));
+    return DEM_OK;
 }
 
 static dem_status check(const hdf5_file *file, const char *group, const dem_obstacle *o)
@@ -112,7 +128,7 @@ static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_ob
     if (!present) return hdf5_untrusted_refuse(file, points, "is missing");
     TRY(read_points(file, points, out));
     TRY(read_law(file, group, out));
-    TRY(read_velocity(file, group, out));
+    TRY(read_motion(file, group, out));
     return check(file, group, out);
 }
 

@@ -155,13 +155,31 @@ static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem
     return record_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
-static dem_status put_velocities(const dem_model *model, dem_record *record)
+/* How many numbers say how an obstacle moves. */
+static size_t count_motion(void)
+{
+    size_t n = 0;
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++) n += (size_t)field->n;
+    return n;
+}
+
+static double *copy_motion(double *to, const dem_obstacle *obstacle)
+{
+    const dem_motion_field *field;
+    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++, to += field->n)
+        memcpy(to, (const char *)obstacle + field->offset, (size_t)field->n * sizeof *to);
+    return to;
+}
+
+static dem_status put_motion(const dem_model *model, dem_record *record)
 {
     const obstacle_set *o = &model->obstacles;
-    double *list = malloc((2 * (size_t)o->n + 1) * sizeof *list);
+    const size_t n = count_motion() * (size_t)o->n;
+    double *list = malloc((n + 1) * sizeof *list), *end = list;
     CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the obstacles of a record");
-    for (dem_index k = 0; k < o->n; k++) memcpy(list + 2 * k, o->list[k].velocity, sizeof o->list[k].velocity);
-    const dem_status status = dem_record_put(record, "velocities", list, 2 * (size_t)o->n * sizeof *list);
+    for (dem_index k = 0; k < o->n; k++) end = copy_motion(end, &o->list[k]);
+    const dem_status status = dem_record_put(record, "motions", list, n * sizeof *list);
     free(list);
     return status;
 }
@@ -188,7 +206,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
     counts.evaluations = of_engine.evaluations;
     counts.retries = of_engine.retries;
     TRY(record_pass(&way, "sizes", &size, sizeof size));
-    TRY(put_velocities(s->model, record));
+    TRY(put_motion(s->model, record));
     TRY(pass(s, &way, &n, &counts));
     TRY(put_contacts(&s->automaton.set, record));
     return record_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
@@ -219,21 +237,29 @@ static dem_status check_sizes(const dem_simulation *s, const dem_record *record)
     return DEM_OK;
 }
 
-/* Positions of obstacles follow from their velocities, so that those of the record must be the model's. */
-static dem_status check_velocities(const dem_simulation *s, const dem_record *record)
+/* Positions of obstacles follow from their motion laws, so that those of the record must be the model's. */
+static dem_status check_field(const dem_obstacle *obstacle, dem_index number, const dem_motion_field *field,
+                              const double *there)
+{
+    const double *here = (const double *)(const void *)((const char *)obstacle + field->offset);
+    for (dem_index d = 0; d < field->n; d++)
+        CHECK(here[d] == there[d], DEM_ERROR_IO, "in the record obstacle %lld moves with %s of %g %s, not %g %s",
+              (long long)number, field->name, there[d], field->unit, here[d], field->unit);
+    return DEM_OK;
+}
+
+static dem_status check_motion(const dem_simulation *s, const dem_record *record)
 {
     const obstacle_set *o = &s->model->obstacles;
+    const size_t expected = count_motion() * (size_t)o->n * sizeof(double);
     size_t size;
-    const double *there = dem_record_find(record, "velocities", &size);
-    CHECK(there != NULL && size == 2 * (size_t)o->n * sizeof *there, DEM_ERROR_IO,
-          "the record has %zu bytes of the velocities of obstacles, %zu are expected", there != NULL ? size : 0,
-          2 * (size_t)o->n * sizeof *there);
-    for (dem_index k = 0; k < o->n; k++) {
-        const double *here = o->list[k].velocity;
-        CHECK(here[0] == there[2 * k] && here[1] == there[2 * k + 1], DEM_ERROR_IO,
-              "in the record obstacle %lld moves at (%g, %g) m/s, not at (%g, %g) m/s", (long long)k, there[2 * k],
-              there[2 * k + 1], here[0], here[1]);
-    }
+    const dem_motion_field *field;
+    const double *there = dem_record_find(record, "motions", &size);
+    CHECK(there != NULL && size == expected, DEM_ERROR_IO,
+          "the record has %zu bytes of the motion of obstacles, %zu are expected", there != NULL ? size : 0, expected);
+    for (dem_index i = 0; i < o->n; i++)
+        for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++, there += field->n)
+            TRY(check_field(&o->list[i], i, field, there));
     return DEM_OK;
 }
 
@@ -253,7 +279,7 @@ static dem_status get(dem_simulation *s, const dem_record *record, numbers *n, c
 {
     const record_way way = {.from = record};
     TRY(check_sizes(s, record));
-    TRY(check_velocities(s, record));
+    TRY(check_motion(s, record));
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
     TRY(find_state(s, record, y));

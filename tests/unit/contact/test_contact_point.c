@@ -72,6 +72,13 @@ static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void 
     assert_close(f.mobility, 0.5625 / 3.0 + 0.0625 / 0.5, 1e-15); /* rounding */
 }
 
+static void move(bench *b, dem_index obstacle, vec2 velocity)
+{
+    vec2_put(b->list[obstacle].velocity, 0, velocity);
+    b->laws[obstacle] = motion_law_of(&b->list[obstacle]);
+    b->model.obstacles.bounds = motion_bounds_of_both(b->model.obstacles.bounds, motion_law_bounds(&b->laws[obstacle]));
+}
+
 /* The segment of the node, 5 m long, has gone (2, -3) m in 0.5 s. */
 static void on_an_obstacle_that_moves_velocities_are_relative_to_it(void **state)
 {
@@ -79,8 +86,7 @@ static void on_an_obstacle_that_moves_velocities_are_relative_to_it(void **state
     (void)state;
     bench_open(&b, 2);
     b.segments[2] = (segment){.start = {1.0, 2.0}, .normal = {-0.6, 0.8}, .tangent = {0.8, 0.6}, .length = 5.0};
-    b.laws[0] = (motion_law){true, {4.0, -6.0}};
-    b.model.obstacles.speed = hypot(4.0, 6.0);
+    move(&b, 0, (vec2){4.0, -6.0});
     b.candidates[0].n_closed = 1;
     b.candidates[0].closed[0] = (contact_point){.feature = 2, .slide = 1};
     vec2_put(b.x, 0, (vec2){3.0 + 2.0 * 0.8 - 0.25 * 0.6, -1.0 + 2.0 * 0.6 + 0.25 * 0.8});
@@ -104,9 +110,8 @@ static void the_corner_of_two_obstacles_moves_along_the_normals_as_they_do(void 
     b.segments[0] = (segment){.normal = {0.0, 1.0}, .tangent = {1.0, 0.0}, .length = 1.0};
     b.segments[1] = (segment){.normal = {1.0, 0.0}, .tangent = {0.0, -1.0}, .length = 1.0, .obstacle = 1};
     assert_false(surface_corner_motion(&b.scene, both, (surface_query){0.5, {0.0, 0.0}}).moves);
-    b.laws[0] = (motion_law){true, {4.0, 0.5}};
-    b.laws[1] = (motion_law){true, {3.0, -6.0}};
-    b.model.obstacles.speed = hypot(3.0, 6.0);
+    move(&b, 0, (vec2){4.0, 0.5});
+    move(&b, 1, (vec2){3.0, -6.0});
     const obstacle_motion corner = surface_corner_motion(&b.scene, both, (surface_query){0.5, {0.0, 0.0}});
     assert_true(corner.moves);
     assert_close(corner.velocity.x, 3.0, 0.0);

@@ -55,13 +55,56 @@ static void a_constant_velocity_carries_everything_along(void **state)
     const pose at = motion_law_pose(&law, 0.5);
     (void)state;
     assert_true(law.moves && !none.moves);
-    assert_close(motion_law_speed(&law), 5.0, 0.0);
-    assert_close(motion_law_speed(&none), 0.0, 0.0);
+    const motion_bounds bounds = motion_law_bounds(&law);
+    assert_true(bounds.speed == 5.0 && bounds.acceleration == 0.0 && bounds.rate == 0.0);
+    assert_close(motion_law_bounds(&none).speed, 0.0, 0.0);
     assert_true(motion_law_is_same(&law, &other) && !motion_law_is_same(&law, &none));
     assert_near(pose_outside(&at, (vec2){1.0, 1.0}), (vec2){2.5, -1.0}, 0.0);
     assert_near(pose_velocity(&at, (vec2){7.0, 7.0}), (vec2){3.0, -4.0}, 0.0);
     assert_near(pose_acceleration(&at, (vec2){7.0, 7.0}), (vec2){0.0, 0.0}, 0.0);
     assert_near(pose_outside(&(pose){.axis = {1.0, 0.0}}, (vec2){1.0, 1.0}), (vec2){1.0, 1.0}, 0.0);
+}
+
+static void points_go_where_the_obstacle_has_gone_also_in_place(void **state)
+{
+    const double given[4] = {1.0, 2.0, -3.0, 4.0};
+    double points[4] = {1.0, 2.0, -3.0, 4.0};
+    const dem_obstacle obstacle = {.n_points = 2, .points = points, .velocity = {3.0, -4.0}},
+                       rest = {.n_points = 2, .points = given};
+    (void)state;
+    dem_obstacle_points(&obstacle, 0.5, points);
+    assert_true(points[0] == 2.5 && points[1] == 0.0 && points[2] == -1.5 && points[3] == 2.0);
+    dem_obstacle_points(&rest, 0.5, points);
+    assert_memory_equal(points, given, sizeof given);
+}
+
+static void fields_are_told_one_by_one(void **state)
+{
+    const dem_obstacle moves = {.velocity = {1.0, 0.0}}, rest = {.n_points = 0};
+    const dem_motion_field *field = dem_motion_field_at(0), copy = *field, other = {.n = 1, .offset = 0};
+    dem_index k = 0;
+    (void)state;
+    assert_true(field->n == 2 && field->offset == offsetof(dem_obstacle, velocity));
+    assert_string_equal(field->name, "velocity");
+    assert_string_equal(field->unit, "m/s");
+    assert_true(dem_obstacle_moves(&moves, field) && dem_obstacle_moves(&moves, NULL));
+    assert_true(dem_obstacle_moves(&moves, &copy));
+    assert_true(!dem_obstacle_moves(&moves, &other) && !dem_obstacle_moves(&rest, field));
+    assert_false(dem_obstacle_moves(&rest, NULL));
+    while (dem_motion_field_at(k) != NULL) k++;
+    assert_null(dem_motion_field_at(-1));
+    assert_true(k >= 1);
+}
+
+static void a_motion_that_cannot_be_computed_with_is_refused(void **state)
+{
+    const dem_obstacle unknown = {.velocity = {0.0, (double)NAN}}, fast = {.velocity = {1e300, 1e300}};
+    (void)state;
+    assert_int_equal(motion_law_check(&unknown, 3), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), "obstacle 3: velocity of nan m/s is not finite");
+    assert_int_equal(motion_law_check(&fast, 3), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), "obstacle 3: velocity makes it move by up to inf m/s and 0 m/s^2, which "
+                                              "cannot be computed with");
 }
 
 int main(void)
@@ -70,6 +113,9 @@ int main(void)
         cmocka_unit_test(what_goes_in_comes_out_where_it_was),
         cmocka_unit_test(velocity_and_acceleration_are_those_of_a_point_of_the_body),
         cmocka_unit_test(a_constant_velocity_carries_everything_along),
+        cmocka_unit_test(points_go_where_the_obstacle_has_gone_also_in_place),
+        cmocka_unit_test(fields_are_told_one_by_one),
+        cmocka_unit_test(a_motion_that_cannot_be_computed_with_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,7 +64,7 @@ static void segments_and_vertices_are_where_their_obstacle_has_gone(void **state
     assert_true(shared.x == -1.0 && shared.y == 0.0);
     const obstacle_motion rest = obstacles_motion(&o, 0, 2.0, shared), moves = obstacles_motion(&o, 1, 2.0, shared);
     assert_true(!rest.moves && rest.velocity.x == 0.0 && moves.moves && moves.velocity.x == -3.0);
-    assert_close(o.speed, vec2_norm(velocity), 0.0);
+    assert_close(o.bounds.speed, vec2_norm(velocity), 0.0);
     obstacles_free(&o);
 }
 

@@ -142,13 +142,14 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     (void)snprintf(text, sizeof text, "the record's time -1 s, step 0 s or next step %g s is impossible",
                    integrator_next_step(&p.from->integrator));
     refuse(&p, "numbers", numbers, sizeof numbers, text);
-    double velocities[2 * 16] = {0.0};
-    const size_t size = 2 * (size_t)p.model->obstacles.n * sizeof *velocities;
-    assert_true(size <= sizeof velocities);
-    velocities[1] = 2.5;
-    refuse(&p, "velocities", velocities, size, "in the record obstacle 0 moves at (0, 2.5) m/s, not at (0, 0) m/s");
-    (void)snprintf(text, sizeof text, "the record has 8 bytes of the velocities of obstacles, %zu are expected", size);
-    refuse(&p, "velocities", velocities, 8, text);
+    double motions[256] = {0.0}; /* obstacle 0 begins with its velocity */
+    size_t size;
+    assert_non_null(dem_record_find(p.record, "motions", &size));
+    assert_true(size <= sizeof motions);
+    motions[1] = 2.5;
+    refuse(&p, "motions", motions, size, "in the record obstacle 0 moves with velocity of 2.5 m/s, not 0 m/s");
+    (void)snprintf(text, sizeof text, "the record has 8 bytes of the motion of obstacles, %zu are expected", size);
+    refuse(&p, "motions", motions, 8, text);
     double *y = malloc((size_t)state_size(&p.from->layout) * sizeof *y);
     const void *stored = dem_record_find(p.record, "state", &n);
     assert_non_null(y);

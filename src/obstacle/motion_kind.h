@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One way in which an obstacle can move. Each has a file; motion_law.c lists them, and adds up those that an obstacle
+ * has. */
+#ifndef DEM_OBSTACLE_MOTION_KIND_H
+#define DEM_OBSTACLE_MOTION_KIND_H
+
+#include <stddef.h>
+
+#include "obstacle/pose.h"
+
+/** What no point of an obstacle exceeds at any time. */
+typedef struct motion_bounds {
+    double speed, acceleration; /* m/s, m/s^2; not finite if the motion cannot be computed with */
+    double rate;                /* rad/s, highest angular frequency: in much less than 1/rate little changes */
+} motion_bounds;
+
+typedef struct motion_kind {
+    const dem_motion_field *fields; /* [n_fields] by which it is given */
+    dem_index n_fields;
+    motion_bounds (*bounds)(const dem_obstacle *obstacle); /* speed 0: the obstacle does not move in this way */
+    void (*add)(const dem_obstacle *obstacle, double t, pose *to);
+} motion_kind;
+
+#endif
