@@ -101,13 +101,15 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
     return true;
 }
 
-/* Whether an edge of a group has opened, or sunk in, by more than a quarter of the penetration tolerance. */
+/* Whether a contact of a group has opened, or sunk in, by more than a quarter of the penetration tolerance. A node on
+ * an obstacle that does not accelerate stays where it is held. */
 static bool has_opened(const contact_set *c, dem_index group, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
+    const bool nodes_too = surface_acceleration(&c->scene) > 0.0;
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
-        for (int q = 0; q < candidate->n_closed && candidate_is_edge(candidate); q++)
+        for (int q = 0; q < candidate->n_closed && (nodes_too || candidate_is_edge(candidate)); q++)
             if (fabs(contact_frame_at(&c->scene, candidate, q, instant_state(now)).gap) >
                 0.25 * c->scene.rule.penetration_tolerance)
                 return true;

@@ -4,7 +4,7 @@
 
 #include <float.h>
 
-/* How fast a closed vertex contact that the integrator's error has opened is drawn back, in units of 1/max_step. */
+/* How fast a closed contact that the integrator's error has opened is drawn back, in units of 1/max_step. */
 static const double draw_back = 0.1;
 
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
@@ -67,6 +67,19 @@ static inline contact_frame edge_frame(const contact_scene *scene, const contact
     return f;
 }
 
+vec2 contact_point_keep(const contact_scene *scene, const contact_candidate *candidate, dem_index id,
+                        const surface_line *line, scene_state state)
+{
+    const vec2 x = vec2_at(state.x, candidate->node), v = vec2_at(state.v, candidate->node);
+    const obstacle_motion wall = surface_motion(scene, id, (surface_query){state.t, x});
+    const vec2 carried = obstacle_motion_sliding(&wall, v);
+    if (surface_acceleration(scene) == 0.0) return carried;
+    const double beta = draw_back / scene->rule.max_step;
+    const vec2 back = vec2_along(vec2_scale(-2.0 * beta, obstacle_motion_relative(&wall, v)),
+                                 -beta * beta * surface_height(line, x), line->normal);
+    return vec2_add(carried, back);
+}
+
 contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
                                    scene_state state)
 {
@@ -81,11 +94,14 @@ contact_frame contact_frame_moving(const contact_scene *scene, const contact_can
     const surface_line line = surface_line_at(scene, id, state.t);
     const obstacle_motion wall = surface_motion(scene, id, (surface_query){state.t, vec2_at(state.x, candidate->node)});
     contact_frame f = node_frame(scene, candidate, &line, state);
-    const vec2 carried = obstacle_motion_sliding(&wall, f.velocity);
+    const vec2 carried = obstacle_motion_sliding(&wall, f.velocity),
+               keep = contact_point_keep(scene, candidate, id, &line, state);
     f.wall = wall.velocity;
     f.velocity = obstacle_motion_relative(&wall, f.velocity);
-    f.turning = f.keep[0] = vec2_dot(carried, f.normal);
-    f.carried = f.keep[1] = vec2_dot(carried, f.tangent);
+    f.turning = vec2_dot(carried, f.normal);
+    f.carried = vec2_dot(carried, f.tangent);
+    f.keep[0] = vec2_dot(keep, f.normal);
+    f.keep[1] = vec2_dot(keep, f.tangent);
     return f;
 }
 

@@ -100,6 +100,28 @@ static void on_an_obstacle_that_moves_velocities_are_relative_to_it(void **state
     assert_true(f.turning == 0.0 && f.keep[0] == 0.0 && f.keep[1] == 0.0); /* nothing accelerates it */
 }
 
+/* The node has sunk in by 0.04 m and leaves the wall behind at (-0.2, 0.3) m/s; beta = 1/s for steps of 0.1 s. */
+static void a_node_that_has_drifted_is_drawn_back_where_obstacles_accelerate(void **state)
+{
+    bench b;
+    (void)state;
+    bench_open(&b, 1);
+    b.scene.rule.max_step = 0.1;
+    b.segments[0] = (segment){.normal = {0.0, 1.0}, .tangent = {1.0, 0.0}, .length = 9.0};
+    move(&b, 0, (vec2){2.0, 0.0});
+    b.candidates[0].n_closed = 1;
+    b.candidates[0].closed[0] = (contact_point){.slide = 0};
+    vec2_put(b.x, 0, (vec2){1.0, -0.04});
+    vec2_put(b.v, 0, (vec2){1.8, 0.3});
+    contact_frame f = contact_frame_at(&b.scene, &b.candidates[0], 0, (scene_state){0.0, b.x, b.v});
+    assert_true(f.keep[0] == 0.0 && f.keep[1] == 0.0);
+    b.model.obstacles.bounds.acceleration = 5.0;
+    f = contact_frame_at(&b.scene, &b.candidates[0], 0, (scene_state){0.0, b.x, b.v});
+    assert_close(f.keep[0], -2.0 * 0.3 + 0.04, 1e-15);
+    assert_close(f.keep[1], 2.0 * 0.2, 1e-15);
+    assert_true(f.turning == 0.0 && f.carried == 0.0);
+}
+
 /* A floor that moves along and a wall that comes: the corner has the floor's height and the wall's speed. */
 static void the_corner_of_two_obstacles_moves_along_the_normals_as_they_do(void **state)
 {
@@ -389,6 +411,7 @@ int main(void)
         cmocka_unit_test(the_frame_of_a_node_is_that_of_its_segment),
         cmocka_unit_test(the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body),
         cmocka_unit_test(on_an_obstacle_that_moves_velocities_are_relative_to_it),
+        cmocka_unit_test(a_node_that_has_drifted_is_drawn_back_where_obstacles_accelerate),
         cmocka_unit_test(the_corner_of_two_obstacles_moves_along_the_normals_as_they_do),
         cmocka_unit_test(a_fixed_node_has_no_mobility),
         cmocka_unit_test(a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps),

@@ -285,6 +285,25 @@ static void the_scale_of_speed_is_the_largest_at_hand(void **state)
     dem_model_destroy(model);
 }
 
+/* omega_max is that of the rectangle; an obstacle that shakes ten times as fast is followed alike. */
+static void steps_follow_obstacles_that_shake(void **state)
+{
+    char message[160];
+    (void)state;
+    dem_model *model = make_rectangle(0.0, 4.0);
+    const double rate = 10.0 * dem_model_omega_max(model);
+    dem_options options = dem_options_default();
+    model->obstacles.bounds.rate = rate;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    assert_close(options.max_step, 0.5 / rate, 0.0);
+    options.max_step = 1.5 / rate;
+    (void)snprintf(message, sizeof message,
+                   "obstacles move with up to %g rad/s: max_step and fixed_step must be at most 1/%g s, got %g s", rate,
+                   rate, options.max_step);
+    refuse_filling(model, options, message);
+    dem_model_destroy(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -293,6 +312,7 @@ int main(void)
         cmocka_unit_test(a_model_without_springs_needs_its_scales),
         cmocka_unit_test(defaults_come_from_the_model),
         cmocka_unit_test(what_is_given_counts),
+        cmocka_unit_test(steps_follow_obstacles_that_shake),
         cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
         cmocka_unit_test(strong_damping_shortens_the_longest_step),
         cmocka_unit_test(the_window_is_for_stops_of_the_whole_body),
