@@ -8,6 +8,8 @@
 #ifndef DEM_BASE_STATE_H
 #define DEM_BASE_STATE_H
 
+#include <stdbool.h>
+
 #include <dem/dem.h>
 
 #include "base/aligned.h"
@@ -102,6 +104,29 @@ static inline void state_copy_row(const state_layout *l, double *to, const doubl
     if (l->dim > 2) to[2] = from[2];
     to[0] = first;
     to[1] = second;
+}
+
+/** Puts a - b into a row, which may be one of both. */
+static inline void state_subtract_rows(const state_layout *l, double *to, const double *a, const double *b)
+{
+    const double first = a[0] - b[0], second = a[1] - b[1];
+    if (l->dim > 2) to[2] = a[2] - b[2];
+    to[0] = first;
+    to[1] = second;
+}
+
+/** Adds s times a row to another. */
+static inline void state_add_row(const state_layout *l, double *to, double s, const double *from)
+{
+    const double first = to[0] + s * from[0], second = to[1] + s * from[1];
+    if (l->dim > 2) to[2] += s * from[2];
+    to[0] = first;
+    to[1] = second;
+}
+
+static inline bool state_is_zero_row(const state_layout *l, const double *row)
+{
+    return row[0] == 0.0 && row[1] == 0.0 && (l->dim < 3 || row[2] == 0.0);
 }
 
 /** Position, velocity [dim] of a row of y. */

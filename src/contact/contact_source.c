@@ -117,24 +117,20 @@ static dem_index contact_source_seeds(const void *self, dem_index key, dem_index
 
 /* ---- candidates near an event ---- */
 
-static dem_index n_moving(const event_place *at)
-{
-    return at->near->end[at->near->n_rings - 1];
-}
-
 /* Calls a function for every candidate that has a moving node of the neighbourhood. */
 static void each_candidate(contact_source *s, const event_place *at,
                            void (*act)(contact_source *s, const event_place *at, dem_index k))
 {
     const contact_set *c = &s->automaton->set;
     const surface *edges = &c->scene.model->surface;
-    for (dem_index j = 0; j < n_moving(at); j++) {
-        const dem_index i = at->near->nodes[j].i;
+    const local_nodes *nodes = &at->near->nodes;
+    for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++) {
+        const dem_index i = nodes->list[j];
         if (c->of_node[i] >= 0) act(s, at, c->of_node[i]);
         for (dem_index p = edges->row[i]; p < edges->row[i + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
             const dem_index k = contact_set_of_edge(c, edges->at[p]);
             const bool first =
-                c->list[k].node == i || !neighbourhood_has(at->near, c->list[k].node, at->near->n_rings - 1); /* once */
+                c->list[k].node == i || !local_nodes_have(nodes, c->list[k].node, nodes->n_rings - 1); /* once */
             if (first) act(s, at, k);
         }
     }
@@ -195,8 +191,8 @@ static double furthest(const contact_source *s, const event_place *at)
 {
     const dense_output *step = at->step;
     double way = s->automaton->way;
-    for (dem_index j = 0; j < n_moving(at); j++) {
-        const dem_index i = at->near->nodes[j].i;
+    for (dem_index j = 0; j < local_nodes_n_moving(&at->near->nodes); j++) {
+        const dem_index i = at->near->nodes.list[j];
         if (s->automaton->set.of_node[i] < 0) continue;
         const double speed = vec2_norm(vec2_at(step->y1 + state_velocities(&step->layout), i));
         way = fmax(way, 2.0 * (step->t1 - step->t0) * (speed + surface_speed(&s->automaton->set.scene)));

@@ -2,6 +2,7 @@
 /* Resolves the events of a step one by one, and corrects its end. */
 #include "events/event_queue.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/grow.h"
@@ -10,12 +11,13 @@
 
 /* ---- set-up ---- */
 
-dem_status event_queue_create(event_queue *out, const state_layout *l, const forces *acting, const constraints *c,
+dem_status event_queue_create(event_queue *out, const state_layout *l, const local_forces *f, const constraints *c,
                               const local_correction_rule *rule, bool controlled)
 {
-    *out = (event_queue){.layout = *l, .acting = acting, .constraints = c, .most = controlled ? 1.0 : (double)INFINITY};
+    *out = (event_queue){.layout = *l, .forces = f, .constraints = c, .most = controlled ? 1.0 : (double)INFINITY};
     dem_status status = changed_motion_create(&out->changed, l);
-    if (status == DEM_OK) status = local_correction_create(&out->correction, l, acting, c, rule);
+    if (status == DEM_OK) status = local_nodes_create(&out->renewed, l->n_nodes, 0);
+    if (status == DEM_OK) status = local_correction_create(&out->correction, l, f, c, rule);
     if (status != DEM_OK) event_queue_destroy(out);
     return status;
 }
@@ -32,6 +34,7 @@ void event_queue_destroy(event_queue *q)
 {
     local_correction_destroy(&q->correction);
     changed_motion_destroy(&q->changed);
+    local_nodes_destroy(&q->renewed);
     free(q->sources);
     free(q->seeds);
     free(q->events);
@@ -112,7 +115,7 @@ static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
     *n = source->seeds(source->self, due->key, q->seeds, q->seed_capacity);
     if (*n <= q->seed_capacity) return DEM_OK;
     CHECK(grow_array((void **)&q->seeds, &q->seed_capacity, *n, sizeof *q->seeds), DEM_ERROR_MEMORY,
-          "out of memory for what is near a contact");
+          "out of memory for what is near an event");
     *n = source->seeds(source->self, due->key, q->seeds, q->seed_capacity);
     return DEM_OK;
 }
@@ -138,7 +141,7 @@ static dem_status take(event_queue *q, const due_event *due)
     TRY(resolve(q, due, &at));
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));
     CHECK(isfinite(error), DEM_ERROR_INTEGRATOR, "the motion near node %lld after a %s event at t = %.9g s overflows",
-          (long long)q->correction.near.nodes[0].i, due->source->name, q->now);
+          (long long)q->correction.near.nodes.list[0], due->source->name, q->now);
     q->error += error;
     q->ahead += error * growth((q->step->t1 - q->step->t0) / q->correction.h);
     for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].follow(q->sources[k].self, &at);
@@ -147,16 +150,19 @@ static dem_status take(event_queue *q, const due_event *due)
 
 /* Computes the acceleration of a node at the end of the step again: it depends on the new positions of the node and its
  * neighbours. */
-static void renew(const event_queue *q, dem_index i, const double *y)
+static void renew(event_queue *q, dem_index i)
 {
-    const unsigned held = forces_held(q->acting, i);
-    const double *v = y + state_velocities(&q->layout);
-    double *a = q->changed.f1 + state_velocities(&q->layout);
-    const bool grouped = constraints_group_at(q->constraints, i) >= 0;
-    const vec2 now = grouped ? vec2_at(q->constraints->a, i) : forces_acceleration(q->acting, i, y, v);
-    if (!(held & DEM_COMPONENT_X)) a[2 * i] = now.x;
-    if (!(held & DEM_COMPONENT_Y)) a[2 * i + 1] = now.y;
-    if (held == 0) vec2_put(q->changed.f1, i, vec2_at(v, i));
+    const state_layout *l = &q->layout;
+    const constraints *c = q->constraints;
+    const unsigned held = local_forces_held(q->forces, i);
+    double *u = q->changed.f1 + state_row(l, i), *a = u + state_velocities(l), now[STATE_DIM_MOST];
+    if (constraints_group_at(c, i) >= 0)
+        state_copy_row(l, now, c->a + state_row(l, i));
+    else
+        q->forces->accelerate_one(q->forces->self, i, q->changed.y1, now);
+    for (int d = 0; d < l->dim; d++)
+        if (!(held & ((unsigned)DEM_COMPONENT_X << d))) a[d] = now[d];
+    if (held == 0) state_copy_row(l, u, state_v(l, q->changed.y1, i));
 }
 
 /* Computes the rates again of the quadratures that constraints add to. */
@@ -172,27 +178,19 @@ static dem_status renew_rates(event_queue *q)
     return DEM_OK;
 }
 
-/* The same for a node whose own motion has not changed. */
-static dem_status renew_beside(event_queue *q, dem_index i, const double *y)
-{
-    if (changed_motion_has(&q->changed, i)) return DEM_OK;
-    TRY(changed_motion_keep(&q->changed, i));
-    renew(q, i, y);
-    return DEM_OK;
-}
-
-/* Computes the derivative at the end of the step again where nodes and constraints have changed: it is that of the
- * state to the bit, but for the power of damping and boundaries. */
+/* Computes the derivative at the end of the step again where nodes and constraints have changed, and at the neighbours
+ * of these nodes: it is that of the state to the bit, but for the power of damping and boundaries. */
 static dem_status renew_end(event_queue *q)
 {
-    const double *y1 = q->changed.y1;
-    for (dem_index e = 0, n = q->changed.n; e < n; e++) {
-        const dem_index i = q->changed.list[e].node;
-        if (i >= q->layout.n_nodes) continue;
-        renew(q, i, y1);
-        for (forces_neighbours j = forces_neighbours_of(q->acting, i); forces_next_neighbour(&j);)
-            TRY(renew_beside(q, j.node, y1));
-    }
+    const local_forces *f = q->forces;
+    local_nodes *nodes = &q->renewed;
+    local_nodes_clear(nodes);
+    for (dem_index e = 0; e < q->changed.n; e++)
+        if (q->changed.list[e].node < q->layout.n_nodes) TRY(local_nodes_add(nodes, q->changed.list[e].node));
+    const dem_index n_changed = nodes->n;
+    TRY(f->add_neighbours(f->self, nodes, 0, n_changed));
+    for (dem_index j = n_changed; j < nodes->n; j++) TRY(changed_motion_keep(&q->changed, nodes->list[j]));
+    for (dem_index j = 0; j < nodes->n; j++) renew(q, nodes->list[j]);
     return renew_rates(q);
 }
 

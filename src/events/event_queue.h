@@ -10,10 +10,11 @@
 
 typedef struct event_queue {
     state_layout layout;
-    const forces *acting;
+    const local_forces *forces;
     const constraints *constraints; /* NULL: none */
     local_correction correction;
     changed_motion changed;
+    local_nodes renewed;      /* those with another derivative at the end */
     const dense_output *step; /* the accepted one */
     double *state;            /* [4 n] scratch, the caller's */
     double now;               /* s, events until here are resolved */
@@ -33,7 +34,7 @@ typedef struct event_queue {
 
 /** Without sources. Borrows forces and constraints (NULL: none). `controlled`: a step is rejected for an error above 1.
  *  Must stay where it is. Free with event_queue_destroy(). */
-dem_status event_queue_create(event_queue *out, const state_layout *l, const forces *acting, const constraints *c,
+dem_status event_queue_create(event_queue *out, const state_layout *l, const local_forces *f, const constraints *c,
                               const local_correction_rule *rule, bool controlled);
 void event_queue_destroy(event_queue *q);
 

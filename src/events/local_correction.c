@@ -9,14 +9,13 @@
 
 enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
 
-dem_status local_correction_create(local_correction *out, const state_layout *l, const forces *acting,
+dem_status local_correction_create(local_correction *out, const state_layout *l, const local_forces *f,
                                    const constraints *c, const local_correction_rule *rule)
 {
-    const bool damped = forces_couple_velocities(acting);
     local_correction p = {.rule = *rule};
     TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
-    TRY(neighbourhood_create(&p.near, l, acting, c, 1 + (damped ? p.table.stages : p.table.stages / 2)));
+    TRY(neighbourhood_create(&p.near, l, f, c, 1 + (f->couple_velocities ? p.table.stages : p.table.stages / 2)));
     *out = p;
     return DEM_OK;
 }
@@ -33,12 +32,18 @@ void local_correction_destroy(local_correction *p)
 /* The last ring on which the motion changes. */
 static int last_ring(const local_correction *p)
 {
-    return p->near.n_rings - 1;
+    return p->near.nodes.n_rings - 1;
 }
 
 static dem_index n_moving(const local_correction *p)
 {
-    return p->near.end[last_ring(p)];
+    return local_nodes_n_moving(&p->near.nodes);
+}
+
+/* How many numbers n nodes have in x, v or a. */
+static dem_index components(const local_correction *p, dem_index n)
+{
+    return state_row(&p->near.layout, n);
 }
 
 /* The last ring on which accelerations change at a stage: one more for every two stages, from 1 on because a node may
@@ -68,12 +73,12 @@ static double **array_of(local_correction *p, int k)
 static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 {
     if (n <= p->capacity) return DEM_OK;
-    const size_t more = 2 * (size_t)n + 64;
-    double *block = calloc(2 * more * ARRAYS, sizeof *block);
-    CHECK(block != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    const size_t more = 2 * (size_t)n + 64, length = (size_t)components(p, (dem_index)more);
+    double *block = calloc(length * ARRAYS, sizeof *block);
+    CHECK(block != NULL, DEM_ERROR_MEMORY, "out of memory for what is near an event");
     for (int k = 0; k < ARRAYS; k++) {
-        double **array = array_of(p, k), *moved = block + 2 * more * (size_t)k;
-        if (used > 0) memcpy(moved, *array, 2 * (size_t)used * sizeof *moved);
+        double **array = array_of(p, k), *moved = block + length * (size_t)k;
+        if (used > 0) memcpy(moved, *array, (size_t)components(p, used) * sizeof *moved);
         *array = moved;
     }
     free(p->block);
@@ -83,7 +88,7 @@ static dem_status reserve(local_correction *p, dem_index n, dem_index used)
     if (motions != NULL) p->motions = motions;
     dem_index *book = realloc(p->book, more * sizeof *book);
     if (book != NULL) p->book = book;
-    CHECK(motions != NULL && book != NULL, DEM_ERROR_MEMORY, "out of memory for what is near a contact");
+    CHECK(motions != NULL && book != NULL, DEM_ERROR_MEMORY, "out of memory for what is near an event");
     p->capacity = (dem_index)more;
     return DEM_OK;
 }
@@ -93,7 +98,7 @@ static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 /* Finds the number of a row of the quadratures by its place in a state; a new row has not changed. */
 static dem_status find_quadrature(local_correction *p, dem_index place, dem_index *out)
 {
-    const dem_index n = p->near.n;
+    const dem_index n = p->near.nodes.n;
     for (dem_index b = 0; b < p->n_quadratures; b++) {
         *out = n + b;
         if (p->book[b] == place) return DEM_OK;
@@ -101,62 +106,45 @@ static dem_status find_quadrature(local_correction *p, dem_index place, dem_inde
     *out = n + p->n_quadratures;
     TRY(reserve(p, *out + 1, *out));
     p->book[p->n_quadratures++] = place;
-    for (int k = CHANGES; k < ARRAYS; k++) vec2_put(*array_of(p, k), *out, (vec2){0.0, 0.0});
+    const dem_index first = components(p, *out), last = components(p, *out + 1);
+    for (int k = CHANGES; k < ARRAYS; k++)
+        for (dem_index c = first; c < last; c++) (*array_of(p, k))[c] = 0.0;
     return DEM_OK;
 }
 
-static dem_status add_rate(local_correction *p, dem_index place, int stage, double sign, vec2 rate)
-{
-    dem_index book;
-    if (rate.x == 0.0 && rate.y == 0.0) return DEM_OK;
-    TRY(find_quadrature(p, place, &book));
-    vec2_put(p->da[stage], book, vec2_along(vec2_at(p->da[stage], book), sign, rate));
-    return DEM_OK;
-}
-
-static const forces *acting(const local_correction *p)
-{
-    return p->near.acting;
-}
-
-/* Power of the forces on node j of the neighbourhood; external forces are those evaluated last, in the same state. */
-static forces_power node_power(const local_correction *p, dem_index j, const double *x, const double *v)
-{
-    const external_force *c = acting(p)->external;
-    return forces_node_power(acting(p), p->near.nodes[j].i, c != NULL ? vec2_at(c->value, j) : (vec2){0.0, 0.0}, x, v);
-}
-
-/* Rates with a sign at a stage: what constraints add goes there. */
+/* Rates [dim] with a sign at a stage: what constraints add goes there. */
 typedef struct signed_rates {
     local_correction *correction;
     int stage;
     double sign;
 } signed_rates;
 
-static dem_status add_constraint_rate(void *context, dem_index row, const double *rate)
+static dem_status add_rate(void *context, dem_index row, const double *rate)
 {
     const signed_rates *to = context;
-    return add_rate(to->correction, row, to->stage, to->sign, vec2_at(rate, 0));
+    local_correction *p = to->correction;
+    dem_index number;
+    if (state_is_zero_row(&p->near.layout, rate)) return DEM_OK;
+    TRY(find_quadrature(p, row, &number));
+    state_add_row(&p->near.layout, p->da[to->stage] + components(p, number), to->sign, rate);
+    return DEM_OK;
 }
 
 /* Adds the rates of the quadratures that come from the neighbourhood, in a state that constraints are solved for. */
 static dem_status add_rates(local_correction *p, int stage, double sign, constraint_state state)
 {
-    const constraints *c = p->near.constraints;
-    const state_layout *l = &p->near.layout;
-    const int rings = reach(p, stage);
-    double totals[STATE_TOTALS] = {0.0};
+    const neighbourhood *near = &p->near;
+    const constraints *c = near->constraints;
+    const state_layout *l = &near->layout;
+    const int ring = reach(p, stage);
+    double totals[STATE_TOTALS + STATE_DIM_MOST] = {0.0}; /* whole rows of them */
     signed_rates at_stage = {p, stage, sign};
-    const constraint_rates rates = {&at_stage, add_constraint_rate, totals};
-    for (dem_index g = 0; g < p->near.n_groups; g++)
-        if (p->near.groups[g].ring <= rings) TRY(c->add_rates(c->self, p->near.groups[g].group, state, &rates));
-    for (dem_index j = 0; j < p->near.end[rings] && forces_have_power(acting(p)); j++) {
-        const forces_power power = node_power(p, j, state.y, state.y + state_velocities(l));
-        totals[STATE_DAMPING] += power.damping;
-        totals[STATE_WORK] += power.work;
-    }
+    const constraint_rates rates = {&at_stage, add_rate, totals};
+    for (dem_index g = 0; g < near->n_groups; g++)
+        if (near->groups[g].ring <= ring) TRY(c->add_rates(c->self, near->groups[g].group, state, &rates));
+    if (near->forces->have_power) near->forces->add_power(near->forces->self, &near->nodes, ring, state.y, totals);
     for (dem_index k = 0; k < state_n_total_rows(l); k++)
-        TRY(add_rate(p, state_total_rows(l) + k, stage, sign, vec2_at(totals, k)));
+        TRY(add_rate(&at_stage, state_total_rows(l) + k, totals + state_row(l, k)));
     return DEM_OK;
 }
 
@@ -171,7 +159,7 @@ static double stage_time(const local_correction *p, const dense_output *step, in
 static void put_time(const local_correction *p, const dense_output *step, int stage, double *y)
 {
     const dem_index row = state_time_row(&step->layout);
-    if (!forces_are_driven(acting(p))) return;
+    if (!p->near.forces->are_driven) return;
     dense_output_velocity(step, stage_time(p, step, stage), row,
                           y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }
@@ -181,22 +169,23 @@ static void fetch_stage(local_correction *p, int stage, dem_index n)
 {
     const double s = p->table.c[stage];
     for (dem_index j = 0; j < n; j++) {
-        motion_polynomial_at(&p->motions[j], s, p->x[stage] + 2 * j, p->v[stage] + 2 * j);
+        const dem_index at = components(p, j);
+        motion_polynomial_at(&p->motions[j], s, p->x[stage] + at, p->v[stage] + at);
     }
 }
 
 /* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the quadratures. */
 static bool needs_state(const local_correction *p)
 {
-    return !p->near.plain || p->near.n_groups > 0 || forces_have_power(acting(p));
+    return p->near.forces->read_state || p->near.n_groups > 0 || p->near.forces->have_power;
 }
 
 static dem_status open_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
-    const neighbourhood_state s = {stage_time(p, step, stage), p->x[stage], p->v[stage], y};
-    const dem_index n = p->near.end[reach(p, stage) + 1];
+    const local_state s = {stage_time(p, step, stage), p->x[stage], p->v[stage], y};
+    const dem_index n = p->near.nodes.end[reach(p, stage) + 1];
     fetch_stage(p, stage, n);
-    if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
+    if (needs_state(p)) neighbourhood_put(&p->near, &s, n, y);
     put_time(p, step, stage, y);
     neighbourhood_accelerate(&p->near, reach(p, stage), &s, p->a[stage]);
     return add_rates(p, stage, -1.0, (constraint_state){s.t, y});
@@ -206,14 +195,16 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
 static dem_status open_end(local_correction *p, const dense_output *step)
 {
     const state_layout *l = &step->layout;
-    const double *v1 = step->y1 + state_velocities(l), *a1 = step->f1 + state_velocities(l);
-    for (dem_index j = 0; j < p->near.n; j++) {
-        const dem_index i = p->near.nodes[j].i;
-        vec2_put(p->x[p->last], j, vec2_at(step->y1, i));
-        vec2_put(p->v[p->last], j, vec2_at(v1, i));
-        vec2_put(p->a[p->last], j, vec2_at(a1, i));
+    const local_nodes *nodes = &p->near.nodes;
+    const local_forces *f = p->near.forces;
+    const local_state s = {step->t1, p->x[p->last], p->v[p->last], step->y1};
+    for (dem_index j = 0; j < nodes->n; j++) {
+        const dem_index to = components(p, j);
+        state_copy_row(l, p->x[p->last] + to, state_x(l, step->y1, nodes->list[j]));
+        state_copy_row(l, p->v[p->last] + to, state_v(l, step->y1, nodes->list[j]));
+        state_copy_row(l, p->a[p->last] + to, state_v(l, step->f1, nodes->list[j]));
     }
-    neighbourhood_push(&p->near, reach(p, END), state_time(l, step->y1), p->x[p->last], p->v[p->last]);
+    f->evaluate_external(f->self, nodes, reach(p, END), &s);
     const constraint_state state = {step->t1, step->y1};
     TRY(add_rates(p, END, -1.0, state));
     return add_rates(p, p->last, -1.0, state);
@@ -222,13 +213,14 @@ static dem_status open_end(local_correction *p, const dense_output *step)
 /* The state at the event. Nodes that the event was found with get the bits of the dense output. */
 static void open_start(local_correction *p, const dense_output *step, double *y)
 {
-    const neighbourhood_state s = {p->t, p->x[0], p->v[0], y};
-    fetch_stage(p, 0, p->near.n);
-    for (dem_index j = 0; j < p->near.end[1]; j++) {
-        dense_output_position(step, p->t, p->near.nodes[j].i, p->x[0] + 2 * j);
-        dense_output_velocity(step, p->t, p->near.nodes[j].i, p->v[0] + 2 * j);
+    const local_nodes *nodes = &p->near.nodes;
+    const local_state s = {p->t, p->x[0], p->v[0], y};
+    fetch_stage(p, 0, nodes->n);
+    for (dem_index j = 0; j < nodes->end[1]; j++) {
+        dense_output_position(step, p->t, nodes->list[j], p->x[0] + components(p, j));
+        dense_output_velocity(step, p->t, nodes->list[j], p->v[0] + components(p, j));
     }
-    neighbourhood_put(&p->near, &s, p->near.n);
+    neighbourhood_put(&p->near, &s, nodes->n, y);
     put_time(p, step, 0, y);
 }
 
@@ -249,8 +241,8 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
     p->parabolic = step->parabolic;
     p->n_quadratures = 0;
     TRY(neighbourhood_gather(&p->near, seeds, n_seeds));
-    TRY(reserve(p, p->near.n, 0));
-    for (dem_index j = 0; j < p->near.n; j++) find_motion(p, step, p->near.nodes[j].i, &p->motions[j]);
+    TRY(reserve(p, p->near.nodes.n, 0));
+    for (dem_index j = 0; j < p->near.nodes.n; j++) find_motion(p, step, p->near.nodes.list[j], &p->motions[j]);
     TRY(open_end(p, step));
     for (int stage = 0; stage < p->table.stages; stage++)
         if (stage != p->last) TRY(open_stage(p, step, stage, state));
@@ -265,17 +257,18 @@ static void combine(const local_correction *p, int stage, double *const rates[],
                     dem_index first, dem_index last)
 {
     const double *weights = stage == END ? p->table.b : p->table.a + stage * p->table.stages;
+    const dem_index begin = components(p, first), end = components(p, last);
     double *restrict to = change[stage];
-    memcpy(to + 2 * first, change[0] + 2 * first, 2 * (size_t)(last - first) * sizeof *to);
+    memcpy(to + begin, change[0] + begin, (size_t)(end - begin) * sizeof *to);
     for (int q = 0; q < stage && q < p->table.stages; q++) {
         const double *restrict rate = rates[q], weight = p->h * weights[q];
-        for (dem_index k = 2 * first; k < 2 * last && weight != 0.0; k++) to[k] += weight * rate[k];
+        for (dem_index k = begin; k < end && weight != 0.0; k++) to[k] += weight * rate[k];
     }
 }
 
 static void advance(local_correction *p, int stage)
 {
-    const dem_index n = p->near.n;
+    const dem_index n = p->near.nodes.n;
     combine(p, stage, p->dv, p->dx, 0, n_moving(p));
     combine(p, stage, p->da, p->dv, 0, n_moving(p));
     if (p->n_quadratures == 0) return;
@@ -283,47 +276,64 @@ static void advance(local_correction *p, int stage)
     combine(p, stage, p->da, p->dv, n, n + p->n_quadratures);
 }
 
+/* The first n numbers of a state with the change, of which there are n_changed. */
 static void add_change(const double *before, const double *change, dem_index n, dem_index n_changed, double *to)
 {
-    for (dem_index k = 0; k < 2 * n_changed; k++) to[k] = before[k] + change[k];
-    memcpy(to + 2 * n_changed, before + 2 * n_changed, 2 * (size_t)(n - n_changed) * sizeof *to);
+    for (dem_index k = 0; k < n_changed; k++) to[k] = before[k] + change[k];
+    memcpy(to + n_changed, before + n_changed, (size_t)(n - n_changed) * sizeof *to);
+}
+
+/* Prescribed components go on as they do without the event. */
+static void hold_prescribed(local_correction *p, int stage)
+{
+    const local_forces *f = p->near.forces;
+    const int dim = p->near.layout.dim;
+    for (dem_index j = 0; j < n_moving(p) && f->held != NULL; j++) {
+        const unsigned held = local_forces_held(f, p->near.nodes.list[j]);
+        for (int c = 0; c < dim; c++)
+            if (held & ((unsigned)DEM_COMPONENT_X << c)) p->da[stage][components(p, j) + c] = 0.0;
+    }
 }
 
 /* Rates of the change at a stage. */
 static dem_status change_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
-    const int at = stage == END ? p->last : stage, rings = reach(p, stage);
-    const dem_index n = p->near.end[rings + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
-    const neighbourhood_state s = {stage_time(p, step, at), p->changed[0], p->changed[1], y};
-    add_change(p->x[at], p->dx[stage], n, n_changed, p->changed[0]);
-    add_change(p->v[at], p->dv[stage], n, n_changed, p->changed[1]);
-    if (needs_state(p)) neighbourhood_put(&p->near, &s, n);
+    const int at = stage == END ? p->last : stage, ring = reach(p, stage);
+    const dem_index n = p->near.nodes.end[ring + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
+    const dem_index size = components(p, n), size_changed = components(p, n_changed);
+    const dem_index accelerated = components(p, p->near.nodes.end[ring]), moving = components(p, n_moving(p));
+    const local_state s = {stage_time(p, step, at), p->changed[0], p->changed[1], y};
+    add_change(p->x[at], p->dx[stage], size, size_changed, p->changed[0]);
+    add_change(p->v[at], p->dv[stage], size, size_changed, p->changed[1]);
+    if (needs_state(p)) neighbourhood_put(&p->near, &s, n, y);
     put_time(p, step, at, y);
-    neighbourhood_accelerate(&p->near, rings, &s, p->changed[2]);
-    for (dem_index k = 0; k < 2 * n_moving(p); k++)
-        p->da[stage][k] = k < 2 * p->near.end[rings] ? p->changed[2][k] - p->a[at][k] : 0.0;
-    for (dem_index k = 0; k < 2 * n_moving(p) && acting(p)->boundaries != NULL; k++)
-        if (forces_held(acting(p), p->near.nodes[k / 2].i) & ((unsigned)DEM_COMPONENT_X << (k & 1)))
-            p->da[stage][k] = 0.0;
+    neighbourhood_accelerate(&p->near, ring, &s, p->changed[2]);
+    for (dem_index k = 0; k < moving; k++) p->da[stage][k] = k < accelerated ? p->changed[2][k] - p->a[at][k] : 0.0;
+    hold_prescribed(p, stage);
     return add_rates(p, stage, 1.0, (constraint_state){s.t, y});
 }
 
 static motion_change jump_at(const local_correction *p, int stage, dem_index j)
 {
-    const double *x = p->dx[stage] + 2 * j, *v = p->dv[stage] + 2 * j, *a = p->da[stage] + 2 * j;
-    return (motion_change){{x[0], x[1]}, {v[0], v[1]}, {a[0], a[1]}};
+    const state_layout *l = &p->near.layout;
+    const dem_index at = components(p, j);
+    motion_change out;
+    state_copy_row(l, out.x, p->dx[stage] + at);
+    state_copy_row(l, out.v, p->dv[stage] + at);
+    state_copy_row(l, out.a, p->da[stage] + at);
+    return out;
 }
 
-/* The change that makes the slope of a node's velocity at the event its acceleration after the event: parabolas have
- * that slope with an error of order h^2. A contact that begins to slide is pushed by the small force that exceeds
+/* Finds the change that makes the slope of a node's velocity at the event its acceleration after the event: parabolas
+ * have that slope with an error of order h^2. A contact that begins to slide is pushed by the small force that exceeds
  * friction: with a slope that is wrong by more it would turn back at once, and again at every attempt. */
-static vec2 change_of_slope(const local_correction *p, dem_index j, const motion_polynomial *motion)
+static void put_change_of_slope(const local_correction *p, dem_index j, const motion_polynomial *motion, double *change)
 {
-    const unsigned held = forces_held(acting(p), p->near.nodes[j].i);
-    const vec2 after = vec2_add(vec2_at(p->a[0], j), vec2_at(p->da[0], j));
+    const unsigned held = local_forces_held(p->near.forces, p->near.nodes.list[j]);
+    const double *a = p->a[0] + components(p, j), *da = p->da[0] + components(p, j);
     const double per_h = p->h > 0.0 ? 1.0 / p->h : 0.0;
-    const vec2 change = {after.x - per_h * motion->c[0][1][1], after.y - per_h * motion->c[1][1][1]};
-    return (vec2){held & DEM_COMPONENT_X ? 0.0 : change.x, held & DEM_COMPONENT_Y ? 0.0 : change.y};
+    for (int c = 0; c < motion->dim; c++)
+        change[c] = held & ((unsigned)DEM_COMPONENT_X << c) ? 0.0 : a[c] + da[c] - per_h * motion->c[c][1][1];
 }
 
 /* Adds a change to a motion. Heun's position at the end lacks h^3/6 times the rate at which the acceleration grows, as
@@ -332,14 +342,12 @@ static vec2 change_of_slope(const local_correction *p, dem_index j, const motion
 static void add_change_of_node(const local_correction *p, dem_index j, motion_polynomial *motion)
 {
     const motion_change end = jump_at(p, END, j);
-    motion_change at = jump_at(p, 0, j);
-    motion_change by = {.x = {0.0}};
-    for (int d = 0; d < 2; d++) {
-        by.x[d] = end.x[d] - at.x[d];
-        by.v[d] = end.v[d] - at.v[d];
-        by.a[d] = end.a[d] - at.a[d];
-    }
-    if (p->parabolic && j < p->near.end[reach(p, 0)]) vec2_put(at.a, 0, change_of_slope(p, j, motion));
+    const state_layout *l = &p->near.layout;
+    motion_change at = jump_at(p, 0, j), by;
+    state_subtract_rows(l, by.x, end.x, at.x);
+    state_subtract_rows(l, by.v, end.v, at.v);
+    state_subtract_rows(l, by.a, end.a, at.a);
+    if (p->parabolic && j < p->near.nodes.end[reach(p, 0)]) put_change_of_slope(p, j, motion, at.a);
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
 
@@ -356,10 +364,10 @@ static dem_status leave(const local_correction *p, changed_motion *tr, dem_index
 
 static double squared_error(const local_correction *p)
 {
-    const dem_index n = p->near.layout.n_nodes;
+    const double n_unknowns = 2.0 * (double)components(p, p->near.layout.n_nodes);
     double weights[LOCAL_CORRECTION_STAGES], x_sum = 0.0, v_sum = 0.0;
     for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
-    for (dem_index k = 0; k < 2 * n_moving(p); k++) {
+    for (dem_index k = 0; k < components(p, n_moving(p)); k++) {
         double x = 0.0, v = 0.0;
         for (int q = 0; q < p->table.stages; q++) {
             x += weights[q] * p->dv[q][k];
@@ -369,29 +377,30 @@ static double squared_error(const local_correction *p)
         v_sum += v * v;
     }
     const double x_scale = p->rule.position_error, v_scale = p->rule.velocity_error;
-    return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / (4.0 * (double)n);
+    return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / n_unknowns;
 }
 
 dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
                                   double *error)
 {
-    const double *v = state + state_velocities(&step->layout);
+    const state_layout *l = &step->layout;
+    const dem_index *list = p->near.nodes.list;
     TRY(neighbourhood_regroup(&p->near));
     for (dem_index j = 0; j < n_moving(p); j++) {
-        const dem_index i = p->near.nodes[j].i;
-        vec2_put(p->dx[0], j, vec2_sub(vec2_at(state, i), vec2_at(p->x[0], j)));
-        vec2_put(p->dv[0], j, vec2_sub(vec2_at(v, i), vec2_at(p->v[0], j)));
+        const dem_index at = components(p, j);
+        state_subtract_rows(l, p->dx[0] + at, state_x(l, state, list[j]), p->x[0] + at);
+        state_subtract_rows(l, p->dv[0] + at, state_v(l, state, list[j]), p->v[0] + at);
     }
     for (int stage = 0; stage <= p->table.stages; stage++) {
         const int at = stage < p->table.stages ? stage : END;
         if (stage > 0) advance(p, at);
         TRY(change_stage(p, step, at, state));
     }
-    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, p->near.nodes[j].i, &p->motions[j]));
+    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, list[j], &p->motions[j]));
     for (dem_index b = 0; b < p->n_quadratures; b++) {
         motion_polynomial motion;
         find_motion(p, step, p->book[b], &motion);
-        TRY(leave(p, tr, p->near.n + b, p->book[b], &motion));
+        TRY(leave(p, tr, p->near.nodes.n + b, p->book[b], &motion));
     }
     *error = squared_error(p);
     return DEM_OK;

@@ -31,7 +31,7 @@ typedef struct local_correction {
     dem_index capacity;
     dem_index *book;            /* [n_quadratures] their places in a state */
     motion_polynomial *motions; /* of the nodes after t, without the event */
-    double *block;              /* memory of the arrays that follow, [n + n_quadratures][2] each */
+    double *block;              /* memory of the arrays that follow, [n + n_quadratures][dim] each */
     double *x[LOCAL_CORRECTION_STAGES], *v[LOCAL_CORRECTION_STAGES],
         *a[LOCAL_CORRECTION_STAGES]; /* x, v, x'' at each stage, without the event */
     double *dx[LOCAL_CORRECTION_STAGES + 1], *dv[LOCAL_CORRECTION_STAGES + 1],
@@ -40,7 +40,7 @@ typedef struct local_correction {
 } local_correction;
 
 /** Borrows forces and constraints (NULL: none). Free with local_correction_destroy(). */
-dem_status local_correction_create(local_correction *out, const state_layout *l, const forces *acting,
+dem_status local_correction_create(local_correction *out, const state_layout *l, const local_forces *f,
                                    const constraints *c, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 

@@ -16,9 +16,8 @@ dem_status external_force_create(external_force **out, const dem_options *option
     CHECK_MEMORY(c);
     *c = (external_force){.force = options->force, .context = options->force_context, .n_nodes = n_nodes};
     c->all = malloc(n * sizeof *c->all);
-    c->some = malloc(n * sizeof *c->some);
     c->value = malloc(2 * n * sizeof *c->value);
-    if (!(c->all && c->some && c->value)) {
+    if (c->all == NULL || c->value == NULL) {
         external_force_destroy(c);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for forces on %lld nodes", (long long)n_nodes);
     }
@@ -31,7 +30,6 @@ void external_force_destroy(external_force *c)
 {
     if (c == NULL) return;
     free(c->all);
-    free(c->some);
     free(c->value);
     free(c);
 }

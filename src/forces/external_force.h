@@ -13,7 +13,6 @@ typedef struct external_force {
     void *context;
     dem_index n_nodes;
     dem_index *all;    /* [n_nodes] 0, 1, 2 ... */
-    dem_index *some;   /* [n_nodes] for queries about some nodes only */
     double *value;     /* [n_nodes][2] N, of the last query about more than one node */
     dem_status status; /* DEM_OK; else a failure, since which the force is 0 */
     double t;          /* s, when */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What acts on the nodes of one simulation, contact with obstacles apart: force and acceleration of a node, whom they
  * depend on, their power and the energy that they store. Here it goes node by node; the sweep over all nodes (kernel.c)
- * and the springs near an event (events/neighbourhood.c) evaluate the same terms, the sweep with equal bits.
+ * and the springs near an event (local_springs.c) evaluate the same terms, the sweep with equal bits.
  *
  * A further law, of contact between surfaces say, comes as files of its own and a pointer to it in `forces`, NULL where
  * there is none, as boundary conditions do: forces_push() shows where. It adds

@@ -9,6 +9,7 @@
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "forces/kernel.h"
+#include "forces/local_springs.h"
 #include "model/overlap.h"
 #include "simulation/observers.h"
 #include "time/integrator.h"
@@ -34,8 +35,10 @@ struct dem_simulation {
     overlap overlap;
     automaton automaton;
     contact_source contact_events; /* those inside steps */
-    constraints closed_contacts;   /* as events see them */
-    event_queue queue;             /* of the events inside steps; without sources if the whole body stops at them */
+    local_springs local_springs;
+    local_forces local_forces;   /* those of local_springs, as events see them */
+    constraints closed_contacts; /* as events see them */
+    event_queue queue;           /* of the events inside steps; without sources if the whole body stops at them */
     integrator integrator;
     double t;              /* s, of y */
     double step;           /* s, length of the last committed step */

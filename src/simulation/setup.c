@@ -55,9 +55,11 @@ static forces forces_of(const dem_simulation *s)
 /* Contact is the first source of events, and so comes first of those at the same time. */
 static dem_status set_up_events(dem_simulation *s, const local_correction_rule *rule)
 {
+    local_springs_create(&s->local_springs, &s->forces, &s->layout);
+    s->local_forces = local_springs_forces(&s->local_springs);
     s->closed_contacts = contact_constraints_of(&s->automaton);
     TRY(contact_source_create(&s->contact_events, &s->automaton));
-    TRY(event_queue_create(&s->queue, &s->layout, &s->forces, &s->closed_contacts, rule,
+    TRY(event_queue_create(&s->queue, &s->layout, &s->local_forces, &s->closed_contacts, rule,
                            !(s->options.fixed_step > 0.0)));
     return event_queue_add_source(&s->queue, contact_source_events(&s->contact_events));
 }
@@ -146,6 +148,7 @@ void dem_simulation_destroy(dem_simulation *s)
     kernel_destroy(&s->kernel);
     event_queue_destroy(&s->queue);
     contact_source_destroy(&s->contact_events);
+    local_springs_destroy(&s->local_springs);
     automaton_destroy(&s->automaton);
     boundary_conditions_free(&s->boundaries);
     external_force_destroy(s->external);

@@ -23,7 +23,7 @@ ROOMS = [  # pattern, files that may have it
     (r"\b(TODO|FIXME|XXX|HACK)\b", set()),
 ]
 # Rooms that know no number of dimensions, so no vectors of two components; and their files that still do.
-DIMENSION_FREE = {"base", "time", "simulation", "output"}
+DIMENSION_FREE = {"base", "time", "events", "simulation", "output"}
 TWO_DIMENSIONAL = {"src/base/vec2.h", "src/simulation/options.c", "src/output/event_table.c", "src/output/probe.c"}
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 

@@ -11,6 +11,7 @@
 #include "contact/contact_constraints.h"
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
+#include "forces/local_springs.h"
 #include "support.h"
 
 enum { most_steps = 400 };
@@ -116,15 +117,18 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     const double one[2] = {p->options.rtol * p->options.spacing, p->options.rtol * p->options.v_scale};
     automaton c;
     contact_source source;
+    local_springs local;
     event_queue q;
     assert_true(arrays != NULL && gsl != NULL);
     spread(p, y, y0);
     assert_ok(automaton_create(&c, &p->acting, &p->rule));
     assert_ok(automaton_start(&c, t, y0, &nobody));
+    local_springs_create(&local, &p->acting, &p->rule.layout);
+    const local_forces near = local_springs_forces(&local);
     const constraints closed = contact_constraints_of(&c);
     assert_ok(contact_source_create(&source, &c));
-    assert_ok(event_queue_create(&q, &p->rule.layout, &p->acting, &closed, &(local_correction_rule){5, one[0], one[1]},
-                                 true));
+    assert_ok(
+        event_queue_create(&q, &p->rule.layout, &near, &closed, &(local_correction_rule){5, one[0], one[1]}, true));
     assert_ok(event_queue_add_source(&q, contact_source_events(&source)));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
@@ -140,6 +144,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     }
     event_queue_destroy(&q);
     contact_source_destroy(&source);
+    local_springs_destroy(&local);
     automaton_destroy(&c);
     gsl_odeiv2_step_free(gsl);
     free(arrays);

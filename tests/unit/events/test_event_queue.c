@@ -9,6 +9,7 @@
 #include "contact/contact_constraints.h"
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
+#include "forces/local_springs.h"
 #include "verification/support.h"
 
 enum { most_nodes = 6, most_state = 4 * (most_nodes + 4) };
@@ -22,6 +23,8 @@ typedef struct rig {
     automaton c;
     contact_source contact;
     constraints closed;
+    local_springs springs;
+    local_forces near;
     event_queue q;
     dem_index n, n_all;
     double y0[most_state], f0[most_state], y1[most_state], f1[most_state], state[most_state];
@@ -44,10 +47,12 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     assert_ok(dem_model_create(&r->model, lattice, &plane, 1));
     r->acting = (forces){.model = r->model, .gravity = {0.0, lattice->n_springs > 0 ? 0.0 : -g}};
     assert_ok(automaton_create(&r->c, &r->acting, &rule));
+    local_springs_create(&r->springs, &r->acting, &rule.layout);
+    r->near = local_springs_forces(&r->springs);
     r->closed = contact_constraints_of(&r->c);
     assert_ok(contact_source_create(&r->contact, &r->c));
     assert_ok(event_queue_create(
-        &r->q, &rule.layout, &r->acting, &r->closed,
+        &r->q, &rule.layout, &r->near, &r->closed,
         &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0}, error != NULL));
     assert_ok(event_queue_add_source(&r->q, contact_source_events(&r->contact)));
 }
@@ -75,6 +80,7 @@ static void close_rig(rig *r)
 {
     event_queue_destroy(&r->q);
     contact_source_destroy(&r->contact);
+    local_springs_destroy(&r->springs);
     automaton_destroy(&r->c);
     dem_model_destroy(r->model);
 }

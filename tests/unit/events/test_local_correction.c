@@ -11,6 +11,7 @@
 #include "contact/automaton_step.h"
 #include "contact/contact_constraints.h"
 #include "events/local_correction.h"
+#include "forces/local_springs.h"
 #include "verification/support.h"
 
 static const double spacing = 0.01, start = 2e-4, position_error = 1e-8, velocity_error = 1e-5;
@@ -29,6 +30,8 @@ typedef struct step {
     forces acting;
     automaton c, before; /* contacts as they are, and as they were */
     constraints closed;  /* those of c */
+    local_springs springs;
+    local_forces near;
     dem_index n, n_all;
     double h;
     double *y0, *f0, *y1, *f1, *state, *first, *last;
@@ -202,8 +205,10 @@ static void open_step(step *s, kind k)
     s->y0 = zeros(s), s->f0 = zeros(s), s->y1 = zeros(s), s->f1 = zeros(s);
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
+    local_springs_create(&s->springs, &s->acting, scene_layout(&s->c.set.scene));
+    s->near = local_springs_forces(&s->springs);
     s->closed = contact_constraints_of(&s->c);
-    assert_ok(local_correction_create(&s->correction, scene_layout(&s->c.set.scene), &s->acting, &s->closed,
+    assert_ok(local_correction_create(&s->correction, scene_layout(&s->c.set.scene), &s->near, &s->closed,
                                       &(local_correction_rule){5, position_error, velocity_error}));
     assert_ok(changed_motion_create(&s->changed, scene_layout(&s->c.set.scene)));
 }
@@ -211,6 +216,7 @@ static void open_step(step *s, kind k)
 static void close_step(step *s)
 {
     local_correction_destroy(&s->correction);
+    local_springs_destroy(&s->springs);
     changed_motion_destroy(&s->changed);
     automaton_destroy(&s->c);
     automaton_destroy(&s->before);
@@ -361,8 +367,9 @@ static void check_derivative(step *s)
 {
     double *f = zeros(s);
     derive(s, &s->c, s->dense.t1, s->y1, f);
-    for (dem_index j = 0; j < s->correction.near.end[s->correction.near.n_rings - 2]; j++)
-        for (dem_index k = 2 * s->correction.near.nodes[j].i; k < 2 * s->correction.near.nodes[j].i + 2; k++) {
+    const local_nodes *nodes = &s->correction.near.nodes;
+    for (dem_index j = 0; j < nodes->end[nodes->n_rings - 2]; j++)
+        for (dem_index k = 2 * nodes->list[j]; k < 2 * nodes->list[j] + 2; k++) {
             assert_close(s->f1[k], f[k], 1e-13 * (1.0 + fabs(f[k])));
             assert_close(s->f1[2 * s->n_all + k], f[2 * s->n_all + k], 1e-10 * s->model->omega_max);
         }
@@ -430,8 +437,8 @@ static void check_parabolas(step *s)
     const dem_index n = 2 * s->n_all;
     dense_output_state(&s->dense, s->correction.t, y);
     derive(s, &s->c, s->correction.t, y, f);
-    for (dem_index j = 0; j < s->correction.near.end[1]; j++) {
-        const dem_index i = s->correction.near.nodes[j].i;
+    for (dem_index j = 0; j < s->correction.near.nodes.end[1]; j++) {
+        const dem_index i = s->correction.near.nodes.list[j];
         const motion_polynomial *m = changed_motion_of(&s->changed, i);
         for (int d = 0; d < 2; d++) {
             const double *x1 = s->y1 + 2 * i + d;
@@ -475,7 +482,7 @@ static void prescribed_nodes_keep_their_parabolas(void **state)
     dense_output_motion(&s.dense, next, &expected);
     s.b.held[next] = DEM_COMPONENT_Y;
     begin(&s, k, 0.25);
-    assert_true(neighbourhood_has(&s.correction.near, next, 1));
+    assert_true(local_nodes_have(&s.correction.near.nodes, next, 1));
     vec2_put(s.state, s.n_all + i, vec2_add(vec2_at(s.state, s.n_all + i), (vec2){0.0, 7.0}));
     assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
     const motion_polynomial *m = changed_motion_of(&s.changed, next);
@@ -598,6 +605,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     dem_model *model;
     automaton c;
     local_correction near;
+    local_springs local;
     changed_motion tr;
     (void)state;
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
@@ -605,8 +613,11 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     dem_lattice_free(&lattice);
     const forces acting = {.model = model, .gravity = {0.0, -g}};
     assert_ok(automaton_create(&c, &acting, &rule));
+    local_springs_create(&local, &acting, &rule.layout);
+    const local_forces forces_near = local_springs_forces(&local);
     const constraints closed = contact_constraints_of(&c);
-    assert_ok(local_correction_create(&near, &rule.layout, &acting, &closed, &(local_correction_rule){5, 1.0, 1.0}));
+    assert_ok(
+        local_correction_create(&near, &rule.layout, &forces_near, &closed, &(local_correction_rule){5, 1.0, 1.0}));
     assert_ok(changed_motion_create(&tr, &rule.layout));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
@@ -634,6 +645,7 @@ static void a_node_that_lands_is_booked_by_closed_forms(void **state)
     changed_motion_undo(&tr);
     assert_close(y1[13], 0.0, 0.0);
     local_correction_destroy(&near);
+    local_springs_destroy(&local);
     changed_motion_destroy(&tr);
     automaton_destroy(&c);
     dem_model_destroy(model);
@@ -659,9 +671,11 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     s.n = s.n_all = l.n_nodes;
     rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
     s.acting = (forces){.model = s.model};
+    local_springs_create(&s.springs, &s.acting, &rule.layout);
+    s.near = local_springs_forces(&s.springs);
     assert_ok(automaton_create(&s.c, &s.acting, &rule));
     assert_ok(
-        local_correction_create(&s.correction, &rule.layout, &s.acting, NULL, &(local_correction_rule){5, 1.0, 1.0}));
+        local_correction_create(&s.correction, &rule.layout, &s.near, NULL, &(local_correction_rule){5, 1.0, 1.0}));
     assert_ok(changed_motion_create(&s.changed, &rule.layout));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "contact/contact_constraints.h"
+#include "forces/local_springs.h"
 #include "verification/support.h"
 
 typedef struct rig {
@@ -13,6 +14,8 @@ typedef struct rig {
     forces acting;
     automaton c;
     constraints closed;
+    local_springs springs;
+    local_forces near;
     neighbourhood b;
     dem_index n;
     double *y, *x, *v, *a; /* [4 n] states and what the neighbourhood has of them */
@@ -35,7 +38,9 @@ static void open_rig(rig *r, double poissons_ratio, int n_rings)
     r->acting = (forces){.model = r->model, .gravity = {0.0, -9.81}, .mass_damping = 3.0};
     assert_ok(automaton_create(&r->c, &r->acting, &rule));
     r->closed = contact_constraints_of(&r->c);
-    assert_ok(neighbourhood_create(&r->b, &rule.layout, &r->acting, &r->closed, n_rings));
+    local_springs_create(&r->springs, &r->acting, &rule.layout);
+    r->near = local_springs_forces(&r->springs);
+    assert_ok(neighbourhood_create(&r->b, &rule.layout, &r->near, &r->closed, n_rings));
     r->y = calloc(4 * (size_t)r->n, sizeof(double));
     r->x = calloc(3 * 2 * (size_t)r->n, sizeof(double));
     assert_true(r->y != NULL && r->x != NULL);
@@ -51,6 +56,7 @@ static void open_rig(rig *r, double poissons_ratio, int n_rings)
 static void close_rig(rig *r)
 {
     neighbourhood_destroy(&r->b);
+    local_springs_destroy(&r->springs);
     automaton_destroy(&r->c);
     dem_model_destroy(r->model);
     free(r->y);
@@ -107,10 +113,10 @@ static void rings_are_distances(void **state)
         int *d = distances(&r, r.model->contact_nodes[candidate + turn]);
         assert_ok(gather(&r, candidate + turn));
         for (dem_index i = 0; i < r.n; i++) {
-            assert_int_equal(r.b.number[i] >= 0, d[i] <= 4);
-            for (int ring = 0; ring <= 4; ring++) assert_int_equal(neighbourhood_has(&r.b, i, ring), d[i] <= ring);
+            assert_int_equal(r.b.nodes.number[i] >= 0, d[i] <= 4);
+            for (int ring = 0; ring <= 4; ring++) assert_int_equal(local_nodes_have(&r.b.nodes, i, ring), d[i] <= ring);
         }
-        for (dem_index j = 0; j < r.b.n; j++) assert_int_equal(r.b.number[r.b.nodes[j].i], j);
+        for (dem_index j = 0; j < r.b.nodes.n; j++) assert_int_equal(r.b.nodes.number[r.b.nodes.list[j]], j);
         free(d);
     }
     close_rig(&r);
@@ -119,21 +125,24 @@ static void rings_are_distances(void **state)
 /* As far as two rings. Sums of forces of 1e3 N on 0.02 kg, in another order: 1e-16 times some ten of them. */
 static void check_accelerations(rig *r)
 {
-    const neighbourhood_state s = {0.0, r->x, r->v, calloc(4 * (size_t)r->n, sizeof(double))};
-    assert_non_null(s.y);
-    for (dem_index j = 0; j < r->b.n; j++) {
-        vec2_put(r->x, j, vec2_at(r->y, r->b.nodes[j].i));
-        vec2_put(r->v, j, vec2_at(r->y, r->n + r->b.nodes[j].i));
+    const local_nodes *nodes = &r->b.nodes;
+    double *y = calloc(4 * (size_t)r->n, sizeof *y);
+    const local_state s = {0.0, r->x, r->v, y};
+    assert_non_null(y);
+    for (dem_index j = 0; j < nodes->n; j++) {
+        vec2_put(r->x, j, vec2_at(r->y, nodes->list[j]));
+        vec2_put(r->v, j, vec2_at(r->y, r->n + nodes->list[j]));
     }
-    neighbourhood_put(&r->b, &s, r->b.end[3]);
+    neighbourhood_put(&r->b, &s, nodes->end[3], y);
     neighbourhood_accelerate(&r->b, 2, &s, r->a);
     double *all = calloc(2 * (size_t)r->n, sizeof *all);
     assert_non_null(all);
     for (dem_index i = 0; i < r->n; i++) vec2_put(all, i, forces_acceleration(&r->acting, i, r->y, r->y + 2 * r->n));
     contact_forces_hold(&r->c.set.forces, (scene_state){0.0, r->y, r->y + 2 * r->n}, all);
-    for (dem_index k = 0; k < 2 * r->b.end[2]; k++) assert_close(r->a[k], all[2 * r->b.nodes[k / 2].i + (k & 1)], 1e-9);
+    for (dem_index k = 0; k < 2 * nodes->end[2]; k++)
+        assert_close(r->a[k], all[2 * nodes->list[k / 2] + (k & 1)], 1e-9);
     free(all);
-    free(s.y);
+    free(y);
 }
 
 static void accelerations_are_the_models(void **state)
@@ -142,7 +151,7 @@ static void accelerations_are_the_models(void **state)
     for (int area = 0; area < 2; area++) {
         rig r;
         open_rig(&r, area ? 0.2 : 1.0 / 3.0, 4);
-        assert_int_equal(r.b.plain, !area);
+        assert_int_equal(r.springs.plain, !area);
         assert_ok(gather(&r, bottom_candidate(&r)));
         check_accelerations(&r);
         close_rig(&r);

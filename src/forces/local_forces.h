@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on the nodes near an event, constraints apart: a table of functions for those who know no number of
+ * dimensions. local_springs.c fills it for the forces of a model. */
+#ifndef DEM_FORCES_LOCAL_FORCES_H
+#define DEM_FORCES_LOCAL_FORCES_H
+
+#include "base/state.h"
+#include "forces/local_nodes.h"
+
+/** A state of local nodes. */
+typedef struct local_state {
+    double t;            /* s */
+    const double *x, *v; /* [n][dim] by their numbers */
+    const double *y;     /* a state of all nodes, filled where it is read */
+} local_state;
+
+typedef struct local_forces {
+    void *self;
+    bool couple_velocities;    /* the force on a node depends on the velocities of its neighbours */
+    bool are_driven;           /* they depend on the time, which they read in the state of all nodes */
+    bool read_state;           /* as they do the positions and velocities */
+    bool have_power;           /* add_power() may add something */
+    const unsigned char *held; /* [n_nodes] components of the motion that are prescribed; NULL: none are */
+    /** Adds to the nodes those that the forces on some of them depend on: of places `first` to `last` - 1. */
+    dem_status (*add_neighbours)(const void *self, local_nodes *nodes, dem_index first, dem_index last);
+    /** Computes the acceleration a [dim] of one node in a whole state y. */
+    void (*accelerate_one)(const void *self, dem_index node, const double *y, double *a);
+    /** Lists what acts between the nodes, for the calls of accelerate() that follow. */
+    dem_status (*gather)(void *self, const local_nodes *nodes);
+    /** Computes the accelerations a [n][dim] of the nodes of a ring or nearer, in a state that is filled as far as the
+     *  next ring. */
+    void (*accelerate)(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a);
+    /** Evaluates the external force, if there is one, on these nodes, as accelerate() does: add_power() takes its last
+     *  values. */
+    void (*evaluate_external)(void *self, const local_nodes *nodes, int ring, const local_state *s);
+    /** Adds the power of the forces on these nodes to the totals [STATE_TOTALS]. */
+    void (*add_power)(const void *self, const local_nodes *nodes, int ring, const double *y, double *totals);
+} local_forces;
+
+/** Components of the motion of a node that are prescribed. */
+static inline unsigned local_forces_held(const local_forces *f, dem_index node)
+{
+    return f->held != NULL ? f->held[node] : 0;
+}
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Keeps a list, and the place of each node in it. */
+#include "forces/local_nodes.h"
+
+#include <stdlib.h>
+
+#include "base/grow.h"
+#include "base/status.h"
+
+dem_status local_nodes_create(local_nodes *out, dem_index n_nodes, int n_rings)
+{
+    local_nodes b = {.n_rings = n_rings, .number = malloc((size_t)n_nodes * sizeof *b.number)};
+    CHECK(b.number != NULL, DEM_ERROR_MEMORY, "out of memory for the neighbours of %lld nodes", (long long)n_nodes);
+    for (dem_index i = 0; i < n_nodes; i++) b.number[i] = -1;
+    *out = b;
+    return DEM_OK;
+}
+
+void local_nodes_destroy(local_nodes *b)
+{
+    free(b->number);
+    free(b->list);
+    *b = (local_nodes){0};
+}
+
+void local_nodes_clear(local_nodes *b)
+{
+    for (dem_index j = 0; j < b->n; j++) b->number[b->list[j]] = -1;
+    b->n = 0;
+}
+
+dem_status local_nodes_append(local_nodes *b, dem_index node)
+{
+    CHECK(grow_array((void **)&b->list, &b->capacity, b->n + 1, sizeof *b->list), DEM_ERROR_MEMORY,
+          "out of memory for what is near an event");
+    b->number[node] = (int32_t)b->n;
+    b->list[b->n++] = node;
+    return DEM_OK;
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Lists springs by local numbers, and evaluates what acts on nodes. */
+#include "forces/local_springs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+
+void local_springs_create(local_springs *out, const forces *f, const state_layout *l)
+{
+    *out = (local_springs){.forces = f, .velocities = state_velocities(l), .plain = forces_are_plain(f)};
+}
+
+void local_springs_destroy(local_springs *b)
+{
+    free(b->bonds);
+    free(b->stiffness);
+    *b = (local_springs){0};
+}
+
+static dem_status springs_add_neighbours(const void *self, local_nodes *nodes, dem_index first, dem_index last)
+{
+    const forces *f = ((const local_springs *)self)->forces;
+    for (dem_index p = first; p < last; p++)
+        for (forces_neighbours j = forces_neighbours_of(f, nodes->list[p]); forces_next_neighbour(&j);)
+            TRY(local_nodes_add(nodes, j.node));
+    return DEM_OK;
+}
+
+/* ---- springs ---- */
+
+static dem_status reserve(local_springs *b, dem_index n)
+{
+    if (n <= b->capacity) return DEM_OK;
+    local_bond *bonds = malloc(2 * (size_t)n * sizeof *bonds);
+    double *reals = malloc(10 * (size_t)n * sizeof *reals);
+    if (bonds == NULL || reals == NULL) {
+        free(bonds);
+        free(reals);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for what is near an event");
+    }
+    free(b->bonds);
+    free(b->stiffness);
+    b->capacity = 2 * n;
+    b->bonds = bonds;
+    b->stiffness = reals;
+    b->rest_length = reals + 2 * n;
+    b->dx = reals + 4 * n;
+    b->dy = reals + 6 * n;
+    b->pull = reals + 8 * n;
+    return DEM_OK;
+}
+
+/* Lists the springs of a node, but those listed from their other end. */
+static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
+{
+    const springs *s = &b->forces->model->springs;
+    const dem_index i = nodes->list[j];
+    const unsigned char *broken = element_state_springs(element_state_at(b->forces->elements, i));
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const int32_t other = nodes->number[s->neighbour[p]];
+        if (other < j || springs_broken(s, broken, p)) continue;
+        b->bonds[b->n_bonds] = (local_bond){(int32_t)j, other};
+        b->stiffness[b->n_bonds] = s->stiffness[p];
+        b->rest_length[b->n_bonds++] = s->rest_length[p];
+    }
+}
+
+static dem_status springs_gather(void *self, const local_nodes *nodes)
+{
+    local_springs *b = self;
+    const springs *s = &b->forces->model->springs;
+    dem_index most = 0;
+    if (!b->plain) return DEM_OK;
+    for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
+        most += s->row[nodes->list[j] + 1] - s->row[nodes->list[j]];
+    TRY(reserve(b, most));
+    b->n_bonds = 0;
+    for (int ring = 0; ring < nodes->n_rings; ring++) {
+        for (dem_index j = local_nodes_begin(nodes, ring); j < nodes->end[ring]; j++) add_bonds(b, nodes, j);
+        b->bonds_end[ring] = b->n_bonds;
+    }
+    return DEM_OK;
+}
+
+/* ---- accelerations ---- */
+
+/* Forces (1) of springs on the nodes of a ring or nearer; f [n][2] has room for one ring more. Compilers make vector
+ * instructions of the loop in the middle. */
+static void pull(const local_springs *b, const local_nodes *nodes, int ring, const double *x, double *f)
+{
+    const dem_index n = b->bonds_end[ring];
+    double *restrict dx = b->dx, *restrict dy = b->dy, *restrict factor = b->pull;
+    for (dem_index k = 0; k < n; k++) {
+        const vec2 d = vec2_sub(vec2_at(x, b->bonds[k].second), vec2_at(x, b->bonds[k].first));
+        dx[k] = d.x;
+        dy[k] = d.y;
+    }
+    for (dem_index k = 0; k < n; k++)
+        factor[k] = springs_pull(b->stiffness[k], b->rest_length[k], sqrt(dx[k] * dx[k] + dy[k] * dy[k]));
+    memset(f, 0, 2 * (size_t)nodes->end[ring + 1] * sizeof *f);
+    for (dem_index k = 0; k < n; k++) {
+        const local_bond bond = b->bonds[k];
+        const vec2 force = {factor[k] * dx[k], factor[k] * dy[k]};
+        vec2_put(f, bond.first, vec2_add(vec2_at(f, bond.first), force));
+        vec2_put(f, bond.second, vec2_sub(vec2_at(f, bond.second), force));
+    }
+}
+
+static void accelerate_plain(const local_springs *b, const local_nodes *nodes, int ring, const local_state *s,
+                             double *a)
+{
+    pull(b, nodes, ring, s->x, a);
+    for (dem_index j = 0; j < nodes->end[ring]; j++)
+        vec2_put(a, j, forces_acceleration_by(b->forces, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
+}
+
+static void springs_evaluate_external(void *self, const local_nodes *nodes, int ring, const local_state *s)
+{
+    const local_springs *b = self;
+    external_force *c = b->forces->external;
+    if (c == NULL) return;
+    const double t = s->y[b->velocities + b->forces->clock];
+    external_force_evaluate(c, &(dem_force_query){t, nodes->end[ring], nodes->list, s->x, s->v});
+}
+
+static void springs_accelerate(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a)
+{
+    const local_springs *b = self;
+    const forces *f = b->forces;
+    const double *v = s->y + b->velocities;
+    if (b->plain) accelerate_plain(b, nodes, ring, s, a);
+    for (dem_index j = 0; j < nodes->end[ring] && !b->plain; j++)
+        vec2_put(a, j, forces_own_acceleration(f, nodes->list[j], s->y, v));
+    springs_evaluate_external(self, nodes, ring, s);
+    for (dem_index j = 0; j < nodes->end[ring] && f->external != NULL; j++)
+        vec2_put(a, j, forces_with_external(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
+}
+
+static void springs_accelerate_one(const void *self, dem_index node, const double *y, double *a)
+{
+    const local_springs *b = self;
+    vec2_put(a, 0, forces_acceleration(b->forces, node, y, y + b->velocities));
+}
+
+static void springs_add_power(const void *self, const local_nodes *nodes, int ring, const double *y, double *totals)
+{
+    const local_springs *b = self;
+    const external_force *c = b->forces->external;
+    for (dem_index j = 0; j < nodes->end[ring]; j++) {
+        const vec2 external = c != NULL ? vec2_at(c->value, j) : (vec2){0.0, 0.0};
+        const forces_power power = forces_node_power(b->forces, nodes->list[j], external, y, y + b->velocities);
+        totals[STATE_DAMPING] += power.damping;
+        totals[STATE_WORK] += power.work;
+    }
+}
+
+local_forces local_springs_forces(local_springs *b)
+{
+    const forces *f = b->forces;
+    return (local_forces){.self = b,
+                          .couple_velocities = forces_couple_velocities(f),
+                          .are_driven = forces_are_driven(f),
+                          .read_state = !b->plain,
+                          .have_power = forces_have_power(f),
+                          .held = f->boundaries != NULL ? f->boundaries->held : NULL,
+                          .add_neighbours = springs_add_neighbours,
+                          .accelerate_one = springs_accelerate_one,
+                          .gather = springs_gather,
+                          .accelerate = springs_accelerate,
+                          .evaluate_external = springs_evaluate_external,
+                          .add_power = springs_add_power};
+}
