@@ -87,8 +87,8 @@ static void contact_settle(void *self, const changed_motion *changed)
 constraints contact_constraints_of(automaton *c)
 {
     return (constraints){.self = c,
-                         .group_at = c->set.forces.at_node,
-                         .a = c->set.forces.a,
+                         .group_at = &c->set.forces.at_node,
+                         .a = &c->set.forces.a,
                          .each_node = contact_each_node,
                          .solve = contact_solve,
                          .add_rates = contact_add_rates,

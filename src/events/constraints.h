@@ -21,8 +21,9 @@ typedef struct constraint_state {
 
 typedef struct constraints {
     void *self;
-    const dem_index *group_at; /* [n_nodes] the group that a node is in, or -1 */
-    const double *a;           /* [n_nodes][dim] m/s^2, of the nodes of a group as solved for last */
+    /* Where its arrays stand, as they may move: */
+    dem_index *const *group_at; /* [n_nodes] the group that a node is in, or -1 */
+    double *const *a;           /* [n_nodes][dim] m/s^2, of the nodes of a group as solved for last */
     /** Calls `add` for the nodes of a group, for some more than once.  \return what it returns, if not DEM_OK */
     dem_status (*each_node)(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
                             void *context);
@@ -40,7 +41,7 @@ typedef struct constraints {
 /** The group of a node, or -1; without constraints (NULL) there is none. */
 static inline dem_index constraints_group_at(const constraints *c, dem_index node)
 {
-    return c != NULL ? c->group_at[node] : -1;
+    return c != NULL ? (*c->group_at)[node] : -1;
 }
 
 #endif

@@ -157,7 +157,7 @@ static void renew(event_queue *q, dem_index i)
     const unsigned held = local_forces_held(q->forces, i);
     double *u = q->changed.f1 + state_row(l, i), *a = u + state_velocities(l), now[STATE_DIM_MOST];
     if (constraints_group_at(c, i) >= 0)
-        state_copy_row(l, now, c->a + state_row(l, i));
+        state_copy_row(l, now, *c->a + state_row(l, i));
     else
         q->forces->accelerate_one(q->forces->self, i, q->changed.y1, now);
     for (int d = 0; d < l->dim; d++)

@@ -112,7 +112,7 @@ static void constrain(neighbourhood *b, int ring, const local_state *s, double *
     for (dem_index g = 0; g < b->n_groups; g++)
         if (b->groups[g].ring <= ring) c->solve(c->self, b->groups[g].group, (constraint_state){s->t, s->y});
     for (dem_index j = 0; j < b->nodes.end[ring]; j++)
-        if (c->group_at[list[j]] >= 0) state_copy_row(l, a + state_row(l, j), c->a + state_row(l, list[j]));
+        if ((*c->group_at)[list[j]] >= 0) state_copy_row(l, a + state_row(l, j), *c->a + state_row(l, list[j]));
 }
 
 void neighbourhood_accelerate(neighbourhood *b, int ring, const local_state *s, double *a)
