@@ -110,7 +110,7 @@ static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, 
     const dem_index own = k - c->scene.model->n_contact_nodes, beyond = backwards ? s->previous[own] : s->next[own];
     if (beyond < 0) return -1;
     const contact_candidate *edge = &c->list[contact_set_of_edge(c, beyond)];
-    const bool taken = edge->n_closed == 2 || (edge->n_closed == 1 && edge->closed[0].feature == feature);
+    const bool taken = edge->n_closed == 2 || candidate_point_on(edge, feature) >= 0;
     return taken ? -1 : contact_set_of_edge(c, beyond);
 }
 

@@ -7,6 +7,12 @@
 
 #include "contact/surface_feature.h"
 
+/** What a candidate is, whatever its place in a list: its nodes. With a feature it is the key of a contact point, as a
+ *  candidate has one at most on each. */
+typedef struct contact_key {
+    dem_index node, other; /* other: -1 for a node */
+} contact_key;
+
 /** A closed contact of a candidate. */
 typedef struct contact_point {
     dem_index feature;      /* the segment on which a node is, or the vertex on which an edge is */
@@ -63,6 +69,24 @@ typedef struct contact_frame {
 static inline bool candidate_is_edge(const contact_candidate *candidate)
 {
     return candidate->other >= 0;
+}
+
+static inline contact_key candidate_key(const contact_candidate *candidate)
+{
+    return (contact_key){candidate->node, candidate->other};
+}
+
+static inline bool contact_key_equal(contact_key a, contact_key b)
+{
+    return a.node == b.node && a.other == b.other;
+}
+
+/** Which of its closed contacts a candidate has on a feature, or -1. */
+static inline int candidate_point_on(const contact_candidate *candidate, dem_index feature)
+{
+    for (int q = 0; q < candidate->n_closed; q++)
+        if (candidate->closed[q].feature == feature) return q;
+    return -1;
 }
 
 /** The feature with this number: a node touches segments, an edge touches vertices. */

@@ -55,6 +55,16 @@ void contact_set_destroy(contact_set *c)
     *c = (contact_set){0};
 }
 
+dem_index contact_set_find(const contact_set *c, contact_key key)
+{
+    const surface *s = &c->scene.model->surface;
+    if (key.other < 0) return c->of_node[key.node];
+    for (dem_index p = s->row[key.node]; p < s->row[key.node + 1] && c->n > c->scene.model->n_contact_nodes; p++)
+        if (contact_key_equal(candidate_key(&c->list[contact_set_of_edge(c, s->at[p])]), key))
+            return contact_set_of_edge(c, s->at[p]);
+    return -1;
+}
+
 dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -115,8 +125,7 @@ static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index 
     const surface *s = &c->scene.model->surface;
     for (dem_index p = s->row[node]; p < s->row[node + 1]; p++) {
         const dem_index e = contact_set_of_edge(c, s->at[p]);
-        for (int q = 0; e != k && q < c->list[e].n_closed; q++)
-            if (c->list[e].closed[q].feature == feature) return true;
+        if (e != k && candidate_point_on(&c->list[e], feature) >= 0) return true;
     }
     return false;
 }
@@ -277,10 +286,10 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
                        .normal = {f.normal.x, f.normal.y},
                        .before = {v.x, v.y},
                        .after = {v.x, v.y}};
-    for (int q = 0; q < candidate->n_closed; q++)
-        if (candidate->closed[q].feature == feature)
-            event.state =
-                candidate->closed[q].slide == 0 || candidate->closed[q].held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
+    const int q = candidate_point_on(candidate, feature);
+    if (q >= 0)
+        event.state =
+            candidate->closed[q].slide == 0 || candidate->closed[q].held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
     return event;
 }
 

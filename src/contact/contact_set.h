@@ -65,6 +65,9 @@ static inline dem_index contact_set_of_edge(const contact_set *c, dem_index edge
     return c->scene.model->n_contact_nodes + edge;
 }
 
+/** The candidate with a key, or -1. */
+dem_index contact_set_find(const contact_set *c, contact_key key);
+
 /** The nodes that an event of a candidate may change at once: its own, and where obstacles have vertices those of the
  *  edges at them; some come more than once.  \return how many there are, of which up to `capacity` are in `nodes` */
 dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity);

@@ -239,8 +239,7 @@ static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
     c->impacts[k] = (candidate_impact){0};
     if (!candidate_is_edge(candidate) && candidate->n_closed == 1 && hit.n == 1) candidate->n_closed = 0;
     for (int h = 0; h < hit.n && candidate->n_closed < 2; h++) {
-        const bool known = candidate->n_closed == 1 && candidate->closed[0].feature == hit.feature[h];
-        if (known) continue;
+        if (candidate_point_on(candidate, hit.feature[h]) >= 0) continue;
         c->impacts[k].of[candidate->n_closed].fresh = true;
         TRY(contact_set_close(c, k, (contact_point){.feature = hit.feature[h], .slide = 1}));
     }

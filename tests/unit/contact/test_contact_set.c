@@ -94,7 +94,35 @@ static void a_node_that_may_not_touch_is_no_candidate(void **state)
     scene_close(&s);
 }
 
+/* An edge runs one way, and 0-2 is inside. */
+static void a_key_finds_its_candidate_and_no_other(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const contact_set *c = &s.c.set;
+    for (dem_index k = 0; k < c->n; k++) assert_int_equal(contact_set_find(c, candidate_key(&c->list[k])), k);
+    assert_int_equal(contact_set_find(c, (contact_key){1, 0}), -1);
+    assert_int_equal(contact_set_find(c, (contact_key){0, 2}), -1);
+    scene_close(&s);
+}
+
 /* ---- opening and closing ---- */
+
+static void a_candidate_reports_which_of_its_contacts_is_on_a_feature(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    const dem_index k = scene_edge(&s, 0, 1);
+    const contact_candidate *edge = &s.c.set.list[k];
+    close_contact(&s, k, 1, 1);
+    assert_int_equal(candidate_point_on(edge, 0), -1); /* there is a 0 behind the closed ones */
+    close_contact(&s, k, 0, 1);
+    assert_int_equal(candidate_point_on(edge, 0), 1);
+    assert_int_equal(candidate_point_on(edge, 1), 0);
+    scene_close(&s);
+}
 
 static void closing_appends_and_opening_keeps_the_other(void **state)
 {
@@ -374,6 +402,8 @@ int main(void)
         cmocka_unit_test(nodes_come_first_and_then_edges_that_know_their_neighbours),
         cmocka_unit_test(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for),
         cmocka_unit_test(a_node_that_may_not_touch_is_no_candidate),
+        cmocka_unit_test(a_key_finds_its_candidate_and_no_other),
+        cmocka_unit_test(a_candidate_reports_which_of_its_contacts_is_on_a_feature),
         cmocka_unit_test(closing_appends_and_opening_keeps_the_other),
         cmocka_unit_test(contacts_that_share_nodes_are_one_group),
         cmocka_unit_test(a_node_on_two_segments_is_held_by_both),
