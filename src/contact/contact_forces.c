@@ -38,7 +38,7 @@ static void join(contact_forces *r, dem_index a, dem_index b)
 static void sort_candidates(contact_forces *r)
 {
     const dem_model *model = r->scene->model;
-    const dem_index n_nodes = model->n_contact_nodes;
+    const dem_index n_nodes = model->surface.n_nodes;
     dem_index n = 0;
     dem_index *candidate_of = r->root; /* of a node, -1: none or done */
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) candidate_of[i] = -1;

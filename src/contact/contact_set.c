@@ -9,7 +9,7 @@
 static void list_edges(contact_set *c)
 {
     const surface *s = &c->scene.model->surface;
-    for (dem_index e = 0; e < c->n - c->scene.model->n_contact_nodes; e++) {
+    for (dem_index e = 0; e < c->n - c->scene.model->surface.n_nodes; e++) {
         contact_candidate candidate = {.node = s->ends[2 * e], .other = s->ends[2 * e + 1], .behind = {-1, -1}};
         candidate.previous = s->previous[e] >= 0 ? s->ends[2 * s->previous[e]] : -1;
         candidate.next = s->next[e] >= 0 ? s->ends[2 * s->next[e] + 1] : -1;
@@ -22,7 +22,7 @@ dem_status contact_set_create(contact_set *c, const forces *acting, const contac
     const dem_model *model = acting->model;
     const bool vertices = rule->vertices && model->obstacles.n_vertices > 0;
     *c = (contact_set){.scene = {model, acting, *rule}};
-    c->n = model->n_contact_nodes + (vertices ? model->surface.n_edges : 0);
+    c->n = model->surface.n_nodes + (vertices ? model->surface.n_edges : 0);
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
     c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
     c->involved = malloc(((size_t)c->n + 1) * sizeof *c->involved);
@@ -32,10 +32,10 @@ dem_status contact_set_create(contact_set *c, const forces *acting, const contac
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)c->n);
     }
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) c->of_node[i] = -1;
-    for (dem_index k = 0; k < model->n_contact_nodes; k++) {
+    for (dem_index k = 0; k < model->surface.n_nodes; k++) {
         c->list[k] = (contact_candidate){
-            .node = model->contact_nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
-        c->of_node[model->contact_nodes[k]] = k;
+            .node = model->surface.nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+        c->of_node[model->surface.nodes[k]] = k;
     }
     list_edges(c);
     dem_status status = ledger_create(&c->ledger, model->obstacles.n);
@@ -59,7 +59,7 @@ dem_index contact_set_find(const contact_set *c, contact_key key)
 {
     const surface *s = &c->scene.model->surface;
     if (key.other < 0) return c->of_node[key.node];
-    for (dem_index p = s->row[key.node]; p < s->row[key.node + 1] && c->n > c->scene.model->n_contact_nodes; p++)
+    for (dem_index p = s->row[key.node]; p < s->row[key.node + 1] && c->n > c->scene.model->surface.n_nodes; p++)
         if (contact_key_equal(candidate_key(&c->list[contact_set_of_edge(c, s->at[p])]), key))
             return contact_set_of_edge(c, s->at[p]);
     return -1;
@@ -74,7 +74,7 @@ dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes,
     for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
         if (n < capacity) nodes[n] = own[e];
         n++;
-        for (dem_index p = s->row[own[e]]; p < s->row[own[e] + 1] && c->n > c->scene.model->n_contact_nodes; p++)
+        for (dem_index p = s->row[own[e]]; p < s->row[own[e] + 1] && c->n > c->scene.model->surface.n_nodes; p++)
             for (int end = 0; end < 2; end++, n++)
                 if (n < capacity) nodes[n] = s->ends[2 * s->at[p] + end];
     }
@@ -85,7 +85,7 @@ dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes,
 static bool edge_closed(const contact_set *c, dem_index node, dem_index k)
 {
     const surface *s = &c->scene.model->surface;
-    if (c->n == c->scene.model->n_contact_nodes) return false;
+    if (c->n == c->scene.model->surface.n_nodes) return false;
     for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
         if (contact_set_of_edge(c, s->at[p]) != k && c->list[contact_set_of_edge(c, s->at[p])].n_closed > 0)
             return true;
@@ -112,7 +112,7 @@ void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle)
     c->ledger.counts.behind += obstacle >= 0 ? 1 : -1;
     c->list[k].behind[0] = obstacle;
     candidate_forget_clearance(&c->list[k]);
-    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
         contact_candidate *edge = &c->list[contact_set_of_edge(c, s->at[p])];
         edge->behind[edge->node == node ? 0 : 1] = obstacle;
         candidate_forget_clearance(edge);

@@ -62,7 +62,7 @@ static inline void candidate_forget_clearance(contact_candidate *candidate)
 /** The candidate of the k-th edge of the surface. */
 static inline dem_index contact_set_of_edge(const contact_set *c, dem_index edge)
 {
-    return c->scene.model->n_contact_nodes + edge;
+    return c->scene.model->surface.n_nodes + edge;
 }
 
 /** The candidate with a key, or -1. */

@@ -127,7 +127,7 @@ static void each_candidate(contact_source *s, const event_place *at,
     for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++) {
         const dem_index i = nodes->list[j];
         if (c->of_node[i] >= 0) act(s, at, c->of_node[i]);
-        for (dem_index p = edges->row[i]; p < edges->row[i + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+        for (dem_index p = edges->row[i]; p < edges->row[i + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
             const dem_index k = contact_set_of_edge(c, edges->at[p]);
             const bool first =
                 c->list[k].node == i || !local_nodes_have(nodes, c->list[k].node, nodes->n_rings - 1); /* once */

@@ -183,7 +183,7 @@ static void stop_around(contact_set *c, dem_index k, contact_instant *now)
     for (int e = 0; e < (candidate_is_edge(&c->list[k]) ? 2 : 1); e++) {
         const dem_index own = c->of_node[nodes[e]];
         if (own >= 0 && c->list[own].n_closed > 0) impact_group_stop(c, c->forces.group[own], now);
-        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
             const dem_index edge = contact_set_of_edge(c, s->at[p]);
             if (c->list[edge].n_closed > 0) impact_group_stop(c, c->forces.group[edge], now);
         }

@@ -83,7 +83,7 @@ dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_in
     const double tolerance = impact_target_depth(c, k, now);
     double fastest = 0.0;
     dem_index best = -1;
-    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->n_contact_nodes; p++) {
+    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
         const dem_index e = contact_set_of_edge(c, s->at[p]);
         const candidate_positions spot = candidate_place(&c->list[e], now->t, now->x);
         const contact_gap gap = candidate_gap(&c->scene, &c->list[e], &spot);

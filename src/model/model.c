@@ -131,12 +131,10 @@ static dem_status compile_nodes(dem_model *m)
 {
     const dem_lattice *l = &m->lattice;
     m->inverse_mass = lattice_zeros(l->n_nodes, sizeof *m->inverse_mass);
-    m->contact_nodes = lattice_zeros(l->n_nodes, sizeof *m->contact_nodes);
-    CHECK(m->inverse_mass && m->contact_nodes, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)l->n_nodes);
+    CHECK(m->inverse_mass, DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)l->n_nodes);
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const int fixed = l->flags[i] & DEM_NODE_FIXED;
         m->inverse_mass[i] = fixed ? 0.0 : 1.0 / l->mass[i];
-        if ((l->flags[i] & DEM_NODE_CONTACT) && !fixed) m->contact_nodes[m->n_contact_nodes++] = i;
         if (l->body[i] >= m->n_bodies) m->n_bodies = l->body[i] + 1;
     }
     return DEM_OK;
@@ -224,7 +222,6 @@ void dem_model_destroy(dem_model *model)
     stress_free(&model->stress);
     obstacles_free(&model->obstacles);
     free(model->inverse_mass);
-    free(model->contact_nodes);
     free(model);
 }
 
@@ -251,7 +248,7 @@ dem_model_size dem_model_sizes(const dem_model *model)
                             .n_springs = model->lattice.n_springs,
                             .n_triangles = model->lattice.n_triangles,
                             .n_bodies = model->n_bodies,
-                            .n_contact_nodes = model->n_contact_nodes,
+                            .n_contact_nodes = model->surface.n_nodes,
                             .n_contact_edges = model->surface.n_edges,
                             .n_obstacles = model->obstacles.n,
                             .n_segments = model->obstacles.n_segments,

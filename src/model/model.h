@@ -14,13 +14,11 @@ struct dem_model {
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
     triangles triangles;
-    surface surface; /* edges that may touch */
+    surface surface; /* nodes and edges that may touch, of whole bodies */
     stress_map stress;
     layout layout; /* of springs and triangles, for sweeps over all nodes */
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
-    dem_index n_contact_nodes;
-    dem_index *contact_nodes; /* [n_contact_nodes] nodes that may touch, ascending */
     dem_index n_bodies;
     double spacing;   /* m */
     double omega_max; /* rad/s */

@@ -8,6 +8,21 @@
 #include "base/vec2.h"
 #include "lattice/mesh_edges.h"
 
+static bool node_may_touch(const dem_lattice *l, dem_index i)
+{
+    return (l->flags[i] & DEM_NODE_CONTACT) && !(l->flags[i] & DEM_NODE_FIXED);
+}
+
+static dem_status list_nodes(surface *s, const dem_lattice *l)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++) s->n_nodes += node_may_touch(l, i);
+    s->nodes = malloc(((size_t)s->n_nodes + 1) * sizeof *s->nodes);
+    CHECK(s->nodes != NULL, DEM_ERROR_MEMORY, "out of memory for %lld nodes that may touch", (long long)s->n_nodes);
+    for (dem_index i = 0, n = 0; i < l->n_nodes; i++)
+        if (node_may_touch(l, i)) s->nodes[n++] = i;
+    return DEM_OK;
+}
+
 /* An edge may be touched if both its nodes may and one of them moves. */
 static bool may_touch(const dem_lattice *l, dem_index a, dem_index b)
 {
@@ -134,7 +149,8 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice)
 {
     surface s = {0};
     mesh_edges list = {0};
-    dem_status status = mesh_edges_create(&list, lattice);
+    dem_status status = list_nodes(&s, lattice);
+    if (status == DEM_OK) status = mesh_edges_create(&list, lattice);
     if (status == DEM_OK) {
         s.n_edges = find_edges(lattice, &list, NULL);
         status = allocate(&s, lattice);
@@ -153,6 +169,7 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice)
 
 void surface_free(surface *s)
 {
+    free(s->nodes);
     free(s->ends);
     free(s->row);
     free(s->at);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The surface of the bodies: boundary edges of the triangulation whose nodes may touch obstacles. */
+/* The surface of the bodies: nodes that may touch obstacles, and boundary edges of the triangulation between them. */
 #ifndef DEM_MODEL_SURFACE_H
 #define DEM_MODEL_SURFACE_H
 
 #include <dem/dem.h>
 
 typedef struct surface {
+    dem_index n_nodes;
+    dem_index *nodes; /* [n_nodes] that may touch, ascending */
     dem_index n_edges;
     dem_index *ends; /* [n_edges][2] from node to node, the body on the left; along each boundary one after another */
     dem_index *next, *previous; /* [n_edges] along the boundary, in the same fan of triangles where it pinches; or -1 */
@@ -13,7 +15,7 @@ typedef struct surface {
     dem_index *at;              /* [2 n_edges] edges at node i: slots row[i] .. row[i+1]-1 */
 } surface;
 
-/** Finds the edges; `flags` of the lattice must be filled. Free with surface_free. */
+/** Finds nodes and edges; `flags` of the lattice must be filled. Free with surface_free. */
 dem_status surface_compile(surface *out, const dem_lattice *lattice);
 void surface_free(surface *s);
 

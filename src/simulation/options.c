@@ -43,8 +43,8 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
     double speed = 1e-3 * 0.5 * model->omega_max * o->spacing, drop = INFINITY;
     speed = fmax(speed, fmax(boundary_conditions_speed(b), model->obstacles.bounds.speed));
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
-    for (dem_index k = 0; k < model->n_contact_nodes; k++)
-        drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->contact_nodes[k]]));
+    for (dem_index k = 0; k < model->surface.n_nodes; k++)
+        drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->surface.nodes[k]]));
     speed = reduce_max(speed);
     drop = reduce_min(drop);
     const double g = hypot(o->gravity[0], o->gravity[1]);

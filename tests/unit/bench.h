@@ -40,7 +40,7 @@ static inline void bench_open(bench *b, dem_index n)
     }
     b->n_candidates = n;
     b->model.lattice = (dem_lattice){.dim = 2, .n_nodes = n, .mass = b->mass};
-    b->model.n_contact_nodes = n;
+    b->model.surface.n_nodes = n;
     b->model.inverse_mass = b->inverse_mass;
     b->model.springs.row = b->none;
     b->model.triangles.row = b->none;

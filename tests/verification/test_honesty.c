@@ -201,8 +201,8 @@ static void judge(verdict *v, double ratio)
 /* Whether every node is clear of the ground by more than a new start takes for touching. */
 static bool is_clear(const parts *p, const double *x)
 {
-    for (dem_index k = 0; k < p->model->n_contact_nodes; k++)
-        if (dem_model_gap(p->model, x + 2 * p->model->contact_nodes[k]) < 1e-15) return false;
+    for (dem_index k = 0; k < p->model->surface.n_nodes; k++)
+        if (dem_model_gap(p->model, x + 2 * p->model->surface.nodes[k]) < 1e-15) return false;
     return true;
 }
 

@@ -587,7 +587,7 @@ static void what_is_held_has_the_acceleration_asked_for(void **state)
 /* Candidates in another order -- nodes among nodes, edges among edges -- with the same contacts. */
 static void shuffle(gsl_rng *rng, const bench *from, bench *to, dem_index *place)
 {
-    const dem_index n = from->model.n_contact_nodes;
+    const dem_index n = from->model.surface.n_nodes;
     memcpy(to->mass, from->mass, sizeof to->mass);
     memcpy(to->inverse_mass, from->inverse_mass, sizeof to->inverse_mass);
     memcpy(to->x, from->x, sizeof to->x);

@@ -554,7 +554,7 @@ static void edges_on_vertices_move_together(void **state)
     step s;
     (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .ridges = true});
-    const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->n_contact_nodes;
+    const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->surface.n_nodes;
     dem_index left = -1, right = -1;
     for (dem_index e = n_nodes; e < s.c.set.n; e++) {
         const double a = s.model->lattice.x[2 * s.c.set.list[e].node],

@@ -75,9 +75,9 @@ static dem_status gather(rig *r, dem_index candidate)
 static dem_index bottom_candidate(const rig *r)
 {
     dem_index lowest = 0;
-    for (dem_index k = 0; k < r->model->n_contact_nodes; k++)
-        if (r->model->lattice.x[2 * r->model->contact_nodes[k] + 1] <
-            r->model->lattice.x[2 * r->model->contact_nodes[lowest] + 1])
+    for (dem_index k = 0; k < r->model->surface.n_nodes; k++)
+        if (r->model->lattice.x[2 * r->model->surface.nodes[k] + 1] <
+            r->model->lattice.x[2 * r->model->surface.nodes[lowest] + 1])
             lowest = k;
     return lowest + 4;
 }
@@ -110,7 +110,7 @@ static void rings_are_distances(void **state)
     open_rig(&r, 1.0 / 3.0, 4);
     const dem_index candidate = bottom_candidate(&r);
     for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
-        int *d = distances(&r, r.model->contact_nodes[candidate + turn]);
+        int *d = distances(&r, r.model->surface.nodes[candidate + turn]);
         assert_ok(gather(&r, candidate + turn));
         for (dem_index i = 0; i < r.n; i++) {
             assert_int_equal(r.b.nodes.number[i] >= 0, d[i] <= 4);

@@ -318,7 +318,7 @@ static void by_default_the_boundary_may_touch(void **state)
         const double y = lattice.x[2 * i + 1];
         const int outer = fabs(lattice.x[2 * i]) > 1.4 || y < 0.1 || y > top - 0.1; /* rows end at 2.0 or 1.5 */
         assert_int_equal(dem_model_lattice(model)->flags[i], outer ? DEM_NODE_CONTACT : 0);
-        if (outer) assert_int_equal(model->contact_nodes[n++], i);
+        if (outer) assert_int_equal(model->surface.nodes[n++], i);
     }
     assert_int_equal(dem_model_sizes(model).n_contact_nodes, n);
     assert_true(n < lattice.n_nodes);
@@ -337,8 +337,8 @@ static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
     const forces down = {.model = model, .gravity = {0.0, -9.81}};
     const double velocity[2 * n_nodes] = {1.0, 2.0, 0.0, 0.0, 5.0, 6.0, 0.0, 0.0};
     assert_memory_equal(dem_model_lattice(model)->velocity, velocity, sizeof velocity);
-    assert_int_equal(model->n_contact_nodes, 1);
-    assert_int_equal(model->contact_nodes[0], 0);
+    assert_int_equal(model->surface.n_nodes, 1);
+    assert_int_equal(model->surface.nodes[0], 0);
     for (dem_index i = 0; i < n_nodes; i++) {
         const vec2 a = forces_acceleration(&down, i, s.position, s.velocity);
         assert_close(model->inverse_mass[i], i % 2 == 1 ? 0.0 : 1.0 / s.mass[i], 0.0);
