@@ -49,10 +49,9 @@ void automaton_destroy(automaton *c)
 /* Resolves what is due at the candidates of a node: the node itself and its edges. */
 static dem_status settle_node(contact_set *c, dem_index node, contact_instant *now, bool *changed)
 {
-    const surface *s = &c->scene.model->surface;
     if (c->of_node[node] >= 0) TRY(candidate_resolve(c, c->of_node[node], now, changed));
-    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->surface.n_nodes; p++)
-        TRY(candidate_resolve(c, contact_set_of_edge(c, s->at[p]), now, changed));
+    for (contact_edges e = contact_set_edges_at(c, node); contact_edges_next(&e);)
+        TRY(candidate_resolve(c, e.k, now, changed));
     return DEM_OK;
 }
 
@@ -96,7 +95,7 @@ dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y
 /* Puts nodes in contact back on their segments, from which rounding has moved them. */
 static void project_nodes(contact_set *c, double t, double *x)
 {
-    for (dem_index k = 0; k < c->scene.model->surface.n_nodes; k++) {
+    for (dem_index k = 0; k < c->surface->n_nodes; k++) {
         const contact_candidate *candidate = &c->list[k];
         for (int q = 0; q < candidate->n_closed; q++) {
             const surface_line line = surface_line_at(&c->scene, candidate->closed[q].feature, t);
@@ -191,8 +190,7 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
     c->quiet = c->all = false;
     c->way = c->broad_phase.travelled = 0.0;
     s->ledger.counts.behind = 0;
-    for (dem_index k = 0; k < s->scene.model->surface.n_nodes; k++)
-        s->ledger.counts.behind += s->list[k].behind[0] >= 0;
+    for (dem_index k = 0; k < s->surface->n_nodes; k++) s->ledger.counts.behind += s->list[k].behind[0] >= 0;
     contact_set_solve_all(s, state);
     contact_set_store_all(s);
     broad_phase_update(&c->broad_phase, s, state);

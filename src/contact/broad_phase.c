@@ -24,7 +24,7 @@ void broad_phase_destroy(broad_phase *w)
 double broad_phase_speed(const contact_set *c, const double *v)
 {
     double square = 0.0;
-    for (dem_index k = 0; k < c->scene.model->surface.n_nodes; k++) {
+    for (dem_index k = 0; k < c->surface->n_nodes; k++) {
         const vec2 vi = vec2_at(v, c->list[k].node);
         square = fmax(square, vec2_dot(vi, vi));
     }
@@ -76,7 +76,7 @@ void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
     const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* one that goes further is found after the step */
     w->n = 0;
     w->earliest = (double)INFINITY;
-    for (dem_index k = 0; k < c->scene.model->surface.n_nodes && c->ledger.counts.behind > 0; k++)
+    for (dem_index k = 0; k < c->surface->n_nodes && c->ledger.counts.behind > 0; k++)
         if (c->list[k].behind[0] >= 0) come_back(c, k, (surface_query){state.t, vec2_at(state.x, c->list[k].node)});
     for (dem_index k = 0; k < c->n; k++) {
         const contact_candidate *candidate = &c->list[k];

@@ -106,8 +106,8 @@ static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact
 /* The edge that goes on behind the end of edge k, and could take over its vertex; -1: none. */
 static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, dem_index feature)
 {
-    const surface *s = &c->scene.model->surface;
-    const dem_index own = k - c->scene.model->surface.n_nodes, beyond = backwards ? s->previous[own] : s->next[own];
+    const surface *s = c->surface;
+    const dem_index own = k - s->n_nodes, beyond = backwards ? s->previous[own] : s->next[own];
     if (beyond < 0) return -1;
     const contact_candidate *edge = &c->list[contact_set_of_edge(c, beyond)];
     const bool taken = edge->n_closed == 2 || candidate_point_on(edge, feature) >= 0;

@@ -37,12 +37,11 @@ static void join(contact_forces *r, dem_index a, dem_index b)
 /* Every candidate in the order of the boundaries: a node before the edge that starts there. */
 static void sort_candidates(contact_forces *r)
 {
-    const dem_model *model = r->scene->model;
-    const dem_index n_nodes = model->surface.n_nodes;
-    dem_index n = 0;
+    dem_index n = 0, n_nodes = 0;
     dem_index *candidate_of = r->root; /* of a node, -1: none or done */
-    for (dem_index i = 0; i < model->lattice.n_nodes; i++) candidate_of[i] = -1;
-    for (dem_index k = 0; k < n_nodes; k++) candidate_of[r->candidates[k].node] = k;
+    for (dem_index i = 0; i < r->scene->model->lattice.n_nodes; i++) candidate_of[i] = -1;
+    for (; n_nodes < r->n_candidates && !candidate_is_edge(&r->candidates[n_nodes]); n_nodes++)
+        candidate_of[r->candidates[n_nodes].node] = n_nodes;
     for (dem_index k = n_nodes; k < r->n_candidates; k++) {
         const dem_index a = r->candidates[k].node;
         if (candidate_of[a] >= 0) r->order[n++] = candidate_of[a];

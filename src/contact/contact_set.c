@@ -8,8 +8,8 @@
 
 static void list_edges(contact_set *c)
 {
-    const surface *s = &c->scene.model->surface;
-    for (dem_index e = 0; e < c->n - c->scene.model->surface.n_nodes; e++) {
+    const surface *s = c->surface;
+    for (dem_index e = 0; e < c->n - s->n_nodes; e++) {
         contact_candidate candidate = {.node = s->ends[2 * e], .other = s->ends[2 * e + 1], .behind = {-1, -1}};
         candidate.previous = s->previous[e] >= 0 ? s->ends[2 * s->previous[e]] : -1;
         candidate.next = s->next[e] >= 0 ? s->ends[2 * s->next[e] + 1] : -1;
@@ -21,8 +21,8 @@ dem_status contact_set_create(contact_set *c, const forces *acting, const contac
 {
     const dem_model *model = acting->model;
     const bool vertices = rule->vertices && model->obstacles.n_vertices > 0;
-    *c = (contact_set){.scene = {model, acting, *rule}};
-    c->n = model->surface.n_nodes + (vertices ? model->surface.n_edges : 0);
+    *c = (contact_set){.scene = {model, acting, *rule}, .surface = &model->surface};
+    c->n = c->surface->n_nodes + (vertices ? c->surface->n_edges : 0);
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
     c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
     c->involved = malloc(((size_t)c->n + 1) * sizeof *c->involved);
@@ -32,10 +32,10 @@ dem_status contact_set_create(contact_set *c, const forces *acting, const contac
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)c->n);
     }
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) c->of_node[i] = -1;
-    for (dem_index k = 0; k < model->surface.n_nodes; k++) {
+    for (dem_index k = 0; k < c->surface->n_nodes; k++) {
         c->list[k] = (contact_candidate){
-            .node = model->surface.nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
-        c->of_node[model->surface.nodes[k]] = k;
+            .node = c->surface->nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+        c->of_node[c->surface->nodes[k]] = k;
     }
     list_edges(c);
     dem_status status = ledger_create(&c->ledger, model->obstacles.n);
@@ -57,26 +57,23 @@ void contact_set_destroy(contact_set *c)
 
 dem_index contact_set_find(const contact_set *c, contact_key key)
 {
-    const surface *s = &c->scene.model->surface;
     if (key.other < 0) return c->of_node[key.node];
-    for (dem_index p = s->row[key.node]; p < s->row[key.node + 1] && c->n > c->scene.model->surface.n_nodes; p++)
-        if (contact_key_equal(candidate_key(&c->list[contact_set_of_edge(c, s->at[p])]), key))
-            return contact_set_of_edge(c, s->at[p]);
+    for (contact_edges e = contact_set_edges_at(c, key.node); contact_edges_next(&e);)
+        if (contact_key_equal(candidate_key(&c->list[e.k]), key)) return e.k;
     return -1;
 }
 
 dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity)
 {
     const contact_candidate *candidate = &c->list[k];
-    const surface *s = &c->scene.model->surface;
     const dem_index own[2] = {candidate->node, candidate->other};
     dem_index n = 0;
     for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
         if (n < capacity) nodes[n] = own[e];
         n++;
-        for (dem_index p = s->row[own[e]]; p < s->row[own[e] + 1] && c->n > c->scene.model->surface.n_nodes; p++)
+        for (contact_edges p = contact_set_edges_at(c, own[e]); contact_edges_next(&p);)
             for (int end = 0; end < 2; end++, n++)
-                if (n < capacity) nodes[n] = s->ends[2 * s->at[p] + end];
+                if (n < capacity) nodes[n] = end == 0 ? c->list[p.k].node : c->list[p.k].other;
     }
     return n;
 }
@@ -84,11 +81,8 @@ dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes,
 /* Whether an edge at the node, other than candidate k, has closed contacts. */
 static bool edge_closed(const contact_set *c, dem_index node, dem_index k)
 {
-    const surface *s = &c->scene.model->surface;
-    if (c->n == c->scene.model->surface.n_nodes) return false;
-    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++)
-        if (contact_set_of_edge(c, s->at[p]) != k && c->list[contact_set_of_edge(c, s->at[p])].n_closed > 0)
-            return true;
+    for (contact_edges e = contact_set_edges_at(c, node); contact_edges_next(&e);)
+        if (e.k != k && c->list[e.k].n_closed > 0) return true;
     return false;
 }
 
@@ -107,13 +101,12 @@ bool contact_set_coupled(const contact_set *c, dem_index k)
 
 void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle)
 {
-    const surface *s = &c->scene.model->surface;
     const dem_index node = c->list[k].node;
     c->ledger.counts.behind += obstacle >= 0 ? 1 : -1;
     c->list[k].behind[0] = obstacle;
     candidate_forget_clearance(&c->list[k]);
-    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
-        contact_candidate *edge = &c->list[contact_set_of_edge(c, s->at[p])];
+    for (contact_edges e = contact_set_edges_at(c, node); contact_edges_next(&e);) {
+        contact_candidate *edge = &c->list[e.k];
         edge->behind[edge->node == node ? 0 : 1] = obstacle;
         candidate_forget_clearance(edge);
     }
@@ -122,11 +115,8 @@ void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle)
 /* Whether an edge at the node, other than candidate k, has closed a contact with the vertex. */
 static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index feature)
 {
-    const surface *s = &c->scene.model->surface;
-    for (dem_index p = s->row[node]; p < s->row[node + 1]; p++) {
-        const dem_index e = contact_set_of_edge(c, s->at[p]);
-        if (e != k && candidate_point_on(&c->list[e], feature) >= 0) return true;
-    }
+    for (contact_edges e = contact_set_edges_at(c, node); contact_edges_next(&e);)
+        if (e.k != k && candidate_point_on(&c->list[e.k], feature) >= 0) return true;
     return false;
 }
 
@@ -150,11 +140,9 @@ static void mark_corners(contact_set *c, dem_index k)
 /* The same for an edge and those that share a node with it: they may be of one corner. */
 static void mark_around(contact_set *c, dem_index k)
 {
-    const surface *s = &c->scene.model->surface;
     const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
-    for (int e = 0; e < 2; e++)
-        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1]; p++)
-            mark_corners(c, contact_set_of_edge(c, s->at[p]));
+    for (int n = 0; n < 2; n++)
+        for (contact_edges e = contact_set_edges_at(c, nodes[n]); contact_edges_next(&e);) mark_corners(c, e.k);
 }
 
 dem_status contact_set_regroup(contact_set *c)

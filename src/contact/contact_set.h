@@ -27,8 +27,9 @@ typedef struct candidate_impact {
 
 typedef struct contact_set {
     contact_scene scene;
+    const surface *surface; /* of the bodies */
     dem_index n;
-    contact_candidate *list; /* [n] the model's nodes that may touch, then its edges */
+    contact_candidate *list; /* [n] its nodes, then its edges: no place depends on what has happened before */
     contact_forces forces;
     contact_ledger ledger;
     dem_index *of_node; /* [n_nodes] candidate of a node, or -1 */
@@ -59,10 +60,37 @@ static inline void candidate_forget_clearance(contact_candidate *candidate)
     candidate->clearance.distance = 0.0;
 }
 
+/** Whether edges are candidates: only where obstacles have vertices. */
+static inline bool contact_set_has_edges(const contact_set *c)
+{
+    return c->n > c->surface->n_nodes;
+}
+
 /** The candidate of the k-th edge of the surface. */
 static inline dem_index contact_set_of_edge(const contact_set *c, dem_index edge)
 {
-    return c->scene.model->surface.n_nodes + edge;
+    return c->surface->n_nodes + edge;
+}
+
+/** The edges at a node that are candidates, ascending; contact_edges_next() leads to each of them. */
+typedef struct contact_edges {
+    const dem_index *at, *end; /* edges of the surface */
+    dem_index n_nodes;
+    dem_index k; /* the candidate */
+} contact_edges;
+
+static inline contact_edges contact_set_edges_at(const contact_set *c, dem_index node)
+{
+    const surface *s = c->surface;
+    if (!contact_set_has_edges(c)) return (contact_edges){0};
+    return (contact_edges){s->at + s->row[node], s->at + s->row[node + 1], s->n_nodes, -1};
+}
+
+static inline bool contact_edges_next(contact_edges *e)
+{
+    if (e->at == e->end) return false;
+    e->k = e->n_nodes + *e->at++;
+    return true;
 }
 
 /** The candidate with a key, or -1. */

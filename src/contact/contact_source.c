@@ -122,16 +122,13 @@ static void each_candidate(contact_source *s, const event_place *at,
                            void (*act)(contact_source *s, const event_place *at, dem_index k))
 {
     const contact_set *c = &s->automaton->set;
-    const surface *edges = &c->scene.model->surface;
     const local_nodes *nodes = &at->near->nodes;
     for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++) {
         const dem_index i = nodes->list[j];
         if (c->of_node[i] >= 0) act(s, at, c->of_node[i]);
-        for (dem_index p = edges->row[i]; p < edges->row[i + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
-            const dem_index k = contact_set_of_edge(c, edges->at[p]);
-            const bool first =
-                c->list[k].node == i || !local_nodes_have(nodes, c->list[k].node, nodes->n_rings - 1); /* once */
-            if (first) act(s, at, k);
+        for (contact_edges e = contact_set_edges_at(c, i); contact_edges_next(&e);) {
+            const dem_index start = c->list[e.k].node;
+            if (start == i || !local_nodes_have(nodes, start, nodes->n_rings - 1)) act(s, at, e.k); /* once */
         }
     }
 }

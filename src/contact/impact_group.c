@@ -178,15 +178,12 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
  * approach. */
 static void stop_around(contact_set *c, dem_index k, contact_instant *now)
 {
-    const surface *s = &c->scene.model->surface;
     const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
-    for (int e = 0; e < (candidate_is_edge(&c->list[k]) ? 2 : 1); e++) {
-        const dem_index own = c->of_node[nodes[e]];
+    for (int n = 0; n < (candidate_is_edge(&c->list[k]) ? 2 : 1); n++) {
+        const dem_index own = c->of_node[nodes[n]];
         if (own >= 0 && c->list[own].n_closed > 0) impact_group_stop(c, c->forces.group[own], now);
-        for (dem_index p = s->row[nodes[e]]; p < s->row[nodes[e] + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
-            const dem_index edge = contact_set_of_edge(c, s->at[p]);
-            if (c->list[edge].n_closed > 0) impact_group_stop(c, c->forces.group[edge], now);
-        }
+        for (contact_edges e = contact_set_edges_at(c, nodes[n]); contact_edges_next(&e);)
+            if (c->list[e.k].n_closed > 0) impact_group_stop(c, c->forces.group[e.k], now);
     }
 }
 

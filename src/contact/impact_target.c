@@ -78,24 +78,23 @@ impact_target impact_target_of_node(const contact_set *c, dem_index k, const con
 
 dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex)
 {
-    const surface *s = &c->scene.model->surface;
     const dem_index node = c->list[k].node;
     const double tolerance = impact_target_depth(c, k, now);
     double fastest = 0.0;
     dem_index best = -1;
-    for (dem_index p = s->row[node]; p < s->row[node + 1] && c->n > c->scene.model->surface.n_nodes; p++) {
-        const dem_index e = contact_set_of_edge(c, s->at[p]);
-        const candidate_positions spot = candidate_place(&c->list[e], now->t, now->x);
-        const contact_gap gap = candidate_gap(&c->scene, &c->list[e], &spot);
+    for (contact_edges e = contact_set_edges_at(c, node); contact_edges_next(&e);) {
+        const contact_candidate *edge = &c->list[e.k];
+        const candidate_positions spot = candidate_place(edge, now->t, now->x);
+        const contact_gap gap = candidate_gap(&c->scene, edge, &spot);
         if (gap.feature < 0 || fabs(gap.distance) > tolerance) continue;
         const vec2 at = surface_vertex_at(&c->scene, gap.feature, now->t), v = vec2_at(now->v, node);
         if (vec2_norm(vec2_sub(at, vec2_at(now->x, node))) > 2.0 * tolerance ||
             !surface_in_cone(&c->scene, gap.feature, now->t, gap.normal))
             continue;
-        const double speed = -vec2_dot(contact_gap_velocity(&c->scene, &c->list[e], &gap, &spot, v), gap.normal);
+        const double speed = -vec2_dot(contact_gap_velocity(&c->scene, edge, &gap, &spot, v), gap.normal);
         if (speed <= fastest) continue;
         fastest = speed;
-        best = e;
+        best = e.k;
         *vertex = gap.feature;
     }
     return best;
