@@ -35,7 +35,7 @@ dem_status automaton_create(automaton *out, const forces *acting, const contact_
 {
     *out = (automaton){0};
     TRY(contact_set_create(&out->set, acting, rule));
-    const dem_status status = broad_phase_create(&out->broad_phase, out->set.n);
+    const dem_status status = broad_phase_reserve(&out->broad_phase, out->set.n);
     if (status != DEM_OK) contact_set_destroy(&out->set);
     return status;
 }
@@ -44,6 +44,16 @@ void automaton_destroy(automaton *c)
 {
     broad_phase_destroy(&c->broad_phase);
     contact_set_destroy(&c->set);
+}
+
+dem_status automaton_follow_surface(automaton *c, const surface *to)
+{
+    TRY(broad_phase_reserve(&c->broad_phase, to->n_nodes + to->n_edges));
+    TRY(contact_set_follow_surface(&c->set, to));
+    broad_phase_list(&c->broad_phase, &c->set);
+    c->solved = NAN;
+    c->quiet = c->all = false;
+    return DEM_OK;
 }
 
 /* Resolves what is due at the candidates of a node: the node itself and its edges. */
@@ -189,8 +199,7 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
     c->solved = NAN;
     c->quiet = c->all = false;
     c->way = c->broad_phase.travelled = 0.0;
-    s->ledger.counts.behind = 0;
-    for (dem_index k = 0; k < s->surface->n_nodes; k++) s->ledger.counts.behind += s->list[k].behind[0] >= 0;
+    contact_set_count_behind(s);
     contact_set_solve_all(s, state);
     contact_set_store_all(s);
     broad_phase_update(&c->broad_phase, s, state);

@@ -28,6 +28,10 @@ static inline scene_state automaton_state(const automaton *c, double t, const do
 dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule);
 void automaton_destroy(automaton *c);
 
+/** The same as contact_set_follow_surface(): a new candidate is active until the next look.
+ *  \return DEM_ERROR_MEMORY, with all as it was */
+dem_status automaton_follow_surface(automaton *c, const surface *to);
+
 /** Whether no candidate without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
  *  names the node.
  *  \param x  [n][2] */

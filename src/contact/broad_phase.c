@@ -2,16 +2,14 @@
 /* Which candidates are inactive, and until when. */
 #include "contact/broad_phase.h"
 
-#include <stdlib.h>
-
+#include "base/grow.h"
 #include "base/reduce.h"
 #include "base/status.h"
 
-dem_status broad_phase_create(broad_phase *out, dem_index n_candidates)
+dem_status broad_phase_reserve(broad_phase *w, dem_index n_candidates)
 {
-    broad_phase w = {.active = malloc(((size_t)n_candidates + 1) * sizeof *w.active)};
-    CHECK(w.active != NULL, DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)n_candidates);
-    *out = w;
+    CHECK(grow_array((void **)&w->active, &w->capacity, n_candidates, sizeof *w->active), DEM_ERROR_MEMORY,
+          "out of memory for %lld contact candidates", (long long)n_candidates);
     return DEM_OK;
 }
 
@@ -70,6 +68,21 @@ static bool worth_a_look(const broad_phase *w, const contact_scene *scene, const
     return candidate_moved(scene, candidate, &spot) >= 0.5 * candidate->clearance.distance;
 }
 
+static inline void list_one(broad_phase *w, const contact_candidate *candidate, dem_index k)
+{
+    if (candidate->n_closed > 0 || !candidate->clearance.inactive)
+        w->active[w->n++] = k;
+    else
+        w->earliest = fmin(w->earliest, candidate->clearance.active_from);
+}
+
+void broad_phase_list(broad_phase *w, const contact_set *c)
+{
+    w->n = 0;
+    w->earliest = (double)INFINITY;
+    for (dem_index k = 0; k < c->n; k++) list_one(w, &c->list[k], k);
+}
+
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
 {
     w->speed = broad_phase_speed(c, state.v);
@@ -81,9 +94,6 @@ void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
     for (dem_index k = 0; k < c->n; k++) {
         const contact_candidate *candidate = &c->list[k];
         if (worth_a_look(w, &c->scene, candidate, state, reach)) look_at(w, c, k, state, reach);
-        if (candidate->n_closed > 0 || !candidate->clearance.inactive)
-            w->active[w->n++] = k;
-        else
-            w->earliest = fmin(w->earliest, candidate->clearance.active_from);
+        list_one(w, candidate, k);
     }
 }

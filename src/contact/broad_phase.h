@@ -9,12 +9,13 @@
 typedef struct broad_phase {
     double travelled; /* m, bound of how far any candidate has gone since the start */
     double speed;     /* m/s, broad_phase_speed() at the last update */
-    dem_index n;
+    dem_index n, capacity;
     dem_index *active; /* [n] candidates that are closed, or may touch something in the next step */
     double earliest; /* m, `travelled` at which the first inactive candidate becomes active; infinity: there is none */
 } broad_phase;
 
-dem_status broad_phase_create(broad_phase *out, dem_index n_candidates);
+/** Room for as many candidates; it never shrinks.  \return DEM_ERROR_MEMORY */
+dem_status broad_phase_reserve(broad_phase *w, dem_index n_candidates);
 void broad_phase_destroy(broad_phase *w);
 
 /** Largest speed of the nodes that may touch plus that of the obstacles, m/s. */
@@ -24,6 +25,9 @@ double broad_phase_speed(const contact_set *c, const double *v);
  *  inside an obstacle that it cannot have touched has gone round a free end, and is marked as behind it; one that has
  *  come back is unmarked. */
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state);
+
+/** Lists the active candidates by their clearance, after candidates have come, gone or changed their places. */
+void broad_phase_list(broad_phase *w, const contact_set *c);
 
 /** Whether all candidates have to be checked after `way` (m) more: else no inactive one can have touched anything. */
 static inline bool broad_phase_covers_all(const broad_phase *w, double way)

@@ -6,6 +6,16 @@
 
 #include "base/status.h"
 
+static void list_nodes(contact_set *c)
+{
+    for (dem_index i = 0; i < c->scene.model->lattice.n_nodes; i++) c->of_node[i] = -1;
+    for (dem_index k = 0; k < c->surface->n_nodes; k++) {
+        c->list[k] = (contact_candidate){
+            .node = c->surface->nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
+        c->of_node[c->surface->nodes[k]] = k;
+    }
+}
+
 static void list_edges(contact_set *c)
 {
     const surface *s = c->surface;
@@ -17,43 +27,101 @@ static void list_edges(contact_set *c)
     }
 }
 
-dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule)
+/* The candidates of the surface, all free. The forces in their contacts borrow the scene. */
+static dem_status list_candidates(contact_set *c, const contact_scene *scene)
 {
-    const dem_model *model = acting->model;
-    const bool vertices = rule->vertices && model->obstacles.n_vertices > 0;
-    *c = (contact_set){.scene = {model, acting, *rule}, .surface = &model->surface};
+    const bool vertices = scene->rule.vertices && scene->model->obstacles.n_vertices > 0;
     c->n = c->surface->n_nodes + (vertices ? c->surface->n_edges : 0);
     c->list = calloc((size_t)c->n + 1, sizeof *c->list);
-    c->of_node = malloc((size_t)model->lattice.n_nodes * sizeof *c->of_node);
+    c->of_node = malloc((size_t)scene->model->lattice.n_nodes * sizeof *c->of_node);
     c->involved = malloc(((size_t)c->n + 1) * sizeof *c->involved);
     c->impacts = calloc((size_t)c->n + 1, sizeof *c->impacts);
-    if (c->list == NULL || c->of_node == NULL || c->involved == NULL || c->impacts == NULL) {
-        contact_set_destroy(c);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)c->n);
-    }
-    for (dem_index i = 0; i < model->lattice.n_nodes; i++) c->of_node[i] = -1;
-    for (dem_index k = 0; k < c->surface->n_nodes; k++) {
-        c->list[k] = (contact_candidate){
-            .node = c->surface->nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
-        c->of_node[c->surface->nodes[k]] = k;
-    }
+    CHECK(c->list && c->of_node && c->involved && c->impacts, DEM_ERROR_MEMORY,
+          "out of memory for %lld contact candidates", (long long)c->n);
+    list_nodes(c);
     list_edges(c);
-    dem_status status = ledger_create(&c->ledger, model->obstacles.n);
-    if (status == DEM_OK) status = contact_forces_create(&c->forces, &c->scene, c->list, c->n);
+    return contact_forces_create(&c->forces, scene, c->list, c->n);
+}
+
+static void free_candidates(contact_set *c)
+{
+    free(c->list);
+    free(c->of_node);
+    free(c->involved);
+    free(c->impacts);
+    contact_forces_destroy(&c->forces);
+}
+
+dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule)
+{
+    *c = (contact_set){.scene = {acting->model, acting, *rule}, .surface = &acting->model->surface};
+    dem_status status = list_candidates(c, &c->scene);
+    if (status == DEM_OK) status = ledger_create(&c->ledger, acting->model->obstacles.n);
     if (status != DEM_OK) contact_set_destroy(c);
     return status;
 }
 
 void contact_set_destroy(contact_set *c)
 {
-    free(c->list);
-    free(c->of_node);
-    free(c->involved);
-    free(c->impacts);
+    free_candidates(c);
     ledger_destroy(&c->ledger);
-    contact_forces_destroy(&c->forces);
     *c = (contact_set){0};
 }
+
+/* ---- another surface ---- */
+
+/* Where its boundary goes on otherwise, what touches its ends may too. */
+void contact_set_become(contact_set *c, dem_index k, const contact_candidate *was)
+{
+    contact_candidate *candidate = &c->list[k];
+    const dem_index previous = candidate->previous, next = candidate->next;
+    *candidate = *was;
+    if (previous != was->previous || next != was->next) candidate_forget_clearance(candidate);
+    candidate->previous = previous;
+    candidate->next = next;
+}
+
+static void carry_over(const contact_set *from, dem_index was, contact_set *to, dem_index k)
+{
+    contact_set_become(to, k, &from->list[was]);
+    for (int q = 0; q < 2; q++) to->forces.force[k][q] = from->forces.force[was][q];
+}
+
+/* The nodes of a new edge may be behind an obstacle. */
+static void begin_edge(contact_set *c, dem_index k)
+{
+    contact_candidate *edge = &c->list[k];
+    const dem_index ends[2] = {c->of_node[edge->node], c->of_node[edge->other]};
+    for (int e = 0; e < 2; e++)
+        if (ends[e] >= 0) edge->behind[e] = c->list[ends[e]].behind[0];
+}
+
+dem_status contact_set_follow_surface(contact_set *c, const surface *to)
+{
+    contact_set next = {.scene = c->scene, .surface = to, .ledger = c->ledger, .projected = c->projected};
+    dem_status status = list_candidates(&next, &c->scene);
+    for (dem_index k = 0; k < next.n && status == DEM_OK; k++) {
+        const dem_index was = contact_set_find(c, candidate_key(&next.list[k]));
+        if (was >= 0)
+            carry_over(c, was, &next, k);
+        else if (candidate_is_edge(&next.list[k]))
+            begin_edge(&next, k);
+    }
+    if (status == DEM_OK) status = contact_set_regroup(&next);
+    free_candidates(status == DEM_OK ? c : &next);
+    if (status != DEM_OK) return status;
+    *c = next;
+    contact_set_count_behind(c);
+    return DEM_OK;
+}
+
+void contact_set_count_behind(contact_set *c)
+{
+    c->ledger.counts.behind = 0;
+    for (dem_index k = 0; k < c->surface->n_nodes; k++) c->ledger.counts.behind += c->list[k].behind[0] >= 0;
+}
+
+/* ---- what is beside a candidate ---- */
 
 dem_index contact_set_find(const contact_set *c, contact_key key)
 {

@@ -43,6 +43,15 @@ typedef struct contact_set {
 dem_status contact_set_create(contact_set *c, const forces *acting, const contact_rule *rule);
 void contact_set_destroy(contact_set *c);
 
+/** Makes the candidates those of another surface of the same nodes, which is borrowed; the one before has to last till
+ *  then. Candidates of both keep their contacts and what is known of them under new numbers; new ones are free. Those
+ *  that go leave no contact and no event behind: whoever takes a surface away knows why. Not during an impact.
+ *  \return DEM_ERROR_MEMORY, with the set as it was */
+dem_status contact_set_follow_surface(contact_set *c, const surface *to);
+
+/** A candidate becomes what the same one was at another time, perhaps on another surface. */
+void contact_set_become(contact_set *c, dem_index k, const contact_candidate *was);
+
 /** A candidate without contacts and clearance; only the obstacles that it is behind are kept. */
 static inline contact_candidate candidate_reset(const contact_candidate *candidate)
 {
@@ -105,6 +114,9 @@ bool contact_set_coupled(const contact_set *c, dem_index k);
 
 /** A node has passed round the free end of an obstacle, or come back (-1); its edges know as well. */
 void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle);
+
+/** Counts for the ledger the nodes that are behind obstacles. */
+void contact_set_count_behind(contact_set *c);
 
 /** Finds the groups of all contacts, and which of them are corners. */
 dem_status contact_set_regroup(contact_set *c);

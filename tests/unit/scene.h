@@ -109,10 +109,9 @@ static inline void scene_check(scene *s, dem_index i, double x, double y, double
 /* The candidate of the edge from node a to node b. */
 static inline dem_index scene_edge(const scene *s, dem_index a, dem_index b)
 {
-    for (dem_index k = s->model->surface.n_nodes; k < s->c.set.n; k++)
-        if (s->c.set.list[k].node == a && s->c.set.list[k].other == b) return k;
-    fail_msg("no edge from node %lld to node %lld", (long long)a, (long long)b);
-    return -1;
+    const dem_index k = contact_set_find(&s->c.set, (contact_key){a, b});
+    if (k < 0) fail_msg("no edge from node %lld to node %lld", (long long)a, (long long)b);
+    return k;
 }
 
 static inline dem_status scene_take_up(scene *s)

@@ -3,6 +3,8 @@
  * Numbers are worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "unit/scene.h"
 
+#include "lattice/mesh_edges.h"
+
 static const double g = scene_gravity, masses[6] = {1.0, 3.0, 2.0, 1.0, 3.0, 2.0};
 
 static const double floor_points[4] = {-8.0, 0.0, 8.0, 0.0};
@@ -104,6 +106,108 @@ static void a_key_finds_its_candidate_and_no_other(void **state)
     for (dem_index k = 0; k < c->n; k++) assert_int_equal(contact_set_find(c, candidate_key(&c->list[k])), k);
     assert_int_equal(contact_set_find(c, (contact_key){1, 0}), -1);
     assert_int_equal(contact_set_find(c, (contact_key){0, 2}), -1);
+    scene_close(&s);
+}
+
+/* ---- another surface ---- */
+
+/* That of the square's first triangle alone: edges 0-1, 1-2 and 2-0, and no node 3. */
+static surface half_surface(const scene *s)
+{
+    unsigned char flags[4];
+    dem_lattice lattice = s->model->lattice;
+    surface half;
+    lattice.n_triangles = 1;
+    lattice.flags = flags;
+    assert_ok(mesh_edges_contact_flags(flags, &lattice));
+    assert_ok(surface_compile(&half, &lattice));
+    return half;
+}
+
+static void candidates_of_both_surfaces_stay_what_they_are_under_new_numbers(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    contact_set *c = &s.c.set;
+    surface half = half_surface(&s);
+    const contact_key kept[5] = {{0, -1}, {1, -1}, {2, -1}, {0, 1}, {1, 2}};
+    contact_candidate before[5];
+    assert_ok(contact_set_close(c, 1, (contact_point){.feature = 3, .slide = -1, .force = 5.0}));
+    assert_ok(
+        contact_set_close(c, scene_edge(&s, 1, 2), (contact_point){.feature = 1, .place = 0.25, .friction = 2.0}));
+    for (int k = 0; k < 5; k++) {
+        contact_candidate *candidate = &c->list[contact_set_find(c, kept[k])];
+        candidate->storm = (contact_storm){0.5, k};
+        candidate->clearance = (contact_clearance){true, 1.0 + k, 2.0 + k, {{3.0, 4.0}, {5.0, 6.0}}, 7.0 + k};
+        c->forces.force[contact_set_find(c, kept[k])][0] = (contact_force){k, -k};
+        before[k] = *candidate;
+    }
+    assert_ok(contact_set_follow_surface(c, &half));
+    assert_int_equal(c->n, 6);
+    assert_int_equal(c->of_node[3], -1);
+    assert_int_equal(contact_set_find(c, (contact_key){2, 3}), -1);
+    assert_int_equal(c->forces.n_groups, 1);
+    const contact_candidate inner = c->list[contact_set_find(c, (contact_key){2, 0})];
+    assert_int_equal(inner.n_closed, 0);
+    assert_false(inner.clearance.inactive);
+    for (int k = 0; k < 5; k++) {
+        const dem_index number = contact_set_find(c, kept[k]);
+        contact_candidate *candidate = &c->list[number], then = before[k];
+        if (k >= 3) { /* the boundary goes on otherwise */
+            then.previous = k == 3 ? 2 : 0;
+            then.next = k == 3 ? 2 : 0;
+            candidate_forget_clearance(&then);
+        }
+        assert_memory_equal(candidate, &then, sizeof then);
+        assert_close(c->forces.force[number][0].normal, k, 0.0);
+        assert_close(c->forces.force[number][0].tangent, -k, 0.0);
+    }
+    assert_ok(contact_set_follow_surface(c, &s.model->surface));
+    assert_int_equal(c->n, 8);
+    for (dem_index k = 0; k < 4; k++) assert_int_equal(c->list[scene_edge(&s, k, (k + 1) % 4)].next, (k + 2) % 4);
+    assert_int_equal(c->list[scene_edge(&s, 1, 2)].closed[0].feature, 1);
+    surface_free(&half);
+    scene_close(&s);
+}
+
+/* A vertex in the notch between edges 1-2 and 2-3, and node 3 on a floor beside it. */
+static void contacts_of_candidates_that_go_are_open(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    contact_set *c = &s.c.set;
+    surface half = half_surface(&s);
+    close_contact(&s, 3, 0, 1);
+    close_contact(&s, scene_edge(&s, 1, 2), 0, -1);
+    close_contact(&s, scene_edge(&s, 2, 3), 0, 1);
+    assert_true(c->list[scene_edge(&s, 1, 2)].closed[0].held);
+    assert_ok(contact_set_follow_surface(c, &half));
+    assert_false(c->list[scene_edge(&s, 1, 2)].closed[0].held);
+    assert_int_equal(contact_set_group_at(c, 3), -1);
+    dem_index n_closed = 0;
+    for (dem_index k = 0; k < c->n; k++) n_closed += c->list[k].n_closed;
+    assert_int_equal(n_closed, 1);
+    surface_free(&half);
+    scene_close(&s);
+}
+
+static void a_new_edge_knows_what_its_nodes_are_behind(void **state)
+{
+    scene s;
+    (void)state;
+    open_square(&s, roofs, 2);
+    contact_set *c = &s.c.set;
+    surface half = half_surface(&s);
+    contact_set_pass_behind(c, 2, 1);
+    contact_set_pass_behind(c, 3, 0);
+    assert_ok(contact_set_follow_surface(c, &half));
+    const contact_candidate *inner = &c->list[contact_set_find(c, (contact_key){2, 0})];
+    assert_int_equal(inner->behind[0], 1);
+    assert_int_equal(inner->behind[1], -1);
+    assert_int_equal(c->ledger.counts.behind, 1);
+    surface_free(&half);
     scene_close(&s);
 }
 
@@ -403,6 +507,9 @@ int main(void)
         cmocka_unit_test(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for),
         cmocka_unit_test(a_node_that_may_not_touch_is_no_candidate),
         cmocka_unit_test(a_key_finds_its_candidate_and_no_other),
+        cmocka_unit_test(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers),
+        cmocka_unit_test(contacts_of_candidates_that_go_are_open),
+        cmocka_unit_test(a_new_edge_knows_what_its_nodes_are_behind),
         cmocka_unit_test(a_candidate_reports_which_of_its_contacts_is_on_a_feature),
         cmocka_unit_test(closing_appends_and_opening_keeps_the_other),
         cmocka_unit_test(contacts_that_share_nodes_are_one_group),
