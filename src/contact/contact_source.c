@@ -12,24 +12,34 @@
 
 /* ---- set-up ---- */
 
-static dem_status allocate(contact_source *s)
+/* For n candidates, and for those that are saved already. */
+static dem_status allocate(contact_source *s, dem_index n)
 {
-    const contact_set *c = &s->automaton->set;
-    const size_t n = (size_t)c->n + 1;
-    s->crossing = malloc(n * sizeof *s->crossing);
-    s->kept = calloc(n, sizeof *s->kept);
-    s->saved = malloc(n * sizeof *s->saved);
-    s->before = malloc(n * sizeof *s->before);
+    const size_t size = (size_t)n + 1, most = size + (size_t)s->n_saved;
+    s->crossing = malloc(size * sizeof *s->crossing);
+    s->kept = calloc(size, sizeof *s->kept);
+    s->saved = malloc(most * sizeof *s->saved);
+    s->before = malloc(most * sizeof *s->before);
+    s->heap = (event_heap){0};
     CHECK(s->crossing && s->kept && s->saved && s->before, DEM_ERROR_MEMORY,
-          "out of memory for %lld contact candidates", (long long)c->n);
-    TRY(event_heap_create(&s->heap, c->n));
-    return ledger_create(&s->ledger, c->scene.model->obstacles.n);
+          "out of memory for %lld contact candidates", (long long)n);
+    return event_heap_create(&s->heap, n);
+}
+
+static void free_lists(contact_source *s)
+{
+    event_heap_destroy(&s->heap);
+    free(s->crossing);
+    free(s->kept);
+    free(s->saved);
+    free(s->before);
 }
 
 dem_status contact_source_create(contact_source *out, automaton *c)
 {
     *out = (contact_source){.automaton = c};
-    const dem_status status = allocate(out);
+    dem_status status = allocate(out, c->set.n);
+    if (status == DEM_OK) status = ledger_create(&out->ledger, c->set.scene.model->obstacles.n);
     if (status != DEM_OK) contact_source_destroy(out);
     return status;
 }
@@ -37,12 +47,42 @@ dem_status contact_source_create(contact_source *out, automaton *c)
 void contact_source_destroy(contact_source *s)
 {
     ledger_destroy(&s->ledger);
-    event_heap_destroy(&s->heap);
-    free(s->crossing);
-    free(s->kept);
-    free(s->saved);
-    free(s->before);
+    free_lists(s);
     *s = (contact_source){0};
+}
+
+/* ---- another surface ---- */
+
+/* What is due and what is saved goes on under new numbers, from one source to the next. */
+static void carry_over(const contact_source *from, const contact_key *due, contact_source *to)
+{
+    const contact_set *c = &to->automaton->set;
+    for (dem_index p = 0; p < from->heap.n; p++) {
+        const dem_index k = contact_set_find(c, due[p]);
+        if (k >= 0) event_heap_set(&to->heap, k, from->heap.due[from->heap.keys[p]]);
+    }
+    for (dem_index m = 0; m < to->n_saved; m++) {
+        const dem_index k = contact_set_find(c, candidate_key(&from->before[m]));
+        to->before[m] = from->before[m];
+        to->saved[m] = k;
+        if (k >= 0) to->kept[k] = true;
+    }
+}
+
+dem_status contact_source_follow_surface(contact_source *s, const surface *to)
+{
+    const contact_candidate *list = s->automaton->set.list;
+    contact_source next = *s;
+    contact_key *due = malloc(((size_t)s->heap.n + 1) * sizeof *due);
+    dem_status status = allocate(&next, to->n_nodes + to->n_edges);
+    if (status == DEM_OK && due == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory for events");
+    for (dem_index p = 0; p < s->heap.n && due != NULL; p++) due[p] = candidate_key(&list[s->heap.keys[p]]);
+    if (status == DEM_OK) status = automaton_follow_surface(s->automaton, to);
+    if (status == DEM_OK) carry_over(s, due, &next);
+    free(due);
+    free_lists(status == DEM_OK ? s : &next);
+    if (status == DEM_OK) *s = next;
+    return status;
 }
 
 /* ---- what is next ---- */
@@ -87,7 +127,8 @@ static void look_ahead(contact_source *s)
 /* Forgets what was saved for the step before. */
 static void forget_saved(contact_source *s)
 {
-    for (dem_index m = 0; m < s->n_saved; m++) s->kept[s->saved[m]] = false;
+    for (dem_index m = 0; m < s->n_saved; m++)
+        if (s->saved[m] >= 0) s->kept[s->saved[m]] = false;
     s->n_saved = 0;
     s->has_ledger = false;
 }
@@ -206,13 +247,25 @@ static void contact_source_follow(void *self, const event_place *at)
     each_candidate(s, at, look_again);
 }
 
+/* What was saved; leaves out what is a candidate no more. */
+static void put_back(contact_source *s)
+{
+    dem_index n = 0;
+    for (dem_index m = 0; m < s->n_saved; m++) {
+        if (s->saved[m] < 0) continue;
+        contact_set_become(&s->automaton->set, s->saved[m], &s->before[m]);
+        s->saved[n++] = s->saved[m];
+    }
+    s->n_saved = n;
+}
+
 static void contact_source_undo(void *self)
 {
     contact_source *s = self;
     automaton *c = s->automaton;
     c->solved = NAN;
     if (!s->has_ledger) return;
-    for (dem_index m = 0; m < s->n_saved; m++) c->set.list[s->saved[m]] = s->before[m];
+    put_back(s);
     copy_ledger(&s->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
     (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved); /* cannot fail: these groups had room before */
     c->idle = s->idle;

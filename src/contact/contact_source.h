@@ -15,7 +15,7 @@ typedef struct contact_source {
     double *crossing;         /* [n candidates] s, when a free one touches, while a step is begun */
     bool *kept;               /* [n candidates] whether one is among `saved` */
     dem_index n_saved;
-    dem_index *saved;          /* [n_saved] those that may have changed */
+    dem_index *saved;          /* [n_saved] those that may have changed; -1: it is a candidate no more */
     contact_candidate *before; /* [n_saved] as they were before the step */
     bool has_ledger;           /* whether `ledger` is set: there has been an event */
     contact_ledger ledger;     /* as it was before the step */
@@ -25,6 +25,12 @@ typedef struct contact_source {
 /** Borrows the automaton. Free with contact_source_destroy().  \return DEM_ERROR_MEMORY */
 dem_status contact_source_create(contact_source *out, automaton *c);
 void contact_source_destroy(contact_source *s);
+
+/** The candidates become those of another surface, as by automaton_follow_surface(), also while an event of another
+ *  source is resolved. That source takes it back in its undo(): it comes after contact in the queue, so that its undo()
+ *  goes first. Candidates near the event are looked at when that has been resolved.
+ *  \return DEM_ERROR_MEMORY, with all as it was */
+dem_status contact_source_follow_surface(contact_source *s, const surface *to);
 
 /** `s` must stay where it is. */
 event_source contact_source_events(contact_source *s);

@@ -349,6 +349,123 @@ static void sources_are_undone_and_redone_to_the_bit(void **state)
     close_rig(&r);
 }
 
+/* ---- candidates that come and go ---- */
+
+/* Gives the bodies another surface at a time, by an event at node 1. */
+typedef struct exposure {
+    contact_source *contact;
+    const surface *before, *after;
+    double t; /* s */
+    bool done;
+} exposure;
+
+static void exposure_undo(void *self)
+{
+    exposure *s = self;
+    if (s->done) assert_ok(contact_source_follow_surface(s->contact, s->before));
+    s->done = false;
+}
+
+static void exposure_begin(void *self, const dense_output *step, double *state)
+{
+    (void)step;
+    (void)state;
+    assert_false(((exposure *)self)->done);
+}
+
+static double exposure_next(const void *self, dem_index *key)
+{
+    const exposure *s = self;
+    *key = 0;
+    return s->done ? (double)INFINITY : s->t;
+}
+
+static dem_index exposure_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
+{
+    (void)self;
+    (void)key;
+    if (capacity > 0) nodes[0] = 1;
+    return 1;
+}
+
+static dem_status exposure_resolve(void *self, dem_index key, const event_place *at, const event_listener *listener)
+{
+    exposure *s = self;
+    (void)key;
+    (void)at;
+    (void)listener;
+    s->done = true;
+    return contact_source_follow_surface(s->contact, s->after);
+}
+
+/* A rig of three masses, two of which fall from the same height; its surface is changed before they land, while the
+ * third bounces. */
+static void open_exposed(rig *r, exposure *s, const surface *before, const surface *after)
+{
+    const double heights[3] = {0.03, 0.03, 0.005};
+    open_masses(r, 3, heights, 0.5, 0.0);
+    *s = (exposure){&r->contact, before, after, 0.07, false};
+    assert_ok(contact_source_follow_surface(&r->contact, before));
+    assert_ok(event_queue_add_source(&r->q, (event_source){"exposure", s, exposure_begin, exposure_next, exposure_seeds,
+                                                           kicks_see, exposure_resolve, kicks_see, exposure_undo}));
+    fall(r, 0.0, 0.1);
+}
+
+static dem_index every_node[3] = {0, 1, 2}, outer_nodes[2] = {0, 2};
+
+/* 0 and 1 land together, in the order of nodes, though 1 has come last. */
+static void a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there(void **state)
+{
+    const surface all = {.n_nodes = 3, .nodes = every_node}, outer = {.n_nodes = 2, .nodes = outer_nodes};
+    exposure late, early;
+    rig r, whole;
+    (void)state;
+    open_exposed(&r, &late, &outer, &all);
+    open_exposed(&whole, &early, &all, &all);
+    const contact_candidate first = r.c.set.list[1];
+    for (int k = 0; k < 3; k++) { /* there, back and there again */
+        dem_index e = 0;
+        show(&r, 0.1);
+        show(&whole, 0.1);
+        assert_int_equal(r.q.n_events, whole.q.n_events);
+        while (r.q.events[e].node != 0) e++;
+        assert_int_equal(r.q.events[e + 1].node, 1);
+        assert_true(r.q.events[e + 1].t == r.q.events[e].t);
+        assert_memory_equal(r.q.events, whole.q.events, (size_t)r.q.n_events * sizeof *r.q.events);
+        assert_memory_equal(r.y1, whole.y1, sizeof r.y1);
+        assert_memory_equal(r.f1, whole.f1, sizeof r.f1);
+        assert_int_equal(r.c.set.n, 3);
+        show(&r, 0.069); /* before the surface changes */
+        assert_int_equal(r.c.set.n, 2);
+        assert_true(r.q.n_events > 0);
+    }
+    show(&r, 0.1);
+    event_queue_undo(&r.q);
+    assert_int_equal(r.c.set.ledger.counts.impacts, 0);
+    assert_memory_equal(&r.c.set.list[1], &first, sizeof first);
+    close_rig(&r);
+    close_rig(&whole);
+}
+
+/* Mass 1 falls through the floor, on which 0 bounces. */
+static void a_candidate_that_goes_within_a_step_touches_no_more(void **state)
+{
+    const surface all = {.n_nodes = 3, .nodes = every_node}, outer = {.n_nodes = 2, .nodes = outer_nodes};
+    exposure late, early;
+    rig r, without;
+    (void)state;
+    open_exposed(&r, &late, &all, &outer);
+    open_exposed(&without, &early, &outer, &outer);
+    show(&r, 0.1);
+    show(&without, 0.1);
+    for (dem_index e = 0; e < r.q.n_events; e++) assert_int_not_equal(r.q.events[e].node, 1);
+    assert_true(r.y1[3] < 0.0 && r.y1[1] > 0.0);
+    assert_memory_equal(r.y1, without.y1, sizeof r.y1);
+    assert_memory_equal(r.f1, without.f1, sizeof r.f1);
+    close_rig(&r);
+    close_rig(&without);
+}
+
 /* ---- any time ---- */
 
 static void a_step_without_events_is_left_as_it_is(void **state)
@@ -700,6 +817,8 @@ int main(void)
         cmocka_unit_test(a_node_may_bounce_many_times_in_a_step),
         cmocka_unit_test(events_of_sources_come_in_the_order_of_time_kind_and_key),
         cmocka_unit_test(sources_are_undone_and_redone_to_the_bit),
+        cmocka_unit_test(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there),
+        cmocka_unit_test(a_candidate_that_goes_within_a_step_touches_no_more),
         cmocka_unit_test(a_step_without_events_is_left_as_it_is),
         cmocka_unit_test(a_step_shown_at_a_time_is_what_it_is_then),
         cmocka_unit_test(any_way_to_a_time_gives_the_same_bits),

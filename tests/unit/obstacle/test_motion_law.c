@@ -78,7 +78,7 @@ static void points_go_where_the_obstacle_has_gone_also_in_place(void **state)
     assert_memory_equal(points, given, sizeof given);
 }
 
-static void fields_are_told_one_by_one(void **state)
+static void fields_are_listed_one_by_one(void **state)
 {
     const dem_obstacle moves = {.velocity = {1.0, 0.0}}, rest = {.n_points = 0};
     const dem_motion_field *field = dem_motion_field_at(0), copy = *field, other = {.n = 1, .offset = 0};
@@ -114,7 +114,7 @@ int main(void)
         cmocka_unit_test(velocity_and_acceleration_are_those_of_a_point_of_the_body),
         cmocka_unit_test(a_constant_velocity_carries_everything_along),
         cmocka_unit_test(points_go_where_the_obstacle_has_gone_also_in_place),
-        cmocka_unit_test(fields_are_told_one_by_one),
+        cmocka_unit_test(fields_are_listed_one_by_one),
         cmocka_unit_test(a_motion_that_cannot_be_computed_with_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
