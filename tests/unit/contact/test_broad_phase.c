@@ -188,6 +188,31 @@ static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void
     }
 }
 
+/* Masses 0 and 1 are far from the floor, 2 is near it; 1 goes and comes back. */
+static void who_is_active_stays_so_under_another_number(void **state)
+{
+    const double x[6] = {0.0, 2.0, 1.0, 1.0, 2.0, 0.0};
+    dem_index outer_nodes[2] = {0, 2};
+    const surface outer = {.n_nodes = 2, .nodes = outer_nodes};
+    scene s;
+    (void)state;
+    open_nodes(&s, 3, x);
+    const broad_phase *w = &s.c.broad_phase;
+    look(&s, 10.0);
+    assert_int_equal(w->n, 1);
+    assert_int_equal(w->active[0], 2);
+    assert_close(w->earliest, 1.0 - 20.0 * penetration_tolerance, 1e-15);
+    assert_ok(automaton_follow_surface(&s.c, &outer));
+    assert_int_equal(w->n, 1);
+    assert_int_equal(w->active[0], 1);
+    assert_close(w->earliest, 2.0 - 20.0 * penetration_tolerance, 1e-15);
+    assert_ok(automaton_follow_surface(&s.c, &s.model->surface));
+    assert_int_equal(w->n, 2); /* nothing is known of the one that comes */
+    assert_int_equal(w->active[0], 1);
+    assert_int_equal(w->active[1], 2);
+    scene_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -199,6 +224,7 @@ int main(void)
         cmocka_unit_test(edges_sleep_too),
         cmocka_unit_test(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it),
         cmocka_unit_test(a_node_found_inside_has_come_round_a_free_end_and_may_come_back),
+        cmocka_unit_test(who_is_active_stays_so_under_another_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
