@@ -44,34 +44,44 @@ static void bracket_close(bracket *b, double t, double value, bool beyond)
     }
 }
 
-/* The root function of a free candidate at one time, and its derivative. */
+/* A free candidate at one time, and its root function there. */
 typedef struct sample {
-    double t, guard, slope;
+    candidate_positions spot;
+    contact_gap gap;
+    double guard;
 } sample;
 
 static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
-    const candidate_positions spot = candidate_place_at(candidate, p, t);
-    const contact_gap gap = candidate_gap(scene, candidate, &spot);
-    vec2 v = node_motion_velocity(p, t, candidate->node);
-    if (candidate_is_edge(candidate))
-        v = vec2_add(vec2_scale(1.0 - gap.place, v),
-                     vec2_scale(gap.place, node_motion_velocity(p, t, candidate->other)));
-    v = contact_gap_velocity(scene, candidate, &gap, &spot, v);
-    return (sample){t, fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance, vec2_dot(gap.normal, v)};
+    sample s = {.spot = candidate_place_at(candidate, p, t)};
+    s.gap = candidate_gap(scene, candidate, &s.spot);
+    s.guard = fmin(s.gap.distance, 1.0) + scene->rule.penetration_tolerance;
+    return s;
 }
 
 static double guard_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
-    const candidate_positions spot = candidate_place_at(candidate, p, t);
-    return fmin(candidate_gap(scene, candidate, &spot).distance, 1.0) + scene->rule.penetration_tolerance;
+    return sample_at(scene, candidate, p, t).guard;
+}
+
+/* Derivative of the root function, m/s. */
+static double slope_of(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
+                       const sample *s)
+{
+    vec2 v = node_motion_velocity(p, s->spot.t, candidate->node);
+    if (candidate_is_edge(candidate))
+        v = vec2_add(vec2_scale(1.0 - s->gap.place, v),
+                     vec2_scale(s->gap.place, node_motion_velocity(p, s->spot.t, candidate->other)));
+    return vec2_dot(s->gap.normal, contact_gap_velocity(scene, candidate, &s->gap, &s->spot, v));
 }
 
 /* Whether the root function may be lower between two samples than at both; at one of them the vertex may be beside the
  * edge, where there is no slope. */
-static bool dips(const sample *s, const sample *next)
+static bool dips(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, const sample *s,
+                 const sample *next)
 {
-    return (s->slope < 0.0 || next->guard < s->guard) && (next->slope > 0.0 || s->guard < next->guard);
+    return (next->guard < s->guard || slope_of(scene, candidate, p, s) < 0.0) &&
+           (s->guard < next->guard || slope_of(scene, candidate, p, next) > 0.0);
 }
 
 /* Time of the minimum between two samples, by golden section; a value at or below 0 ends the search. Where no vertex is
@@ -80,7 +90,7 @@ static double lowest(const contact_scene *scene, const contact_candidate *candid
                      const sample *s, const sample *next)
 {
     const double ratio = 0.6180339887498949;
-    double lo = s->t, hi = next->t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
+    double lo = s->spot.t, hi = next->spot.t, a = hi - ratio * (hi - lo), b = lo + ratio * (hi - lo);
     double ga = guard_at(scene, candidate, p, a), gb = guard_at(scene, candidate, p, b);
     for (int k = 0; k < 40 && ga > 0.0 && gb > 0.0; k++) {
         if (ga < gb || (ga == gb && s->guard < next->guard)) {
@@ -102,10 +112,10 @@ static double lowest(const contact_scene *scene, const contact_candidate *candid
 
 /* The root between a time when the function is above 0 and one when it is not. */
 static double crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
-                       sample clear, sample deep)
+                       const sample *clear, const sample *deep)
 {
     const double width = event_location_resolution(p);
-    bracket b = {clear.t, deep.t, clear.guard, deep.guard, 0, 0};
+    bracket b = {clear->spot.t, deep->spot.t, clear->guard, deep->guard, 0, 0};
     while (b.after - b.before > width) {
         const double t = bracket_trial(&b, width), guard = guard_at(scene, candidate, p, t);
         bracket_close(&b, t, guard, guard <= 0.0);
@@ -173,11 +183,10 @@ static double crossing_within(const contact_scene *scene, const contact_candidat
     if (!candidate_is_edge(candidate) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, candidate, p, from + h * k / n);
-        if (next.guard <= 0.0) return crossing(scene, candidate, p, s, next);
-        if (dips(&s, &next) && fmin(s.guard, next.guard) < reach / n) {
-            const sample low = {.t = lowest(scene, candidate, p, &s, &next)};
-            const double guard = guard_at(scene, candidate, p, low.t);
-            if (guard <= 0.0) return crossing(scene, candidate, p, s, (sample){low.t, guard, 0.0});
+        if (next.guard <= 0.0) return crossing(scene, candidate, p, &s, &next);
+        if (fmin(s.guard, next.guard) < reach / n && dips(scene, candidate, p, &s, &next)) {
+            const sample low = sample_at(scene, candidate, p, lowest(scene, candidate, p, &s, &next));
+            if (low.guard <= 0.0) return crossing(scene, candidate, p, &s, &low);
         }
         s = next;
     }
