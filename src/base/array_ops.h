@@ -24,7 +24,13 @@ typedef struct array_ops {
     void (*kick)(double *v1, const double *a0, const double *a1, double h, dem_index size);
 } array_ops;
 
+#ifdef DEM_X86_KERNELS
 extern const array_ops array_ops_portable, array_ops_avx2, array_ops_avx512;
+#else
+extern const array_ops array_ops_portable;
+#define array_ops_avx2   array_ops_portable
+#define array_ops_avx512 array_ops_portable
+#endif
 
 /** Adds one sum to another. */
 static inline void array_ops_add(array_ops_sum *sum, const array_ops_sum *other)

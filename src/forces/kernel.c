@@ -6,21 +6,17 @@
 #include <string.h>
 
 #include "base/aligned.h"
+#include "base/instruction_set.h"
 #include "base/status.h"
 #include "base/threads.h"
 
 /* ---- which there are ---- */
 
-#ifdef DEM_X86_KERNELS
-#define HAS(feature) (__builtin_cpu_supports(feature) != 0)
-#else
-#define HAS(feature)       false
+#ifndef DEM_X86_KERNELS
 #define sweep_avx2         sweep_portable
 #define sweep_avx512       sweep_portable
 #define sweep_guard_avx2   sweep_guard_portable
 #define sweep_guard_avx512 sweep_guard_portable
-#define array_ops_avx2     array_ops_portable
-#define array_ops_avx512   array_ops_portable
 #endif
 
 typedef struct kernel_row {
@@ -40,8 +36,8 @@ enum { n_rows = sizeof rows / sizeof rows[0] };
 
 static bool runs_here(dem_kernel kind)
 {
-    if (kind == DEM_KERNEL_AVX2) return HAS("avx2");
-    if (kind == DEM_KERNEL_AVX512) return HAS("avx512f") && HAS("avx512dq") && HAS("avx512vl");
+    if (kind == DEM_KERNEL_AVX2) return instruction_set_avx2();
+    if (kind == DEM_KERNEL_AVX512) return instruction_set_avx512();
     return kind == DEM_KERNEL_PORTABLE;
 }
 
