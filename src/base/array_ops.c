@@ -13,6 +13,25 @@ enum {
     piece = 4096    /* of so many numbers partial sums are exact in a double */
 };
 
+/* A vector of the machine, so that the compiler keeps it in a register. */
+#ifdef __AVX512F__
+enum { width = 8 };
+#elif defined __AVX__
+enum { width = 4 };
+#else
+enum { width = 2 };
+#endif
+typedef double vector __attribute__((vector_size(width * sizeof(double))));
+typedef int64_t vector_bits __attribute__((vector_size(width * sizeof(double))));
+
+/* The numbers from x on, zeros behind them. */
+INLINE vector vector_at(const double *x, dem_index n)
+{
+    vector out = {0.0};
+    memcpy(&out, x, (size_t)n * sizeof *x);
+    return out;
+}
+
 /* ---- linear combinations ---- */
 
 /* `n` is a constant where this is called, so that the inner loop is none. */
@@ -75,36 +94,35 @@ static void combine(double *out, int n, const double *c, const double *const *in
 
 /* ---- sums of squares ---- */
 
-typedef double eight __attribute__((vector_size(64)));
-typedef int64_t eight_bits __attribute__((vector_size(64)));
+typedef struct squares {
+    vector highs, lows, most;
+} squares;
 
 /* p = h + l + rest, h a multiple of 2^-20 and l of 2^-60, |rest| <= 2^-61: adding and taking away 1.5 2^(52 - 20)
  * rounds to the one, 1.5 2^(52 - 60) to the other. The sums of a piece are exact in any order: they have at most 53
- * bits. Behind the end stand zeros. */
-static void square_piece(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size)
+ * bits. */
+INLINE void add_squares(squares *s, vector e)
 {
     const double to_high = 0x1.8p32, to_low = 0x1.8p-8;
-    eight highs = {0.0}, lows = {0.0}, most = {0.0};
-    for (dem_index k = 0; k < size; k += 8) {
-        eight a = {0.0}, b = {0.0};
-        if (k + 8 <= size) {
-            memcpy(&a, x + k, sizeof a);
-            memcpy(&b, w + k, sizeof b);
-        } else {
-            memcpy(&a, x + k, (size_t)(size - k) * sizeof *x);
-            memcpy(&b, w + k, (size_t)(size - k) * sizeof *w);
-        }
-        const eight e = scale * a * b, p = e * e, h = (p + to_high) - to_high;
-        const eight_bits larger = p > most;
-        highs += h;
-        lows += ((p - h) + to_low) - to_low;
-        most = (eight)(((eight_bits)p & larger) | ((eight_bits)most & ~larger));
-    }
+    const vector p = e * e, h = (p + to_high) - to_high;
+    const vector_bits larger = p > s->most;
+    s->highs += h;
+    s->lows += ((p - h) + to_low) - to_low;
+    s->most = (vector)(((vector_bits)p & larger) | ((vector_bits)s->most & ~larger));
+}
+
+/* Behind the end stand zeros. */
+static void square_piece(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size)
+{
+    squares s = {{0.0}, {0.0}, {0.0}};
+    dem_index k = 0;
+    for (; k + width <= size; k += width) add_squares(&s, scale * vector_at(x + k, width) * vector_at(w + k, width));
+    if (k < size) add_squares(&s, scale * vector_at(x + k, size - k) * vector_at(w + k, size - k));
     double high = 0.0, low = 0.0, largest = 0.0;
-    for (int q = 0; q < 8; q++) {
-        high += highs[q];
-        low += lows[q];
-        largest = most[q] > largest ? most[q] : largest;
+    for (int q = 0; q < width; q++) {
+        high += s.highs[q];
+        low += s.lows[q];
+        largest = s.most[q] > largest ? s.most[q] : largest;
     }
     array_ops_sum here = {.largest = isnan(high) ? high : largest}; /* a square that is none shows in the sum */
     if (here.largest <= ARRAY_OPS_LARGEST) {
