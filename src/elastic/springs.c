@@ -107,49 +107,40 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
     return out;
 }
 
-static double slot_energy(const springs *s, dem_index i, dem_index p, const double *x)
+static double energy(double stiffness, double rest_length, double strain)
 {
-    const double strain = springs_strain(s, i, p, x);
-    return 0.5 * s->stiffness[p] * s->rest_length[p] * strain * strain;
+    return 0.5 * stiffness * rest_length * strain * strain;
 }
 
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x)
 {
-    double energy = 0.0;
+    double sum = 0.0;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (!springs_broken(s, broken, p)) energy += slot_energy(s, i, p, x);
-    return energy;
+        if (!springs_broken(s, broken, p))
+            sum += energy(s->stiffness[p], s->rest_length[p], springs_strain(s, i, p, x));
+    return sum;
 }
 
-double springs_energy(const springs *s, const unsigned char *broken, const double *x)
+double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x)
 {
-    exact_terms energy = {.n = 0};
-    for (dem_index i = 0; i < s->n_nodes; i++)
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i && !springs_broken(s, broken, p)) exact_terms_add(&energy, slot_energy(s, i, p, x));
-    return reduce_terms(&energy);
+    exact_terms sum = {.n = 0};
+    for (dem_index k = 0; k < lattice->n_springs; k++)
+        if (!springs_is_broken(broken, k))
+            exact_terms_add(&sum,
+                            energy(lattice->stiffness[k], lattice->rest_length[k], springs_strain_of(lattice, k, x)));
+    return reduce_terms(&sum);
 }
 
-double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)
+void springs_strains(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *strain)
 {
-    const double length = vec2_norm(vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i)));
-    return (length - s->rest_length[p]) / s->rest_length[p];
+    for (dem_index k = 0; k < lattice->n_springs; k++)
+        strain[k] = springs_is_broken(broken, k) ? 0.0 : springs_strain_of(lattice, k, x);
 }
 
-void springs_strains(const springs *s, const unsigned char *broken, const double *x, double *strain)
+void springs_forces(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *force)
 {
-    for (dem_index i = 0; i < s->n_nodes; i++)
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i)
-                strain[s->spring[p]] = springs_broken(s, broken, p) ? 0.0 : springs_strain(s, i, p, x);
-}
-
-void springs_forces(const springs *s, const unsigned char *broken, const double *x, double *force)
-{
-    for (dem_index i = 0; i < s->n_nodes; i++)
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (s->neighbour[p] > i)
-                force[s->spring[p]] = springs_broken(s, broken, p) ? 0.0 : s->stiffness[p] * springs_strain(s, i, p, x);
+    springs_strains(lattice, broken, x, force);
+    for (dem_index k = 0; k < lattice->n_springs; k++) force[k] *= lattice->stiffness[k];
 }
 
 /* Of the spring in slot p of row i, 1/s. */

@@ -30,6 +30,12 @@ static inline bool springs_broken(const springs *s, const unsigned char *broken,
     return broken != NULL && broken[s->spring[p]];
 }
 
+/** The same of spring k of a lattice. */
+static inline bool springs_is_broken(const unsigned char *broken, dem_index k)
+{
+    return broken != NULL && broken[k];
+}
+
 /** E_ij (d - d0)/d0 of a spring of length d, over d: times the vector between its ends it is its force, (1). */
 static inline double springs_pull(double stiffness, double rest_length, double length)
 {
@@ -63,6 +69,13 @@ static inline vec2 springs_damping(const springs *s, const unsigned char *broken
     return force;
 }
 
+/** (d - d0)/d0 of the spring in slot p of row i. */
+static inline double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)
+{
+    const double length = vec2_norm(vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i)));
+    return (length - s->rest_length[p]) / s->rest_length[p];
+}
+
 /** (d - d0)/d0 of spring k of a lattice. */
 static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, const double *x)
 {
@@ -89,17 +102,14 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x);
 
-/** Energy of all springs, J; does not depend on how they and the nodes are numbered. */
-double springs_energy(const springs *s, const unsigned char *broken, const double *x);
+/** Energy of all springs of a lattice, J; does not depend on how they and the nodes are numbered. */
+double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x);
 
-/** (d - d0)/d0 of the spring in slot p of row i. */
-double springs_strain(const springs *s, dem_index i, dem_index p, const double *x);
-
-/** Strain of every spring, in the order of the lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
-void springs_strains(const springs *s, const unsigned char *broken, const double *x, double *strain);
+/** Strain of every spring of a lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
+void springs_strains(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *strain);
 
 /** Force (1) along every spring, > 0 in tension; 0 of one that is broken.  \param[out] force  [n_springs] N */
-void springs_forces(const springs *s, const unsigned char *broken, const double *x, double *force);
+void springs_forces(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *force);
 
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
 double springs_damping_power(const springs *s, const unsigned char *broken, const double *x, const double *v);

@@ -18,7 +18,7 @@ static vec2 sum_of(const exact_sum sum[2])
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
-    dem_energy energy = {.elastic = springs_energy(&model->springs, element_state_springs(f->elements), x)};
+    dem_energy energy = {.elastic = springs_energy(&model->lattice, element_state_springs(f->elements), x)};
     triangles_energy(&model->triangles, element_state_triangles(f->elements), x, &energy.area, &energy.guard);
     exact_terms kinetic = {.n = 0}, weight = {.n = 0};
     const vec2 g = {f->gravity[0], f->gravity[1]};
@@ -81,10 +81,11 @@ static dem_index lower_end(const dem_model *model, dem_index spring)
 dem_strain diagnostics_strain(const forces *f, const double *x)
 {
     const springs *s = &f->model->springs;
+    const unsigned char *broken = element_state_springs(f->elements);
     dem_strain strain = {.spring_min = -1, .spring_max = -1, .area_min = 1.0};
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            if (s->neighbour[p] < i || springs_broken(s, element_state_springs(f->elements), p)) continue;
+            if (s->neighbour[p] < i || springs_broken(s, broken, p)) continue;
             const double here = springs_strain(s, i, p, x);
             if (strain.spring_min < 0 || here < strain.min) {
                 strain.min = here;
@@ -160,12 +161,11 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
 /* Largest force of a spring, N. */
 static double largest_force(const forces *f, const double *x)
 {
-    const springs *s = &f->model->springs;
+    const dem_lattice *l = &f->model->lattice;
+    const unsigned char *broken = element_state_springs(f->elements);
     double largest = 0.0;
-    for (dem_index i = 0; i < s->n_nodes; i++)
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-            if (!springs_broken(s, element_state_springs(f->elements), p))
-                largest = fmax(largest, s->stiffness[p] * fabs(springs_strain(s, i, p, x)));
+    for (dem_index k = 0; k < l->n_springs; k++)
+        if (!springs_is_broken(broken, k)) largest = fmax(largest, l->stiffness[k] * fabs(springs_strain_of(l, k, x)));
     return largest;
 }
 

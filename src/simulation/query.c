@@ -83,12 +83,12 @@ dem_strain dem_simulation_strain(const dem_simulation *s)
 
 void dem_simulation_strains(const dem_simulation *s, double *strain)
 {
-    springs_strains(&s->model->springs, element_state_springs(s->forces.elements), seen_of(s), strain);
+    springs_strains(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), strain);
 }
 
 void dem_simulation_forces(const dem_simulation *s, double *force)
 {
-    springs_forces(&s->model->springs, element_state_springs(s->forces.elements), seen_of(s), force);
+    springs_forces(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), force);
 }
 
 void dem_simulation_stress(const dem_simulation *s, double *stress)

@@ -360,9 +360,9 @@ static void a_broken_spring_has_no_strain_and_no_force(void **state)
     double *whole = calloc(3 * (size_t)b.lattice.n_springs, sizeof *whole);
     assert_non_null(whole);
     double *strain = whole + b.lattice.n_springs, *force = strain + b.lattice.n_springs;
-    springs_strains(&b.model->springs, NULL, b.x, whole);
-    springs_strains(&b.model->springs, b.state.spring, b.x, strain);
-    springs_forces(&b.model->springs, b.state.spring, b.x, force);
+    springs_strains(&b.model->lattice, NULL, b.x, whole);
+    springs_strains(&b.model->lattice, b.state.spring, b.x, strain);
+    springs_forces(&b.model->lattice, b.state.spring, b.x, force);
     for (dem_index k = 0; k < b.lattice.n_springs; k++) {
         assert_true(whole[k] != 0.0);
         assert_close(strain[k], b.state.spring[k] ? 0.0 : whole[k], 0.0);

@@ -198,7 +198,7 @@ static double energy_of(const dem_model *model, const double *x, const double F[
     double *turned = copy_positions(model);
     memcpy(turned, x, 2 * (size_t)model->lattice.n_nodes * sizeof *x);
     deform(turned, model->lattice.n_nodes, F);
-    const double energy = springs_energy(&model->springs, NULL, turned) + triangles_energy_at(model, turned);
+    const double energy = springs_energy(&model->lattice, NULL, turned) + triangles_energy_at(model, turned);
     free(turned);
     return energy;
 }
