@@ -155,4 +155,64 @@ static void kick(double *restrict v1, const double *a0, const double *a1, double
     for (dem_index k = 0; k < size; k++) v1[k] += 0.5 * h * (a1[k] - a0[k]);
 }
 
-const array_ops ARRAY_OPS = {combine, square, drift, kick};
+/* ---- exact sums: error-free extraction (Rump, Ogita and Oishi 2008; Demmel and Nguyen 2013) ---- */
+
+INLINE vector magnitudes(vector x)
+{
+    return (vector)((vector_bits)x & 0x7fffffffffffffff);
+}
+
+INLINE double total(vector x)
+{
+    double sum = 0.0;
+    for (int q = 0; q < width; q++) sum += x[q];
+    return sum;
+}
+
+static double magnitude(const double *terms, int n)
+{
+    vector sum = {0.0};
+    for (int k = 0; k < n; k += ARRAY_OPS_LANES)
+        for (int q = 0; q < ARRAY_OPS_LANES; q += width) sum += magnitudes(vector_at(terms + k + q, width));
+    return total(sum);
+}
+
+/* The power of 2 up to a number > 0, 0 of one that is subnormal. */
+INLINE double power_of(double size)
+{
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    bits &= 0x7ff0000000000000;
+    memcpy(&size, &bits, sizeof size);
+    return size;
+}
+
+/* Adds terms to sums in [2^k, 2^(k+1)], which stay there: this rounds to the last place u = 2^(k-52) of the sums.
+ * \return what rounding leaves of the terms, at most u/2 each */
+INLINE vector extract(vector *sum, vector terms)
+{
+    const vector before = *sum;
+    *sum += terms;
+    return terms - (*sum - before);
+}
+
+/* The magnitudes of the terms add up to less than 2p: `high` begins half-way between 8p and 16p, so that at most
+ * 2^-50 p is left of a term, and as many as there are in a lane leave at most 2^-43 p: `low` begins half-way between
+ * 2^-42 p and 2^-41 p. What the lanes have added up has at most 53 bits in units of u, so that totals are exact. Where
+ * p is so small that there is no such u all sums are exact, and nothing is left. */
+static double split(double parts[2], double *terms, int n, double size)
+{
+    const double p = power_of(size), from_high = 12.0 * p, from_low = 0x1.8p-42 * p;
+    vector high = from_high + (vector){0.0}, low = from_low + (vector){0.0}, left = {0.0};
+    for (int k = 0; k < n; k += ARRAY_OPS_LANES)
+        for (int q = 0; q < ARRAY_OPS_LANES; q += width) {
+            const vector rest = extract(&low, extract(&high, vector_at(terms + k + q, width)));
+            memcpy(terms + k + q, &rest, sizeof rest);
+            left += magnitudes(rest);
+        }
+    parts[0] = total(high - from_high);
+    parts[1] = total(low - from_low);
+    return total(left);
+}
+
+const array_ops ARRAY_OPS = {combine, square, drift, kick, magnitude, split};

@@ -13,6 +13,9 @@ typedef struct array_ops_sum {
 
 #define ARRAY_OPS_LARGEST 1024.0
 
+enum { ARRAY_OPS_LANES = 16, ARRAY_OPS_TERMS = 256 };
+#define ARRAY_OPS_LARGEST_SIZE 0x1p1018
+
 typedef struct array_ops {
     /** out = sum of c_k in_k, from k = 0 on; out is none of them, n >= 1. */
     void (*combine)(double *out, int n, const double *c, const double *const *in, dem_index size);
@@ -22,6 +25,12 @@ typedef struct array_ops {
     void (*drift)(double *x1, double *v1, const double *const start[3], double h, dem_index size);
     /** v1 += h/2 (a1 - a0) */
     void (*kick)(double *v1, const double *a0, const double *a1, double h, dem_index size);
+    /** Sum of the magnitudes of n terms, a multiple of ARRAY_OPS_LANES; NAN or infinite if one of them is that. */
+    double (*magnitude)(const double *terms, int n);
+    /** Splits n terms, a multiple of ARRAY_OPS_LANES and at most ARRAY_OPS_TERMS, without an error: their sum is that
+     *  of both parts and of what is left in their place, which is below 2^-94 of `size` for each. `size`, at most
+     *  ARRAY_OPS_LARGEST_SIZE, is their magnitude.  \return the magnitude of what is left */
+    double (*split)(double parts[2], double *terms, int n, double size);
 } array_ops;
 
 #ifdef DEM_X86_KERNELS

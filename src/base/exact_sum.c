@@ -4,15 +4,14 @@
 
 #include <math.h>
 
+#include "base/instruction_set.h"
+
 enum {
     limb_bits = 32,
     mantissa_bits = 53,
-    unit_exponent = -1074, /* of 2 */
-    block = 256,           /* terms that are split together, */
-    lanes = 8              /* so many at a time */
+    unit_exponent = -1074 /* of 2 */
 };
 
-static const double too_large = 0x1p1020; /* for what their magnitudes add up to */
 static const int64_t limb_size = 0x100000000, limb_mask = 0xffffffff;
 
 /* Afterwards every limb but the last is in [0, 2^32), and the last has the sign of the sum. */
@@ -36,60 +35,38 @@ void exact_sum_add_special(exact_sum *s, double term)
         s->has_infinity[term < 0.0] = true;
 }
 
-/* ---- many terms: error-free extraction (Rump, Ogita and Oishi 2008; Demmel and Nguyen 2013) ---- */
+/* ---- many terms ---- */
 
-static double total(const double lane[lanes])
+/* All give the same sum. */
+static const array_ops *fastest(void)
 {
-    double sum = 0.0;
-    for (int l = 0; l < lanes; l++) sum += lane[l];
-    return sum;
+    if (instruction_set_avx512()) return &array_ops_avx512;
+    return instruction_set_avx2() ? &array_ops_avx2 : &array_ops_portable;
 }
 
-static double magnitudes(const double *terms, int n)
+/* Usual terms are split once or twice, those as far apart as doubles can be some twenty times. */
+int exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
 {
-    double sum[lanes] = {0};
-    for (int k = 0; k < n; k += lanes)
-        for (int l = 0; l < lanes; l++) sum[l] += fabs(terms[k + l]);
-    return total(sum);
-}
-
-/* Takes from each term its multiple of a unit u, and leaves at most u/2 of it. With 2^e above the sum of magnitudes,
- * u = 2^(e - 51) is the last place of `large`, so that adding and subtracting that rounds to it. The multiples add up
- * to less than 2^(e + 1) = 2^52 u in any order, so their sum is a double. Where u would be below the smallest
- * subnormal number all is exact and nothing is left.  \return the sum of what was taken */
-static double extract(double *terms, int n, int e)
-{
-    const double large = ldexp(1.5, e + 1);
-    double sum[lanes] = {0};
-    for (int k = 0; k < n; k += lanes)
-        for (int l = 0; l < lanes; l++) {
-            const double multiple = (terms[k + l] + large) - large;
-            terms[k + l] -= multiple;
-            sum[l] += multiple;
-        }
-    return total(sum);
-}
-
-/* Each round extracts twice: 2^(e - 43) is above the sum of up to 256 rests of u/2. Usual terms take a round or two,
- * those as far apart as doubles can be some thirty. */
-static void add_block(exact_sum *s, const double *terms, int n)
-{
-    double rest[block];
-    int m = n, e;
-    memcpy(rest, terms, (size_t)n * sizeof *rest);
-    while (m % lanes != 0) rest[m++] = 0.0;
-    double size = magnitudes(rest, m);
-    for (int k = 0; k < n && !(size < too_large); k++) exact_sum_add(s, terms[k]);
-    for (; size > 0.0 && size < too_large; size = magnitudes(rest, m)) {
-        (void)frexp(size, &e);
-        exact_sum_add(s, extract(rest, m, e));
-        exact_sum_add(s, extract(rest, m, e - 43));
+    const array_ops *ops = fastest();
+    while (n % ARRAY_OPS_LANES != 0) terms[n++] = 0.0;
+    double size = ops->magnitude(terms, n), parts[2];
+    while (size > 0.0 && size <= ARRAY_OPS_LARGEST_SIZE) {
+        size = ops->split(parts, terms, n, size);
+        exact_sum_add(s, parts[0]);
+        exact_sum_add(s, parts[1]);
     }
+    for (int k = 0; k < n && size != 0.0; k++) exact_sum_add(s, terms[k]);
+    return 0;
 }
 
 void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
 {
-    for (int64_t k = 0; k < n; k += block) add_block(s, terms + k, n - k < block ? (int)(n - k) : block);
+    double block[EXACT_SUM_BLOCK];
+    for (int64_t k = 0; k < n; k += EXACT_SUM_BLOCK) {
+        const int here = exact_sum_block(k, n);
+        memcpy(block, terms + k, (size_t)here * sizeof *block);
+        (void)exact_sum_take(s, block, here);
+    }
 }
 
 /* ---- rounding, of limbs after a carry and not negative ---- */

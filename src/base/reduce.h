@@ -11,7 +11,7 @@
 #define DEM_BASE_REDUCE_H
 
 #include "base/array_ops.h"
-#include "base/exact_terms.h"
+#include "base/exact_sum.h"
 
 static inline double reduce_min(double own)
 {
@@ -38,11 +38,6 @@ static inline dem_index reduce_count(dem_index own)
 static inline double reduce_sum(const exact_sum *own)
 {
     return exact_sum_value(own);
-}
-
-static inline double reduce_terms(exact_terms *own)
-{
-    return reduce_sum(exact_terms_sum(own));
 }
 
 /** The same of sums of squares. */

@@ -112,6 +112,11 @@ static double energy(double stiffness, double rest_length, double strain)
     return 0.5 * stiffness * rest_length * strain * strain;
 }
 
+static double energy_of(const dem_lattice *l, const unsigned char *broken, dem_index k, const double *x)
+{
+    return springs_is_broken(broken, k) ? 0.0 : energy(l->stiffness[k], l->rest_length[k], springs_strain_of(l, k, x));
+}
+
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x)
 {
     double sum = 0.0;
@@ -123,12 +128,14 @@ double springs_node_energy(const springs *s, const unsigned char *broken, dem_in
 
 double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x)
 {
-    exact_terms sum = {.n = 0};
-    for (dem_index k = 0; k < lattice->n_springs; k++)
-        if (!springs_is_broken(broken, k))
-            exact_terms_add(&sum,
-                            energy(lattice->stiffness[k], lattice->rest_length[k], springs_strain_of(lattice, k, x)));
-    return reduce_terms(&sum);
+    exact_sum sum = {0};
+    double terms[EXACT_SUM_BLOCK];
+    for (dem_index first = 0; first < lattice->n_springs; first += EXACT_SUM_BLOCK) {
+        const int n = exact_sum_block(first, lattice->n_springs);
+        for (int q = 0; q < n; q++) terms[q] = energy_of(lattice, broken, first + q, x);
+        (void)exact_sum_take(&sum, terms, n);
+    }
+    return reduce_sum(&sum);
 }
 
 void springs_strains(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *strain)

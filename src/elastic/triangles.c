@@ -119,16 +119,20 @@ double triangles_node_energy(const triangles *t, const unsigned char *broken, de
 
 void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard)
 {
-    exact_terms areas = {.n = 0}, guards = {.n = 0};
+    exact_sum areas = {0}, guards = {0};
+    double terms[EXACT_SUM_BLOCK];
+    int n = 0;
     for (dem_index i = 0; i < t->n_nodes; i++)
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
             if (t->next[p] < i || t->last[p] < i || triangles_broken(t, broken, p)) continue;
             const double J = area_at(t, i, p, x) / t->rest_area[p];
-            if (t->area_stiffness != NULL) exact_terms_add(&areas, area_energy(t, p, J));
-            if (!(J >= TRIANGLES_GUARD_ONSET)) exact_terms_add(&guards, guard_energy(t, p, J));
+            if (t->area_stiffness != NULL) terms[n++] = area_energy(t, p, J);
+            if (n == EXACT_SUM_BLOCK) n = exact_sum_take(&areas, terms, n);
+            if (!(J >= TRIANGLES_GUARD_ONSET)) exact_sum_add(&guards, guard_energy(t, p, J));
         }
-    *area = reduce_terms(&areas);
-    *guard = reduce_terms(&guards);
+    (void)exact_sum_take(&areas, terms, n);
+    *area = reduce_sum(&areas);
+    *guard = reduce_sum(&guards);
 }
 
 sym2 triangles_block(const triangles *t, dem_index i, const double *x)

@@ -15,42 +15,89 @@ static vec2 sum_of(const exact_sum sum[2])
     return (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])};
 }
 
+/* Kinetic energies of the n nodes from `first` on, and energies of their weights. */
+static void fill_kinetic(const dem_lattice *l, const double *v, dem_index first, int n, double *out)
+{
+    for (dem_index i = first; i < first + n; i++)
+        out[i - first] = 0.5 * l->mass[i] * vec2_dot(vec2_at(v, i), vec2_at(v, i));
+}
+
+static void fill_weight(const forces *f, const double *x, dem_index first, int n, double *out)
+{
+    const vec2 g = {f->gravity[0], f->gravity[1]};
+    for (dem_index i = first; i < first + n; i++)
+        out[i - first] = -f->model->lattice.mass[i] * vec2_dot(g, vec2_at(x, i));
+}
+
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
     dem_energy energy = {.elastic = springs_energy(&model->lattice, element_state_springs(f->elements), x)};
     triangles_energy(&model->triangles, element_state_triangles(f->elements), x, &energy.area, &energy.guard);
-    exact_terms kinetic = {.n = 0}, weight = {.n = 0};
-    const vec2 g = {f->gravity[0], f->gravity[1]};
-    for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
-        const double m = model->lattice.mass[i];
-        const vec2 vi = vec2_at(v, i);
-        exact_terms_add(&kinetic, 0.5 * m * vec2_dot(vi, vi));
-        exact_terms_add(&weight, -m * vec2_dot(g, vec2_at(x, i)));
+    exact_sum kinetic = {0}, weight = {0};
+    double terms[EXACT_SUM_BLOCK];
+    for (dem_index first = 0; first < model->lattice.n_nodes; first += EXACT_SUM_BLOCK) {
+        const int n = exact_sum_block(first, model->lattice.n_nodes);
+        fill_kinetic(&model->lattice, v, first, n, terms);
+        (void)exact_sum_take(&kinetic, terms, n);
+        fill_weight(f, x, first, n, terms);
+        (void)exact_sum_take(&weight, terms, n);
     }
-    energy.kinetic = reduce_terms(&kinetic);
-    energy.gravity = reduce_terms(&weight);
+    energy.kinetic = reduce_sum(&kinetic);
+    energy.gravity = reduce_sum(&weight);
     return energy;
+}
+
+enum { n_moments = 5 }; /* mass, mass times place, momentum */
+
+static int take_moments(exact_sum sum[n_moments], double terms[n_moments][EXACT_SUM_BLOCK], int n)
+{
+    for (int k = 0; k < n_moments; k++) (void)exact_sum_take(&sum[k], terms[k], n);
+    return 0;
+}
+
+static void add_moments(const dem_lattice *l, dem_index body, const double *x, const double *v,
+                        exact_sum sum[n_moments])
+{
+    double terms[n_moments][EXACT_SUM_BLOCK];
+    int n = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (l->body[i] != body) continue;
+        const double m = l->mass[i];
+        terms[0][n] = m;
+        terms[1][n] = m * x[2 * i];
+        terms[2][n] = m * x[2 * i + 1];
+        terms[3][n] = m * v[2 * i];
+        terms[4][n++] = m * v[2 * i + 1];
+        if (n == EXACT_SUM_BLOCK) n = take_moments(sum, terms, n);
+    }
+    (void)take_moments(sum, terms, n);
+}
+
+/* Angular momentum of a body about its centre, which moves with it. */
+static double spin_of(const dem_lattice *l, dem_index body, const double *x, const double *v, const vec2 mean[2])
+{
+    exact_sum sum = {0};
+    double terms[EXACT_SUM_BLOCK];
+    int n = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (l->body[i] != body) continue;
+        const vec2 r = vec2_sub(vec2_at(x, i), mean[0]), u = vec2_sub(vec2_at(v, i), mean[1]);
+        terms[n++] = l->mass[i] * vec2_cross(r, u);
+        if (n == EXACT_SUM_BLOCK) n = exact_sum_take(&sum, terms, n);
+    }
+    (void)exact_sum_take(&sum, terms, n);
+    return reduce_sum(&sum);
 }
 
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
 {
-    const dem_lattice *l = &model->lattice;
-    exact_terms sum[5] = {{.n = 0}}, spin = {.n = 0}; /* of mass, mass times place, momentum */
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        if (l->body[i] != body) continue;
-        const vec2 place = vec2_scale(l->mass[i], vec2_at(x, i)), momentum = vec2_scale(l->mass[i], vec2_at(v, i));
-        const double terms[5] = {l->mass[i], place.x, place.y, momentum.x, momentum.y};
-        for (int k = 0; k < 5; k++) exact_terms_add(&sum[k], terms[k]);
-    }
-    const double mass = reduce_terms(&sum[0]);
-    const vec2 centre = vec2_scale(1.0 / mass, (vec2){reduce_terms(&sum[1]), reduce_terms(&sum[2])});
-    const vec2 velocity = vec2_scale(1.0 / mass, (vec2){reduce_terms(&sum[3]), reduce_terms(&sum[4])});
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const vec2 r = vec2_sub(vec2_at(x, i), centre), u = vec2_sub(vec2_at(v, i), velocity);
-        if (l->body[i] == body) exact_terms_add(&spin, l->mass[i] * vec2_cross(r, u));
-    }
-    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, reduce_terms(&spin)};
+    exact_sum sum[n_moments] = {0};
+    add_moments(&model->lattice, body, x, v, sum);
+    const double mass = reduce_sum(&sum[0]);
+    const vec2 centre = vec2_scale(1.0 / mass, sum_of(&sum[1])), velocity = vec2_scale(1.0 / mass, sum_of(&sum[3]));
+    const double spin = spin_of(&model->lattice, body, x, v, (const vec2[]){centre, velocity});
+    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, spin};
 }
 
 static void measure_triangles(const forces *f, const double *x, dem_strain *strain)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/array_ops.h"
+#include "base/exact_sum.h"
 
 enum { most = 10000, n_inputs = 20 };
 
@@ -155,6 +156,64 @@ static void verlets_step_is_drift_and_kick(void **state)
         }
 }
 
+/* By each table: no bit is lost, and what is left of a term is as small as it is to be. */
+static void assert_splits_without_error(const double *terms, int n)
+{
+    for (int t = 0; t < n_tables; t++) {
+        exact_sum lost = {0};
+        double parts[2], largest = 0.0;
+        if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
+        memcpy(other, terms, (size_t)n * sizeof *terms);
+        const double size = tables[t]->magnitude(other, n), left = tables[t]->split(parts, other, n, size);
+        for (int k = 0; k < n; k++) {
+            exact_sum_add(&lost, terms[k]);
+            exact_sum_add(&lost, -other[k]);
+            largest = fmax(largest, fabs(other[k]));
+        }
+        for (int q = 0; q < 2; q++) exact_sum_add(&lost, -parts[q]);
+        assert_close(exact_sum_value(&lost), 0.0, 0.0);
+        assert_true(largest <= 0x1p-94 * size);
+        assert_true((left == 0.0) == (largest == 0.0) && left >= largest);
+    }
+}
+
+/* Random terms alike, and 2^-120 to 1 of that, in blocks of all lengths. */
+static void terms_are_split_without_an_error(void **state)
+{
+    (void)state;
+    for (int n = ARRAY_OPS_LANES; n <= ARRAY_OPS_TERMS; n += ARRAY_OPS_LANES) {
+        assert_splits_without_error(in[n % n_inputs], n);
+        for (int k = 0; k < n; k++) out[k] = ldexp(in[n % n_inputs][k], -(k * 7 % 121));
+        assert_splits_without_error(out, n);
+    }
+}
+
+/* A full block of the same term adds up to the most that its parts may: mantissas of ones, ties, subnormal numbers, the
+ * largest ones; all of one sign, and one half against the other. */
+static void full_blocks_of_equal_terms_are_split_without_an_error(void **state)
+{
+    static const double equal[] = {
+        0x1.fffffffffffffp0,     1.0,       0x1.0000000000001p0,    0x1.00000004p-3,       0x1.000000000001p9,
+        0x1.fffffffffffffp-1022, 0x1p-1074, 0x1.fffffffffffffp-970, 0x1.fffffffffffffp1008};
+    (void)state;
+    for (size_t e = 0; e < sizeof equal / sizeof equal[0]; e++)
+        for (int half = 0; half < 2; half++) {
+            for (int k = 0; k < ARRAY_OPS_TERMS; k++) out[k] = half && k % 2 ? -equal[e] : equal[e];
+            assert_splits_without_error(out, ARRAY_OPS_TERMS);
+        }
+}
+
+/* Halves of the last places of both parts, on top of the largest term, decide which way each of them is rounded. */
+static void what_lies_half_way_between_is_split_without_an_error(void **state)
+{
+    (void)state;
+    for (int low = -110; low < -40; low++) {
+        for (int k = 0; k < ARRAY_OPS_TERMS; k++) out[k] = k % 3 ? ldexp(1.0, low) : -ldexp(3.0, low);
+        out[17] = 1.0;
+        assert_splits_without_error(out, ARRAY_OPS_TERMS);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -164,6 +223,9 @@ int main(void)
         cmocka_unit_test(squares_of_all_sizes_are_exact),
         cmocka_unit_test(the_largest_square_is_known_and_what_is_no_number_is_reported),
         cmocka_unit_test(verlets_step_is_drift_and_kick),
+        cmocka_unit_test(terms_are_split_without_an_error),
+        cmocka_unit_test(full_blocks_of_equal_terms_are_split_without_an_error),
+        cmocka_unit_test(what_lies_half_way_between_is_split_without_an_error),
     };
     return cmocka_run_group_tests(tests, fill, NULL);
 }
