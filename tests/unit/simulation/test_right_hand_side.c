@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* right_hand_side.c: derivatives, fused steps and root functions as the integrator calls them. */
+#include "runs.h"
+
+#include "simulation/right_hand_side.h"
+
+enum { MOST = 256 };
+
+/* x' and v' in a state, each as long as half of it. */
+typedef struct slopes {
+    double u[MOST], a[MOST];
+} slopes;
+
+static int derive(dem_simulation *s, const double *y, slopes *out)
+{
+    const ode_problem problem = right_hand_side_problem(s);
+    assert_true(state_velocities(&s->layout) <= MOST);
+    return problem.derivative(s->t, y, out->u, out->a, problem.context);
+}
+
+/* A stretched rectangle in the air: as it is far from the slope, every node has the acceleration that the forces on it
+ * give. Sweeps have the bits of forces_acceleration(). */
+static void free_nodes_have_the_acceleration_of_their_forces(void **state)
+{
+    const dem_options options = dem_options_default();
+    double y[2 * MOST];
+    slopes at;
+    (void)state;
+    dem_model *model = make_falling(0.5);
+    dem_simulation *s = simulate(model, &options);
+    memcpy(y, s->y, (size_t)state_size(&s->layout) * sizeof *y);
+    for (dem_index k = 0; k < 2 * s->layout.n_nodes; k++) y[k] *= 1.0 + 1e-3 * (double)(k % 7);
+    const double *v = y + state_velocities(&s->layout);
+    assert_int_equal(derive(s, y, &at), 0);
+    for (dem_index i = 0; i < s->layout.n_nodes; i++) {
+        const vec2 expected = forces_acceleration(&s->forces, i, y, v);
+        assert_memory_equal(&at.a[2 * i], &expected, sizeof expected);
+        assert_memory_equal(&at.u[2 * i], &v[2 * i], sizeof expected);
+    }
+    end_run(s, model);
+}
+
+/* m v' = -m g - c m v with m = 2 kg, c = 0.5 1/s, v = (3, 4) m/s: damping takes c m v^2 = 25 W. Time is integrated at
+ * a rate of 1. */
+static void quadratures_have_their_rates(void **state)
+{
+    const double v[2] = {3.0, 4.0};
+    dem_options options = point_options();
+    slopes at;
+    (void)state;
+    options.mass_damping = 0.5;
+    dem_model *model = make_point(v, 0.5);
+    dem_simulation *s = simulate(model, &options);
+    assert_int_equal(derive(s, s->y, &at), 0);
+    assert_close(at.a[0], -1.5, 1e-15);
+    assert_close(at.a[1], -9.81 - 2.0, 1e-15);
+    assert_close(at.a[state_total_index(&s->layout, STATE_DAMPING)], 25.0, 1e-14);
+    assert_close(at.a[state_total_index(&s->layout, STATE_FRICTION)], 0.0, 0.0);
+    assert_close(at.a[state_total_index(&s->layout, STATE_WORK)], 0.0, 0.0);
+    assert_close(at.a[state_total_index(&s->layout, STATE_TIME)], 1.0, 0.0);
+    end_run(s, model);
+}
+
+/* At rest on the floor after a plastic impact: m g goes into the row of the obstacle's impulse. */
+static void a_closed_contact_holds_its_node_and_gives_an_impulse(void **state)
+{
+    const dem_options options = point_options();
+    slopes at;
+    (void)state;
+    dem_model *model = make_point(NULL, 0.0);
+    dem_simulation *s = simulate(model, &options);
+    assert_ok(dem_simulation_advance(s, 2.0));
+    assert_int_equal(derive(s, s->y, &at), 0);
+    const double *impulse = at.a + state_row(&s->layout, state_impulse(&s->layout, 0));
+    assert_close(at.a[1], 0.0, 0.0);
+    assert_close(impulse[0], 0.0, 0.0);
+    assert_close(impulse[1], 2.0 * 9.81, 1e-14);
+    end_run(s, model);
+}
+
+static void the_node_is_named_whose_velocity_is_not_finite(void **state)
+{
+    const dem_options options = dem_options_default();
+    double y[2 * MOST];
+    slopes at;
+    (void)state;
+    dem_model *model = make_falling(0.5);
+    dem_simulation *s = simulate(model, &options);
+    memcpy(y, s->y, (size_t)state_size(&s->layout) * sizeof *y);
+    y[state_velocities(&s->layout) + 2 * 5] = (double)NAN;
+    assert_int_equal(derive(s, y, &at), 1);
+    assert_non_null(strstr(dem_status_message(), "force or velocity of node 5 is not finite at ("));
+    end_run(s, model);
+}
+
+/* With 'exact' the integrator looks for the roots of every candidate: the first of a free node is its gap and the
+ * penetration tolerance of 1e-6 m, the others are 1. The node, 0.125 m above the floor, is fast enough to reach it in a
+ * step, and is tried a quarter of that tolerance deep. With 'local' there are no roots. */
+static void only_exact_contacts_have_root_functions(void **state)
+{
+    const double down[2] = {0.0, -8.0};
+    dem_options options = point_options();
+    double roots[CANDIDATE_ROOTS], y[2 * MOST];
+    (void)state;
+    dem_model *model = make_point_at(0.125, down, 0.5);
+    dem_simulation *simulation = simulate(model, &options);
+    assert_int_equal(right_hand_side_problem(simulation).n_roots, 0);
+    dem_simulation_destroy(simulation);
+    options.contact = DEM_CONTACT_EXACT;
+    simulation = simulate(model, &options);
+    assert_ok(dem_simulation_advance(simulation, 0.0)); /* finds the candidates that are near */
+    const ode_problem problem = right_hand_side_problem(simulation);
+    assert_int_equal(problem.n_roots, CANDIDATE_ROOTS);
+    memcpy(y, simulation->y, (size_t)state_size(&simulation->layout) * sizeof *y);
+    y[1] = -0.25e-6;
+    problem.root_functions(0.0, y, roots, problem.context);
+    assert_close(roots[0], 0.75e-6, 1e-21); /* rounding of such numbers */
+    for (int k = 1; k < CANDIDATE_ROOTS; k++) assert_close(roots[k], 1.0, 0.0);
+    end_run(simulation, model);
+}
+
+static int fuse(dem_simulation *s)
+{
+    double y1[2 * MOST] = {0.0}, f0[2 * MOST] = {0.0}, f1[2 * MOST] = {0.0};
+    const ode_problem problem = right_hand_side_problem(s);
+    const ode_fused_step step = {.t1 = s->t + 1e-5, .h = 1e-5, .y0 = s->y, .f0 = f0, .y1 = y1, .f1 = f1};
+    return problem.fused_step(&step, problem.context);
+}
+
+static void a_closed_contact_or_damping_allows_no_fused_step(void **state)
+{
+    dem_options options = point_options();
+    (void)state;
+    dem_model *model = make_point(NULL, 0.0);
+    dem_simulation *simulation = simulate(model, &options);
+    assert_int_equal(fuse(simulation), 0);
+    assert_ok(dem_simulation_advance(simulation, 2.0)); /* lies on the floor */
+    assert_int_equal(fuse(simulation), -1);
+    dem_simulation_destroy(simulation);
+    options.mass_damping = 0.5;
+    simulation = simulate(model, &options);
+    assert_int_equal(fuse(simulation), -1);
+    end_run(simulation, model);
+}
+
+/* A force of nothing on a node inside: steps of Verlet's method are taken part by part then, and not in one pass. */
+static void steps_in_one_pass_are_those_in_parts(void **state)
+{
+    (void)state;
+    for (int elastic = 0; elastic < 2; elastic++) { /* without restitution contacts last, and end */
+        dem_model *model = make_falling(0.7 * elastic);
+        snapshot run[2];
+        dem_obstacle_load load[2];
+        dem_index inside = 0;
+        while (dem_model_lattice(model)->flags[inside] & DEM_NODE_CONTACT) inside++;
+        const dem_boundary nothing = {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &inside};
+        for (int in_parts = 0; in_parts < 2; in_parts++) {
+            dem_options options = dem_options_default();
+            options.method = DEM_METHOD_VERLET;
+            options.boundaries = &nothing;
+            options.n_boundaries = in_parts;
+            dem_simulation *simulation = simulate(model, &options);
+            assert_ok(dem_simulation_advance(simulation, t_whole));
+            run[in_parts] = snap(simulation);
+            load[in_parts] = dem_simulation_obstacle(simulation, 0);
+            dem_simulation_destroy(simulation);
+        }
+        assert_true(run[0].counts.impacts > 3);
+        if (!elastic) assert_true(run[0].counts.releases > 0);
+        assert_same(&run[0], &run[1]);
+        assert_memory_equal(&load[0], &load[1], sizeof load[0]);
+        dem_model_destroy(model);
+    }
+}
+
+static void nodes_that_coincide_end_the_run_with_the_node_named(void **state)
+{
+    const double x[4] = {0.0, 0.0, 1.0, 0.0}, start[4] = {0.5, 0.25, 0.5, 0.25}, mass[2] = {1.0, 1.0};
+    const dem_index ends[2] = {0, 1};
+    const dem_options options = dem_options_default();
+    dem_lattice lattice;
+    dem_model *model;
+    dem_state now;
+    (void)state;
+    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 10.0, NULL);
+    support_start(&lattice, start, NULL);
+    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    dem_lattice_free(&lattice);
+    dem_simulation *simulation = simulate(model, &options);
+    assert_int_equal(dem_simulation_advance(simulation, 1.0), DEM_ERROR_INTEGRATOR);
+    assert_string_equal(dem_status_message(), "force or velocity of node 0 is not finite at (0.5, 0.25) m, t = 0 s");
+    dem_simulation_state(simulation, &now);
+    assert_close(now.t, 0.0, 0.0);
+    assert_close(now.x[0], 0.5, 0.0);
+    end_run(simulation, model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(free_nodes_have_the_acceleration_of_their_forces),
+        cmocka_unit_test(quadratures_have_their_rates),
+        cmocka_unit_test(a_closed_contact_holds_its_node_and_gives_an_impulse),
+        cmocka_unit_test(the_node_is_named_whose_velocity_is_not_finite),
+        cmocka_unit_test(only_exact_contacts_have_root_functions),
+        cmocka_unit_test(a_closed_contact_or_damping_allows_no_fused_step),
+        cmocka_unit_test(steps_in_one_pass_are_those_in_parts),
+        cmocka_unit_test(nodes_that_coincide_end_the_run_with_the_node_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
