@@ -11,9 +11,21 @@
 #include <unistd.h>
 
 #include "base/record.h"
+#include "unit/scratch.h"
 
 #define FILE_NAME "test_record.checkpoint"
 #define PREVIOUS  FILE_NAME ".prev"
+
+/* Messages name the files as the tests do: by their names in the folder. */
+static int enter_folder(void **state)
+{
+    if (scratch_make(state) != 0) return 1;
+    (void)scratch_file(FILE_NAME);
+    (void)scratch_file(PREVIOUS);
+    (void)scratch_file("test_record.bad");
+    (void)scratch_file("test_record.good");
+    return chdir(scratch_folder);
+}
 
 /* An entry of 5 and one of 0 bytes, and the numbers 1 to 1000. */
 static dem_record *make(void)
@@ -238,5 +250,5 @@ int main(void)
         cmocka_unit_test(files_that_are_none_are_refused),
         cmocka_unit_test(a_disk_that_is_full_leaves_the_file_of_before),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, enter_folder, scratch_remove);
 }

@@ -15,29 +15,15 @@
 
 #include "base/status.h"
 #include "output/hdf5_file.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_hdf5_file_XXXXXX", path[64], other[64];
+static char *path, *other;
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL) return 1;
-    (void)snprintf(path, sizeof path, "%s/a.h5", folder);
-    (void)snprintf(other, sizeof other, "%s/b.h5", folder);
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
-static int sweep(void **state)
-{
-    (void)state;
-    (void)unlink(path);
-    (void)unlink(other);
+    if (scratch_make(state) != 0) return 1;
+    path = scratch_file("a.h5");
+    other = scratch_file("b.h5");
     return 0;
 }
 
@@ -769,7 +755,7 @@ static void what_is_not_there_or_has_no_place_is_not_published(void **state)
     assert_int_equal(access(path, F_OK), 0);
 }
 
-#define CASE(name) cmocka_unit_test_teardown(name, sweep)
+#define CASE(name) cmocka_unit_test_teardown(name, scratch_sweep)
 
 int main(void)
 {
@@ -804,5 +790,5 @@ int main(void)
         CASE(a_file_cut_short_is_not_published),
         CASE(what_is_not_there_or_has_no_place_is_not_published),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

@@ -10,24 +10,17 @@
 
 #include "output/obstacle_file.h"
 #include "unit/found.h"
+#include "unit/scratch.h"
 
 static const double bent[6] = {-1.0, 0.0, 0.0, -0.5, 1.0, 0.0}, flat[4] = {3.0, -2.0, 4.0, -2.0};
-static char folder[] = "test_obstacle_file_XXXXXX", path[64], part[64];
+static const char *path, *part;
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL) return 1;
-    (void)snprintf(path, sizeof path, "%s/a.h5", folder);
-    (void)snprintf(part, sizeof part, "%s/a.part.h5", folder);
+    if (scratch_make(state) != 0) return 1;
+    path = scratch_file("a.h5");
+    part = scratch_file("a.part.h5");
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    (void)unlink(path);
-    return rmdir(folder); /* no part is left */
 }
 
 static dem_model *make_model(void)
@@ -156,5 +149,5 @@ int main(void)
         cmocka_unit_test(the_file_has_them_as_lines),
         cmocka_unit_test(a_part_that_cannot_be_published_is_taken_away),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "unit/scratch.h"
+
 static const double g = 9.81, mass = 2.0;
 static const double floor_points[4] = {-10.0, 0.0, 10.0, 0.0};
 
@@ -195,12 +197,14 @@ static void a_record_is_of_one_motion(void **state)
 {
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 0.5, .friction = 0.2};
     const double lift[2] = {0.0, 0.027};
+    const char *path = scratch_file("a.record");
     dem_options options = support_options();
     dem_lattice block;
     dem_record *before, *after;
     support_run run;
     dem_state s;
     (void)state;
+    (void)scratch_file("a.record.prev");
     support_block(&block);
     for (dem_index i = 0; i < block.n_nodes; i++) block.position[2 * i + 1] += lift[1] + 1e-3;
     options.gravity[1] = -200.0;
@@ -209,8 +213,8 @@ static void a_record_is_of_one_motion(void **state)
     assert_ok(dem_simulation_advance(run.simulation, 4e-3));
     dem_simulation *old = resumed(&run, dem_simulation_record(run.simulation));
     assert_ok(dem_simulation_advance(old, 6e-3)); /* what was to come */
-    assert_ok(dem_record_write(dem_simulation_record(run.simulation), "replace.record"));
-    assert_ok(dem_record_read(&before, "replace.record"));
+    assert_ok(dem_record_write(dem_simulation_record(run.simulation), path));
+    assert_ok(dem_record_read(&before, path));
     dem_simulation_state(run.simulation, &s);
     double *v = malloc(2 * (size_t)block.n_nodes * sizeof *v);
     assert_non_null(v);
@@ -219,8 +223,8 @@ static void a_record_is_of_one_motion(void **state)
     assert_null(dem_simulation_record(run.simulation));
     assert_ok(dem_simulation_advance(run.simulation, 4e-3));
     assert_non_null(dem_simulation_record(run.simulation));
-    assert_ok(dem_record_write(dem_simulation_record(run.simulation), "replace.record"));
-    assert_ok(dem_record_read(&after, "replace.record"));
+    assert_ok(dem_record_write(dem_simulation_record(run.simulation), path));
+    assert_ok(dem_record_read(&after, path));
     assert_ok(dem_simulation_advance(run.simulation, 6e-3));
     assert_true(run.n_impacts > 10);
     dem_simulation *again = resumed(&run, before), *on = resumed(&run, after);
@@ -276,5 +280,5 @@ int main(void)
         cmocka_unit_test(a_record_is_of_one_motion),
         cmocka_unit_test(a_state_is_taken_over),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

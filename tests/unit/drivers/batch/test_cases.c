@@ -7,23 +7,17 @@
 #include <unistd.h>
 
 #include "cases.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_cases_XXXXXX", list[64], listed[72];
+static char listed[SCRATCH_PATH + 1];
 
 static int make_list(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL) return 1;
-    (void)snprintf(list, sizeof list, "%s/list", folder);
+    if (scratch_make(state) != 0) return 1;
+    const char *list = scratch_file("list");
     (void)snprintf(listed, sizeof listed, "@%s", list);
     FILE *file = fopen(list, "w");
     return file == NULL || fputs("#c\n b #1 \r\n\n/d\ne", file) < 0 || fclose(file) != 0;
-}
-
-static int remove_list(void **state)
-{
-    (void)state;
-    return unlink(list) != 0 || rmdir(folder) != 0;
 }
 
 static command ask(const char **decks, size_t n, long index)
@@ -35,9 +29,9 @@ static void lists_stand_for_their_decks(void **state)
 {
     (void)state;
     const char *decks[] = {"a", listed, "f"};
-    char b[80], e[80];
-    (void)snprintf(b, sizeof b, "%s/b #1", folder);
-    (void)snprintf(e, sizeof e, "%s/e", folder);
+    char b[SCRATCH_PATH], e[SCRATCH_PATH];
+    (void)snprintf(b, sizeof b, "%s/b #1", scratch_folder);
+    (void)snprintf(e, sizeof e, "%s/e", scratch_folder);
     const char *const expected[] = {"a", b, "/d", e, "f"};
     for (long index = 0; index <= 5; index++) {
         const command c = ask(decks, 3, index);
@@ -71,5 +65,5 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lists_stand_for_their_decks),
                                        cmocka_unit_test(what_is_not_there_is_a_fault)};
-    return cmocka_run_group_tests(tests, make_list, remove_list);
+    return cmocka_run_group_tests(tests, make_list, scratch_remove);
 }

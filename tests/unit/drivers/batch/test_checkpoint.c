@@ -9,31 +9,17 @@
 
 #include "checkpoint.h"
 #include "preview.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_checkpoint_XXXXXX", output[64], path[64], before[64], damaged[64];
+static const char *output, *path, *before, *damaged;
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL) return 1;
-    (void)snprintf(output, sizeof output, "%s/a.vtkhdf", folder);
-    (void)snprintf(path, sizeof path, "%s/a.checkpoint", folder);
-    (void)snprintf(before, sizeof before, "%s/a.checkpoint.prev", folder);
-    (void)snprintf(damaged, sizeof damaged, "%s/a.checkpoint.damaged", folder);
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
-static int sweep(void **state)
-{
-    (void)state;
-    (void)unlink(path);
-    (void)unlink(before);
+    if (scratch_make(state) != 0) return 1;
+    output = scratch_file("a.vtkhdf");
+    path = scratch_file("a.checkpoint");
+    before = scratch_file("a.checkpoint.prev");
+    damaged = scratch_file("a.checkpoint.damaged");
     return 0;
 }
 
@@ -150,7 +136,7 @@ static void a_record_of_another_program_is_refused(void **state)
     expect(CHECKPOINT_OTHER, true, "it is not of this program");
 }
 
-#define CASE(name) cmocka_unit_test_teardown(name, sweep)
+#define CASE(name) cmocka_unit_test_teardown(name, scratch_sweep)
 
 int main(void)
 {
@@ -162,5 +148,5 @@ int main(void)
         CASE(a_damaged_one_gives_way_to_the_one_before),
         CASE(a_record_of_another_program_is_refused),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

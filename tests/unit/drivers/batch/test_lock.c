@@ -9,21 +9,15 @@
 #include <unistd.h>
 
 #include "lock.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_lock_XXXXXX", path[64];
+static const char *path;
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL) return 1;
-    (void)snprintf(path, sizeof path, "%s/a.lock", folder);
+    if (scratch_make(state) != 0) return 1;
+    path = scratch_file("a.lock");
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
 }
 
 /* What another process gets. */
@@ -98,8 +92,7 @@ static void no_two_hold_it_at_any_time(void **state)
 {
     (void)state;
     enum { children = 4, rounds = 200 };
-    char mark[80];
-    (void)snprintf(mark, sizeof mark, "%s/mark", folder);
+    const char *mark = scratch_file("mark");
     for (int c = 0; c < children; c++) {
         const pid_t child = fork();
         assert_true(child >= 0);
@@ -129,5 +122,5 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_one_process_holds_it), cmocka_unit_test(what_is_left_behind_is_no_lock),
         cmocka_unit_test(a_folder_that_is_not_there_has_none), cmocka_unit_test(no_two_hold_it_at_any_time)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

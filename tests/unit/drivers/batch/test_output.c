@@ -13,28 +13,15 @@
 
 #include "decimal.h"
 #include "output.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_output_XXXXXX", path[64], part[64];
+static const char *path, *part;
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL || !output_path(path, sizeof path, folder, "a")) return 1;
-    (void)snprintf(part, sizeof part, "%s/a.part.vtkhdf", folder);
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
-static int sweep(void **state)
-{
-    (void)state;
-    (void)unlink(path);
-    (void)unlink(part);
+    if (scratch_make(state) != 0) return 1;
+    path = scratch_file("a.vtkhdf");
+    part = scratch_file("a.part.vtkhdf");
     return 0;
 }
 
@@ -216,10 +203,10 @@ static void the_result_counts_more_than_a_part(void **state)
 
 static void folders_are_made_down_to_the_last(void **state)
 {
-    char deep[80], deeper[96], at[OUTPUT_PATH], reason[OUTPUT_REASON];
+    char deep[SCRATCH_PATH], deeper[SCRATCH_PATH + 8], at[OUTPUT_PATH], reason[OUTPUT_REASON];
     struct stat found;
     (void)state;
-    (void)snprintf(deep, sizeof deep, "%s/x", folder);
+    (void)snprintf(deep, sizeof deep, "%s/x", scratch_folder);
     (void)snprintf(deeper, sizeof deeper, "%s//y/", deep);
     assert_true(output_make_folder(".", at, reason));
     assert_true(output_make_folder("/", at, reason));
@@ -248,7 +235,7 @@ static void what_is_in_the_way_of_a_folder_is_named(void **state)
     assert_string_equal(reason, "the folder cannot be made (No such file or directory)");
 }
 
-#define CASE(name) cmocka_unit_test_teardown(name, sweep)
+#define CASE(name) cmocka_unit_test_teardown(name, scratch_sweep)
 
 int main(void)
 {
@@ -268,5 +255,5 @@ int main(void)
         CASE(folders_are_made_down_to_the_last),
         CASE(what_is_in_the_way_of_a_folder_is_named),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

@@ -8,21 +8,15 @@
 #include <unistd.h>
 
 #include "result.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_result_XXXXXX", path[64];
+static const char *path;
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (mkdtemp(folder) == NULL) return 1;
-    (void)snprintf(path, sizeof path, "%s/a.json", folder);
+    if (scratch_make(state) != 0) return 1;
+    path = scratch_file("a.json");
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
 }
 
 static void a_case_without_a_deck_has_a_line(void **state)
@@ -82,5 +76,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_case_without_a_deck_has_a_line),
                                        cmocka_unit_test(only_a_run_that_is_done_is_found_again),
                                        cmocka_unit_test(what_cannot_be_written_is_reported)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }

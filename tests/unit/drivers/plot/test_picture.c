@@ -8,8 +8,9 @@
 #include <unistd.h>
 
 #include "picture.h"
+#include "unit/scratch.h"
 
-static char folder[] = "test_picture_XXXXXX", path[64], part[64];
+static const char *path, *part;
 
 static void the_end_of_the_name_tells_the_format(void **state)
 {
@@ -90,18 +91,10 @@ static void a_folder_that_is_not_there_is_reported(void **state)
 
 static int make_folder(void **state)
 {
-    (void)state;
-    assert_non_null(mkdtemp(folder));
-    (void)snprintf(path, sizeof path, "%s/a.svg", folder);
-    (void)snprintf(part, sizeof part, "%s/a.svg.part", folder);
+    if (scratch_make(state) != 0) return 1;
+    path = scratch_file("a.svg");
+    part = scratch_file("a.svg.part");
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    (void)remove(path);
-    return rmdir(folder);
 }
 
 int main(void)
@@ -110,5 +103,5 @@ int main(void)
         cmocka_unit_test(the_end_of_the_name_tells_the_format),
         cmocka_unit_test(an_old_one_stays_until_the_new_one_is_whole), cmocka_unit_test(a_dropped_one_leaves_nothing),
         cmocka_unit_test(a_full_disk_leaves_the_old_one), cmocka_unit_test(a_folder_that_is_not_there_is_reported)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
 }
