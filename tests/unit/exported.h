@@ -144,4 +144,24 @@ static inline void exported_close(exported *e)
     assert_int_equal(rmdir(e->folder), 0);
 }
 
+/** A run for each test, as its state. */
+static inline int exported_begin_with(void **state, exported_how how)
+{
+    static exported e;
+    exported_open(&e, how);
+    *state = &e;
+    return 0;
+}
+
+static inline int exported_begin(void **state)
+{
+    return exported_begin_with(state, exported_usual());
+}
+
+static inline int exported_end(void **state)
+{
+    exported_close(*state);
+    return 0;
+}
+
 #endif

@@ -180,10 +180,10 @@ static void a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps(voi
 
 /* ---- against differences ---- */
 
-/* Both ends move as polynomials of degree 3 in time. */
-typedef struct ode_problem {
+/* Both ends of an edge move as polynomials of degree 3 in time. */
+typedef struct edge_motion {
     vec2 a[4], b[4];
-} ode_problem;
+} edge_motion;
 
 static vec2 poly(const vec2 c[4], double t)
 {
@@ -194,7 +194,7 @@ typedef struct seen {
     double height, place; /* of the edge above a fixed point, m; of that point along it, a fraction */
 } seen;
 
-static seen look(const ode_problem *m, vec2 at, double t)
+static seen look(const edge_motion *m, vec2 at, double t)
 {
     const vec2 a = poly(m->a, t), ab = vec2_sub(poly(m->b, t), a), to = vec2_sub(at, a);
     return (seen){vec2_cross(to, ab) / vec2_norm(ab), vec2_dot(to, ab) / vec2_dot(ab, ab)};
@@ -204,7 +204,7 @@ static seen look(const ode_problem *m, vec2 at, double t)
  * 1/s; rounding 1e-16/h for the first and 1e-16 x 10/h^2 = 1e-11 for the second. */
 static const double step = 0.01, difference_tolerance = 1e-9;
 
-static void differentiate(const ode_problem *m, vec2 at, seen *first, seen *second)
+static void differentiate(const edge_motion *m, vec2 at, seen *first, seen *second)
 {
     static const double odd[4] = {0.0, 3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
     static const double even[4] = {-49.0 / 18.0, 3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0};
@@ -225,39 +225,62 @@ static double any(gsl_rng *rng)
     return 2.0 * gsl_rng_uniform(rng) - 1.0;
 }
 
-/* An edge about 2 m long, and a point on it. */
-static void move_anyhow(gsl_rng *rng, ode_problem *m, bench *b, dem_index edge, double place)
+/* An edge with a contact on a vertex, as nodes and vertex are moved anyhow. */
+typedef struct moving_edge {
+    gsl_rng *rng;
+    bench b;
+    dem_index edge;
+} moving_edge;
+
+static void open_moving_edge(moving_edge *e, int slide)
 {
+    e->rng = gsl_rng_alloc(gsl_rng_mt19937);
+    bench_open(&e->b, 2);
+    e->edge = bench_edge(&e->b, 0, 1);
+    bench_touch(&e->b, e->edge, 0, 0.5, slide);
+}
+
+static vec2 *vertex_of(moving_edge *e)
+{
+    return &e->b.vertices[e->b.candidates[e->edge].closed[0].feature].at;
+}
+
+static contact_frame frame_of(const moving_edge *e)
+{
+    return contact_frame_at(&e->b.scene, &e->b.candidates[e->edge], 0, (scene_state){0.0, e->b.x, e->b.v});
+}
+
+/* The edge about 2 m long, with the vertex at a fraction of it. */
+static edge_motion move_anyhow(moving_edge *e, double place)
+{
+    edge_motion m;
     for (int k = 0; k < 4; k++) {
-        m->a[k] = (vec2){any(rng), any(rng)};
-        m->b[k] = (vec2){any(rng), any(rng)};
+        m.a[k] = (vec2){any(e->rng), any(e->rng)};
+        m.b[k] = (vec2){any(e->rng), any(e->rng)};
     }
-    m->b[0] = vec2_along(m->a[0], 2.0 / vec2_norm(m->b[0]), m->b[0]);
-    vec2_put(b->x, 0, m->a[0]);
-    vec2_put(b->x, 1, m->b[0]);
-    vec2_put(b->v, 0, m->a[1]);
-    vec2_put(b->v, 1, m->b[1]);
-    b->candidates[edge].closed[0].place = place;
-    b->vertices[b->candidates[edge].closed[0].feature].at = vec2_along(m->a[0], place, vec2_sub(m->b[0], m->a[0]));
+    m.b[0] = vec2_along(m.a[0], 2.0 / vec2_norm(m.b[0]), m.b[0]);
+    vec2_put(e->b.x, 0, m.a[0]);
+    vec2_put(e->b.x, 1, m.b[0]);
+    vec2_put(e->b.v, 0, m.a[1]);
+    vec2_put(e->b.v, 1, m.b[1]);
+    e->b.candidates[e->edge].closed[0].place = place;
+    *vertex_of(e) = vec2_along(m.a[0], place, vec2_sub(m.b[0], m.a[0]));
+    return m;
 }
 
 /* g' = v_P.N and s' = -v_P.t/L; with the accelerations of the ends g'' = a_P.N - keep: 0 if a_P.N is what is asked. */
 static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void **state)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    bench b;
+    moving_edge e;
     double largest = 0.0;
     (void)state;
-    bench_open(&b, 2);
-    const dem_index edge = bench_edge(&b, 0, 1);
-    bench_touch(&b, edge, 0, 0.5, 1);
+    open_moving_edge(&e, 1);
     for (int k = 0; k < 2000; k++) {
-        ode_problem m;
         seen first, second;
-        move_anyhow(rng, &m, &b, edge, gsl_rng_uniform(rng));
-        b.candidates[edge].closed[0].slide = k % 2 == 0 ? 1 : -1; /* has no say in it */
-        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
-        const vec2 at = b.vertices[b.candidates[edge].closed[0].feature].at;
+        const edge_motion m = move_anyhow(&e, gsl_rng_uniform(e.rng));
+        e.b.candidates[e.edge].closed[0].slide = k % 2 == 0 ? 1 : -1; /* has no say in it */
+        const contact_frame f = frame_of(&e);
+        const vec2 at = *vertex_of(&e);
         const vec2 a = vec2_along(vec2_scale(2.0 * f.weight[0], m.a[2]), 2.0 * f.weight[1], m.b[2]);
         differentiate(&m, at, &first, &second);
         assert_close(f.gap, look(&m, at, 0.0).height, 1e-15); /* rounding of positions of order 1 */
@@ -269,65 +292,56 @@ static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void
         largest = fmax(largest, fabs(f.keep[0]));
     }
     assert_true(largest > 1.0); /* turning was in it */
-    gsl_rng_free(rng);
+    gsl_rng_free(e.rng);
 }
 
 /* A material point that is at rest and is not accelerated stays on the vertex: nothing is asked for, however the edge
  * turns and stretches about it. */
 static void a_sticking_contact_asks_for_no_acceleration(void **state)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    bench b;
+    moving_edge e;
     (void)state;
-    bench_open(&b, 2);
-    const dem_index edge = bench_edge(&b, 0, 1);
-    bench_touch(&b, edge, 0, 0.5, 0);
+    open_moving_edge(&e, 0);
     for (int k = 0; k < 2000; k++) {
-        const double place = 0.1 + 0.8 * gsl_rng_uniform(rng);
-        ode_problem m;
+        const double place = 0.1 + 0.8 * gsl_rng_uniform(e.rng);
         seen first, second;
-        move_anyhow(rng, &m, &b, edge, place);
+        edge_motion m = move_anyhow(&e, place);
         for (int q = 1; q < 4; q++) m.b[q] = vec2_scale(-(1.0 - place) / place, m.a[q]); /* P does not move */
-        vec2_put(b.v, 1, m.b[1]);
-        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
-        differentiate(&m, b.vertices[b.candidates[edge].closed[0].feature].at, &first, &second);
+        vec2_put(e.b.v, 1, m.b[1]);
+        const contact_frame f = frame_of(&e);
+        differentiate(&m, *vertex_of(&e), &first, &second);
         /* P stays where it is, so there is rounding only */
         assert_close(first.height, 0.0, difference_tolerance);
         assert_close(second.height, 0.0, difference_tolerance);
         assert_close(first.place, 0.0, difference_tolerance);
         assert_true(vec2_norm(f.velocity) <=
-                    contact_point_noise(&f, b.v)); /* what rounding leaves of it, and that is little: */
-        assert_true(contact_point_noise(&f, b.v) > 0.0 && contact_point_noise(&f, b.v) < 1e-12);
+                    contact_point_noise(&f, e.b.v)); /* what rounding leaves of it, and that is little: */
+        assert_true(contact_point_noise(&f, e.b.v) > 0.0 && contact_point_noise(&f, e.b.v) < 1e-12);
         assert_close(f.turning, 0.0, 0.0);
         assert_close(f.keep[0], 0.0, 1e-90); /* 1/max_step */
         assert_close(f.keep[1], 0.0, 1e-90);
     }
-    gsl_rng_free(rng);
+    gsl_rng_free(e.rng);
 }
 
 /* Wherever its nodes are, and however its vertex lies, an edge that sticks touches with the same point of it. */
 static void a_sticking_contact_keeps_its_place(void **state)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    bench b;
+    moving_edge e;
     (void)state;
-    bench_open(&b, 2);
-    const dem_index edge = bench_edge(&b, 0, 1);
-    bench_touch(&b, edge, 0, 0.5, 0);
+    open_moving_edge(&e, 0);
     for (int k = 0; k < 100; k++) {
-        ode_problem m;
-        move_anyhow(rng, &m, &b, edge, 0.375);
-        b.vertices[b.candidates[edge].closed[0].feature].at = (vec2){any(rng), any(rng)};
-        const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
+        const edge_motion m = move_anyhow(&e, 0.375);
+        *vertex_of(&e) = (vec2){any(e.rng), any(e.rng)};
+        const contact_frame f = frame_of(&e);
         const vec2 at = vec2_add(vec2_scale(0.625, m.a[0]), vec2_scale(0.375, m.b[0]));
         assert_close(f.place, 0.375, 0.0);
         assert_close(f.weight[0], 0.625, 0.0);
         assert_close(f.weight[1], 0.375, 0.0);
         /* rounding of lengths of order 1 */
-        assert_close(f.gap, vec2_dot(vec2_sub(at, b.vertices[b.candidates[edge].closed[0].feature].at), f.normal),
-                     1e-15);
+        assert_close(f.gap, vec2_dot(vec2_sub(at, *vertex_of(&e)), f.normal), 1e-15);
     }
-    gsl_rng_free(rng);
+    gsl_rng_free(e.rng);
 }
 
 /* ---- what a contact is on ---- */

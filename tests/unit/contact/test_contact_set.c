@@ -380,19 +380,24 @@ static void what_a_node_is_behind_its_edges_know(void **state)
 
 /* ---- ledger and forces ---- */
 
-/* 2 kg on a spring of 100 N and 1 m, stretched to 1.5 m; moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's
- * 50 (0.25^2 - 0.5^2). */
-static void a_move_enters_the_energy_that_it_puts_in(void **state)
+/* 2 kg at 1.5 m above 3 kg on the floor, at rest; the spring of 100 N and 1 m between them is stretched to 1.5 m. */
+static void open_stretched(scene *s)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
     dem_lattice lattice;
+    support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
+    scene_start(s, &lattice, &plane, 1);
+    dem_lattice_free(&lattice);
+    scene_put(s, 0, 0.0, 0.0, 0.0, 0.0);
+    scene_put(s, 1, 0.0, 1.5, 0.0, 0.0);
+}
+
+/* The upper node moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's 50 (0.25^2 - 0.5^2). */
+static void a_move_enters_the_energy_that_it_puts_in(void **state)
+{
     scene s;
     (void)state;
-    support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
-    scene_start(&s, &lattice, &plane, 1);
-    dem_lattice_free(&lattice);
-    scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
-    scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
+    open_stretched(&s);
     s.c.set.ledger.projection = 1.0;
     contact_set_move(&s.c.set, 1, (vec2){0.0, -0.25}, s.y);
     assert_close(s.y[2], 0.0, 0.0);
@@ -405,16 +410,10 @@ static void a_move_enters_the_energy_that_it_puts_in(void **state)
  * sideways gravity of 0.5 m/s^2 does nothing to a smooth floor. */
 static void the_force_on_a_contact_is_elastic_and_weight(void **state)
 {
-    const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
-    dem_lattice lattice;
     scene s;
     (void)state;
-    support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
-    scene_start(&s, &lattice, &plane, 1);
-    dem_lattice_free(&lattice);
+    open_stretched(&s);
     s.acting.gravity[0] = 0.5;
-    scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
-    scene_put(&s, 1, 0.0, 1.5, 0.0, 0.0);
     close_contact(&s, 0, 0, 1);
     contact_set_solve_forces(&s.c.set, 0, (scene_state){0.0, s.y, scene_v(&s)});
     const contact_point *point = &s.c.set.list[0].closed[0];

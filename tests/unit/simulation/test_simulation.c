@@ -124,6 +124,22 @@ static void watch(dem_simulation *simulation, diary *d, double interval)
     assert_ok(dem_simulation_observe(simulation, &observer));
 }
 
+/* A simulation whose observer keeps a diary. */
+static dem_simulation *observed(const dem_model *model, const dem_options *options, diary *d, double interval)
+{
+    dem_simulation *simulation = simulate(model, options);
+    watch(simulation, d, interval);
+    return simulation;
+}
+
+/* The end of a run has the bits of one without interruptions and observers. */
+static void expect_undisturbed(dem_simulation *simulation, dem_model *model)
+{
+    const snapshot end = snap(simulation), alone = run_whole(model);
+    assert_same(&end, &alone);
+    end_run(simulation, model);
+}
+
 /* A fall from rest: y = 1 - g t^2/2 at each frame, exact but for rounding in the integrator and the dense output. */
 static void frames_come_at_multiples_of_the_interval_from_start_to_end(void **state)
 {
@@ -131,8 +147,7 @@ static void frames_come_at_multiples_of_the_interval_from_start_to_end(void **st
     diary d;
     (void)state;
     dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
-    watch(simulation, &d, 0.1);
+    dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.3)); /* 3 * 0.1 is above 0.3 by rounding */
     assert_int_equal(d.n_frames, 4);
     assert_ok(dem_simulation_advance(simulation, 0.3));
@@ -152,8 +167,7 @@ static void without_an_interval_there_are_no_frames(void **state)
     diary d;
     (void)state;
     dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
-    watch(simulation, &d, 0.0);
+    dem_simulation *simulation = observed(model, &options, &d, 0.0);
     assert_ok(dem_simulation_advance(simulation, 0.3));
     assert_int_equal(d.n_frames, 0);
     assert_true(d.n_steps > 5);
@@ -209,8 +223,7 @@ static void an_impact_at_the_start_comes_before_everything_else(void **state)
     dem_state now;
     (void)state;
     dem_model *model = make_point_at(0.0, v, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
-    watch(simulation, &d, 0.1);
+    dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.0));
     dem_simulation_state(simulation, &now);
     assert_close(now.v[1], 1.0, 0.0);
@@ -226,13 +239,9 @@ static void observers_leave_no_trace_in_the_run(void **state)
     diary d;
     (void)state;
     dem_model *model = make_falling(0.5);
-    const snapshot alone = run_whole(model);
-    dem_simulation *simulation = simulate(model, &options);
-    watch(simulation, &d, t_whole / 33.0);
+    dem_simulation *simulation = observed(model, &options, &d, t_whole / 33.0);
     assert_ok(dem_simulation_advance(simulation, t_whole));
-    const snapshot watched = snap(simulation);
-    assert_same(&watched, &alone);
-    end_run(simulation, model);
+    expect_undisturbed(simulation, model);
 }
 
 /* Stopped at a frame, at a step, then run to the end. */
@@ -242,9 +251,7 @@ static void a_run_stopped_by_an_observer_can_go_on_to_the_same_bits(void **state
     diary d;
     (void)state;
     dem_model *model = make_falling(0.5);
-    const snapshot alone = run_whole(model);
-    dem_simulation *simulation = simulate(model, &options);
-    watch(simulation, &d, t_whole / 20.0);
+    dem_simulation *simulation = observed(model, &options, &d, t_whole / 20.0);
     d.stop_at_frame = 12;
     d.stop_at_step = 41;
     int stops = 0;
@@ -253,9 +260,7 @@ static void a_run_stopped_by_an_observer_can_go_on_to_the_same_bits(void **state
     assert_int_equal(status, DEM_OK);
     assert_int_equal(stops, 3);
     assert_int_equal(d.n_frames, 21);
-    const snapshot stopped = snap(simulation);
-    assert_same(&stopped, &alone);
-    end_run(simulation, model);
+    expect_undisturbed(simulation, model);
 }
 
 static dem_status fail_with_memory(void *context, const dem_simulation *simulation)
@@ -468,15 +473,11 @@ static void stop_at_impact(double clearance)
     assert_ok(dem_lattice_launch(&lattice, down));
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
     dem_lattice_free(&lattice);
-    const snapshot alone = run_whole(model);
-    dem_simulation *simulation = simulate(model, &options);
-    watch(simulation, &d, 0.0);
+    dem_simulation *simulation = observed(model, &options, &d, 0.0);
     d.stop_at_impact = 2;
     assert_int_equal(dem_simulation_advance(simulation, t_whole), DEM_STOPPED);
     assert_ok(dem_simulation_advance(simulation, t_whole));
-    const snapshot stopped = snap(simulation);
-    end_run(simulation, model);
-    assert_same(&stopped, &alone);
+    expect_undisturbed(simulation, model);
 }
 
 static void a_stop_within_a_batch_of_impacts_leaves_no_trace(void **state)
