@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A point mass dropped on a floor (row e): impact times, the end of bouncing, rest. Exact values are closed forms.
- * With a penetration tolerance of 1e-13 m an impact is late by penetration tolerance/|v_n| < 1e-11 s for the eight
+ * With a penetration tolerance d of 1e-13 m an impact is late by d/|v_n| < 1e-11 s for the eight
  * impacts compared; 1e-9 s is the table's tolerance. */
 #include <stdbool.h>
 
@@ -23,7 +23,7 @@ static void check_rest(support_run *run, double eta, double t_star)
     const dem_event last = run->impacts[run->n_impacts - 1];
     const dem_index n_impacts = run->n_impacts, n_events = dem_simulation_counts(run->simulation).events;
     assert_int_not_equal(last.state, DEM_CONTACT_FREE);
-    assert_close(last.t, t_star, cut_off + 1e-7); /* penetration tolerance/|v_n| of all impacts: 1e-13/4e-6/(1 - eta) */
+    assert_close(last.t, t_star, cut_off + 1e-7); /* d/|v_n| of all impacts: 1e-13/4e-6/(1 - eta) */
     for (double t = t_star + 0.1; t < t_star + 9.0; t += 0.7) {
         state = support_at(run, t);
         assert_close(state.x[1], 0.0, 1e-12);

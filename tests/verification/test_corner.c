@@ -316,7 +316,7 @@ static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
         dem_lattice_free(&lattice);
         const dem_state state = support_at(&run, 1.0);
         assert_close(state.x[0] * c + state.x[1] * s, 0.5,
-                     1e-6); /* 100 penetration tolerances: the lean makes ten of the penetration tolerance */
+                     1e-6); /* 100 penetration tolerances: the lean makes ten of one */
         support_close(&run);
     }
 }

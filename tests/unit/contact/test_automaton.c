@@ -59,8 +59,8 @@ static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
 /* ---- impacts ---- */
 
 /* 2 kg at (3, -4) m/s on a floor of eta = 1/2: rises with 2 m/s, the floor gives 2 * 6 N s and takes 2/2 (16 - 4) =
- * 12 J; the lift by the penetration tolerance costs 2 g penetration tolerance. */
-static void an_impact_is_reflected_reported_and_booked(void **state)
+ * 12 J; the lift by the penetration tolerance d costs 2 g d. */
+static void an_impact_is_reflected_reported_and_entered(void **state)
 {
     scene s;
     (void)state;
@@ -135,9 +135,9 @@ static void land(double eta, double speed, double rest_speed, int closed)
     scene_close(&s);
 }
 
-/* By the rule what rises no higher than the position error; or than twice the hop that impacts a penetration tolerance
- * deep keep up, penetration tolerance eta^2/(1 - eta^2), a third of it at eta = 1/2 and 1e-4 of it at 1/100. And what
- * is not faster than the speed given, which takes nothing from that. */
+/* At rest is what rises no higher than the position error; or than twice the hop that impacts at a depth d, the
+ * penetration tolerance, keep up: d eta^2/(1 - eta^2), a third of d at eta = 1/2 and 1e-4 of it at 1/100. And what is
+ * not faster than the rest speed that is given, which takes nothing from these limits. */
 static void a_rebound_too_slow_becomes_a_contact(void **state)
 {
     const double error = sqrt(2.0 * g * 1e-9), kept_up = sqrt(2.0 * g * 2.0 * penetration_tolerance / 3.0);
@@ -604,7 +604,7 @@ int main(void)
         cmocka_unit_test(touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not),
         cmocka_unit_test(at_the_start_touching_is_enough_for_a_contact),
         cmocka_unit_test(a_node_that_leaves_the_surface_at_the_start_is_free),
-        cmocka_unit_test(an_impact_is_reflected_reported_and_booked),
+        cmocka_unit_test(an_impact_is_reflected_reported_and_entered),
         cmocka_unit_test(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force),
         cmocka_unit_test(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone),
         cmocka_unit_test(a_rebound_too_slow_becomes_a_contact),

@@ -46,8 +46,8 @@ static void times_are_located_to_a_hundred_units_of_rounding(void **state)
 
 /* ---- a free node ---- */
 
-/* Falls from 0.2 m: at the penetration tolerance's depth after sqrt(2 (0.2 + penetration tolerance)/g). The end found
- * is on the deep side. */
+/* Falls from 0.2 m: as deep as the penetration tolerance d after sqrt(2 (0.2 + d)/g). The time found is on the deep
+ * side. */
 static void a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall(void **state)
 {
     const double start = 7.0, t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
@@ -184,8 +184,8 @@ static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
 }
 
 /* Node 1 falls with 2 m/s from 0.3 m, node 0 stays there. With w = 2 t the edge's point over the ridge is 0.75 w - 0.3
- * below it, along the normal that times 2/sqrt(4 + w^2): (4 * 0.5625 - penetration tolerance^2) w^2 - 1.8 w + 0.36 - 4
- * penetration tolerance^2 = 0. */
+ * below it, along the normal that times 2/sqrt(4 + w^2). That is the penetration tolerance d where
+ * (4 * 0.5625 - d^2) w^2 - 1.8 w + 0.36 - 4 d^2 = 0. */
 static void a_turning_edge_meets_a_ridge_where_its_line_does(void **state)
 {
     const double a = 2.25 - penetration_tolerance * penetration_tolerance,

@@ -92,8 +92,8 @@ static void the_papers_friction_on_a_vertex_leaves_its_share(void **state)
     scene_close(&s);
 }
 
-/* The edge is put back on the ridge, its nodes by their parts in it and their mobilities: the lift of node i is
- * penetration tolerance w_i/m_i/W. Falling at rest otherwise, it stays: a contact that slides or, with friction,
+/* The edge is put back on the ridge, its nodes by their parts in it and their mobilities: the lift of node i is d
+ * w_i/m_i/W, d the penetration tolerance. Falling at rest otherwise, it stays: a contact that slides or, with friction,
  * sticks at its place. */
 static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
 {

@@ -8,17 +8,17 @@
 
 enum { n_nodes = 2, n_state = 2 * STATE_DIM_MOST * n_nodes };
 
-/* A motion of two nodes: value and derivatives of coordinate k. */
-typedef struct ode_problem {
+/* A motion of two nodes: position, velocity and acceleration of coordinate k. */
+typedef struct known_motion {
     double (*x)(int k, double t), (*v)(int k, double t), (*a)(int k, double t);
-} ode_problem;
+} known_motion;
 
 typedef struct step {
     double y0[n_state], f0[n_state], y1[n_state], f1[n_state];
-    dense_output path;
+    dense_output dense;
 } step;
 
-static void sample(const ode_problem *m, int n, double t, double *y, double *f)
+static void sample(const known_motion *m, int n, double t, double *y, double *f)
 {
     for (int k = 0; k < n; k++) {
         y[k] = m->x(k, t);
@@ -27,11 +27,11 @@ static void sample(const ode_problem *m, int n, double t, double *y, double *f)
     }
 }
 
-static void make_step(step *s, int dim, const ode_problem *m, double t0, double t1)
+static void make_step(step *s, int dim, const known_motion *m, double t0, double t1)
 {
     sample(m, dim * n_nodes, t0, s->y0, s->f0);
     sample(m, dim * n_nodes, t1, s->y1, s->f1);
-    s->path = (dense_output){
+    s->dense = (dense_output){
         {.dim = dim, .n_nodes = n_nodes, .n_rows = n_nodes}, t0, t1, t1, s->y0, s->f0, s->y1, s->f1, false, NULL};
 }
 
@@ -54,7 +54,7 @@ static double quintic_a(int k, double t)
     return 6.0 - 6.0 * c * t + t * t * (6.0 * c - 30.0 * t);
 }
 
-static const ode_problem quintic = {quintic_x, quintic_v, quintic_a};
+static const known_motion quintic = {quintic_x, quintic_v, quintic_a};
 
 static double swing_x(int k, double t)
 {
@@ -71,7 +71,7 @@ static double swing_a(int k, double t)
     return -swing_x(k, t);
 }
 
-static const ode_problem swing = {swing_x, swing_v, swing_a};
+static const known_motion swing = {swing_x, swing_v, swing_a};
 
 /* ---- tests ---- */
 
@@ -107,14 +107,14 @@ static void the_ends_are_the_states_to_the_bit(void **state)
         const size_t size = 2 * (size_t)(dim * n_nodes) * sizeof *y;
         make_step(&s, dim, &swing, 0.1 * q, 0.1 * q + 1.0 / (2.0 + q));
         for (int k = 0; k < 2 * dim * n_nodes; k++) s.y1[k] += 1.0 / (3.0 + k);
-        dense_output_state(&s.path, s.path.t0, y);
+        dense_output_state(&s.dense, s.dense.t0, y);
         assert_memory_equal(y, s.y0, size);
-        dense_output_state(&s.path, s.path.t1, y);
+        dense_output_state(&s.dense, s.dense.t1, y);
         assert_memory_equal(y, s.y1, size);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const motion first = motion_at(&s.path, s.path.t0, i), last = motion_at(&s.path, s.path.t1, i);
-            same_motion(&first, &s.path, s.y0, i);
-            same_motion(&last, &s.path, s.y1, i);
+            const motion first = motion_at(&s.dense, s.dense.t0, i), last = motion_at(&s.dense, s.dense.t1, i);
+            same_motion(&first, &s.dense, s.y0, i);
+            same_motion(&last, &s.dense, s.y1, i);
         }
     }
 }
@@ -131,7 +131,7 @@ static void motions_of_degree_5_are_exact_with_their_velocities(void **state)
         for (double share = 0.05; share < 1.0; share += 0.1) {
             const double t = starts[q % 3] + share * lengths[q % 3];
             for (int k = 0; k < dim * n_nodes; k++) {
-                const motion m = motion_at(&s.path, t, k / dim);
+                const motion m = motion_at(&s.dense, t, k / dim);
                 assert_close(m.x[k % dim], quintic_x(k, t), 2e-14);
                 assert_close(m.v[k % dim], quintic_v(k, t), 2e-13);
             }
@@ -148,12 +148,12 @@ static void the_motion_of_a_node_is_the_same_as_a_polynomial(void **state)
         motion_polynomial m;
         const int dim = 2 + q / 2;
         make_step(&s, dim, &swing, 0.5, 1.75);
-        s.path.parabolic = q % 2 == 1;
-        dense_output_motion(&s.path, 1, &m);
+        s.dense.parabolic = q % 2 == 1;
+        dense_output_motion(&s.dense, 1, &m);
         assert_int_equal(m.dim, dim);
         assert_close(m.from, 0.5, 0.0);
         for (double share = 0.05; share < 1.0; share += 0.1) {
-            const motion expected = motion_at(&s.path, 0.5 + 1.25 * share, 1);
+            const motion expected = motion_at(&s.dense, 0.5 + 1.25 * share, 1);
             motion found;
             motion_polynomial_at(&m, share, found.x, found.v);
             for (int d = 0; d < dim; d++) {
@@ -172,7 +172,7 @@ static void errors_of_swing(double h, double *position, double *velocity)
     *position = *velocity = 0.0;
     for (double share = 0.01; share < 1.0; share += 0.01) {
         const double t = 0.4 + share * h;
-        const motion m = motion_at(&s.path, t, 0);
+        const motion m = motion_at(&s.dense, t, 0);
         for (int d = 0; d < 3; d++) {
             *position = fmax(*position, fabs(m.x[d] - swing_x(d, t)));
             *velocity = fmax(*velocity, fabs(m.v[d] - swing_v(d, t)));
@@ -199,12 +199,12 @@ static void the_whole_state_is_made_of_the_same_numbers_to_the_bit(void **state)
     (void)state;
     for (int q = 0; q < 4; q++) {
         make_step(&s, 2 + q / 2, &swing, 1.0, 1.37);
-        s.path.parabolic = q % 2 == 1;
+        s.dense.parabolic = q % 2 == 1;
         for (double t = 1.01; t < 1.37; t += 0.1) {
-            dense_output_state(&s.path, t, y);
+            dense_output_state(&s.dense, t, y);
             for (dem_index i = 0; i < n_nodes; i++) {
-                const motion m = motion_at(&s.path, t, i);
-                same_motion(&m, &s.path, y, i);
+                const motion m = motion_at(&s.dense, t, i);
+                same_motion(&m, &s.dense, y, i);
             }
         }
     }
@@ -218,12 +218,12 @@ static void it_is_continuous_at_its_ends(void **state)
     make_step(&s, 3, &swing, 1.0, 1.5);
     const double first = nextafter(1.0, 2.0), last = nextafter(1.5, 1.0);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const motion m0 = motion_at(&s.path, first, i), m1 = motion_at(&s.path, last, i);
+        const motion m0 = motion_at(&s.dense, first, i), m1 = motion_at(&s.dense, last, i);
         for (int d = 0; d < 3; d++) {
-            assert_close(m0.x[d], state_x(&s.path.layout, s.y0, i)[d], 3e-15);
-            assert_close(m1.x[d], state_x(&s.path.layout, s.y1, i)[d], 3e-15);
-            assert_close(m0.v[d], state_v(&s.path.layout, s.y0, i)[d], 3e-15);
-            assert_close(m1.v[d], state_v(&s.path.layout, s.y1, i)[d], 3e-15);
+            assert_close(m0.x[d], state_x(&s.dense.layout, s.y0, i)[d], 3e-15);
+            assert_close(m1.x[d], state_x(&s.dense.layout, s.y1, i)[d], 3e-15);
+            assert_close(m0.v[d], state_v(&s.dense.layout, s.y0, i)[d], 3e-15);
+            assert_close(m1.v[d], state_v(&s.dense.layout, s.y1, i)[d], 3e-15);
         }
     }
 }
@@ -239,8 +239,8 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
         for (double share = 0.1; share < 1.0; share += 0.2)
             for (int i = 0; i < n_nodes; i++) {
                 const double t = 0.7 + share * h;
-                assert_close(motion_at(&s.path, t, i).v[0], swing_v(2 * i, 0.7), 4.0 * h + 1e-15);
-                assert_close(motion_at(&s.path, t, i).x[0], swing_x(2 * i, 0.7), 4.0 * h + 1e-15);
+                assert_close(motion_at(&s.dense, t, i).v[0], swing_v(2 * i, 0.7), 4.0 * h + 1e-15);
+                assert_close(motion_at(&s.dense, t, i).x[0], swing_x(2 * i, 0.7), 4.0 * h + 1e-15);
             }
     }
 }
@@ -258,7 +258,7 @@ static void a_displacement_beyond_rounding_is_followed(void **state)
 }
 
 /* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: accelerations at the end do not count. */
-static void a_parabolic_path_matches_what_a_method_of_order_2_knows(void **state)
+static void a_parabolic_output_matches_what_a_method_of_order_2_knows(void **state)
 {
     double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};
     double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
@@ -288,7 +288,7 @@ int main(void)
         cmocka_unit_test(it_is_continuous_at_its_ends),
         cmocka_unit_test(rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step),
         cmocka_unit_test(a_displacement_beyond_rounding_is_followed),
-        cmocka_unit_test(a_parabolic_path_matches_what_a_method_of_order_2_knows),
+        cmocka_unit_test(a_parabolic_output_matches_what_a_method_of_order_2_knows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
