@@ -174,7 +174,7 @@ static int kick(stage *s, gsl_rng *rng)
     return status == DEM_OK;
 }
 
-static void kicks_are_booked(void **state)
+static void kicks_enter_the_ledger(void **state)
 {
     long n_moved = 0, n_events = 0;
     (void)state;
@@ -357,7 +357,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_ledger_stays_closed),
-        cmocka_unit_test(kicks_are_booked),
+        cmocka_unit_test(kicks_enter_the_ledger),
         cmocka_unit_test(nobody_leaves_a_trace),
         cmocka_unit_test(a_force_that_fails_leaves_the_last_state),
     };

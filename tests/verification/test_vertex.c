@@ -375,7 +375,7 @@ static void an_apex_exactly_under_the_middle_node_never_sinks_in(void **unused)
         for (int e = 0; e <= 2; e++) (void)check_wedge(&(wedge){flanks[k], 0.0, 0.5 * e, 0.0, 1e-6, 10, 1}, landing);
 }
 
-/* Nodes alone see the wedge too late: the watch of these tests would notice. */
+/* With nodes alone the wedge is deep in the body before a node touches it, which the polygon test notices. */
 static void without_vertices_the_apex_is_seen_to_sink_in(void **unused)
 {
     (void)unused;

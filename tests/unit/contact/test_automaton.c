@@ -190,7 +190,7 @@ static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void 
     scene_close(&s);
 }
 
-static void an_observer_that_stops_is_heard(void **state)
+static void the_status_of_a_listener_that_stops_is_returned(void **state)
 {
     scene s;
     (void)state;
@@ -610,7 +610,7 @@ int main(void)
         cmocka_unit_test(a_rebound_too_slow_becomes_a_contact),
         cmocka_unit_test(a_contact_does_not_last_where_nothing_presses),
         cmocka_unit_test(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes),
-        cmocka_unit_test(an_observer_that_stops_is_heard),
+        cmocka_unit_test(the_status_of_a_listener_that_stops_is_returned),
         cmocka_unit_test(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal),
         cmocka_unit_test(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity),
         cmocka_unit_test(closed_contacts_hold_the_acceleration_along_their_normals),

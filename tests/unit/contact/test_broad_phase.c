@@ -61,7 +61,7 @@ static void a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive(
     scene_close(&s);
 }
 
-static void what_is_closed_never_sleeps(void **state)
+static void what_is_closed_is_always_active(void **state)
 {
     const double x[4] = {0.0, 0.0, 1.0, 3.0};
     scene s;
@@ -74,7 +74,7 @@ static void what_is_closed_never_sleeps(void **state)
 }
 
 /* The node falls from 3 m while nothing looks at it until the way that the fastest may have gone is enough. */
-static void a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough(void **state)
+static void an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enough(void **state)
 {
     const double x[4] = {0.0, 3.0, 2.0, 9.0};
     scene s;
@@ -119,7 +119,7 @@ static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
 }
 
 /* Body far above: its edges are inactive as its nodes are, and active again before the ridge can be reached. */
-static void edges_sleep_too(void **state)
+static void edges_may_be_inactive_too(void **state)
 {
     scene s;
     (void)state;
@@ -218,10 +218,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fastest_of_the_nodes_that_may_touch_counts),
         cmocka_unit_test(a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive),
-        cmocka_unit_test(what_is_closed_never_sleeps),
-        cmocka_unit_test(a_sleeper_wakes_when_the_bodies_may_have_gone_far_enough),
+        cmocka_unit_test(what_is_closed_is_always_active),
+        cmocka_unit_test(an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enough),
         cmocka_unit_test(a_step_counts_as_twice_what_the_fastest_goes),
-        cmocka_unit_test(edges_sleep_too),
+        cmocka_unit_test(edges_may_be_inactive_too),
         cmocka_unit_test(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it),
         cmocka_unit_test(a_node_found_inside_has_come_round_a_free_end_and_may_come_back),
         cmocka_unit_test(who_is_active_stays_so_under_another_number),

@@ -366,7 +366,7 @@ static void only_coulombs_law_has_sustained_friction(void **state)
     assert_close(contact_point_friction(&b.scene, &b.candidates[0], 2), 0.0, 0.0); /* (10) */
 }
 
-static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
+static void a_contact_reports_where_it_is_and_what_it_carries(void **state)
 {
     bench b;
     (void)state;
@@ -395,7 +395,7 @@ static void a_contact_tells_where_it_is_and_what_it_carries(void **state)
     assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, 0.0, b.x).state, DEM_CONTACT_STICK);
 }
 
-static void the_second_contact_of_an_edge_tells_of_its_own_vertex(void **state)
+static void the_second_contact_of_an_edge_reports_its_own_vertex(void **state)
 {
     bench b;
     (void)state;
@@ -434,8 +434,8 @@ int main(void)
         cmocka_unit_test(a_sticking_contact_keeps_its_place),
         cmocka_unit_test(a_scene_knows_its_margin_and_where_velocities_begin),
         cmocka_unit_test(only_coulombs_law_has_sustained_friction),
-        cmocka_unit_test(a_contact_tells_where_it_is_and_what_it_carries),
-        cmocka_unit_test(the_second_contact_of_an_edge_tells_of_its_own_vertex),
+        cmocka_unit_test(a_contact_reports_where_it_is_and_what_it_carries),
+        cmocka_unit_test(the_second_contact_of_an_edge_reports_its_own_vertex),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

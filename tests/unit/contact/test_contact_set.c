@@ -445,7 +445,7 @@ static void a_sliding_edge_stores_force_and_friction(void **state)
 
 /* ---- events ---- */
 
-static void an_event_of_a_node_tells_where_it_is_and_how_it_moves(void **state)
+static void an_event_of_a_node_reports_where_it_is_and_how_it_moves(void **state)
 {
     scene s;
     (void)state;
@@ -478,7 +478,7 @@ static void an_event_of_a_node_tells_where_it_is_and_how_it_moves(void **state)
 
 /* The second roof's ridge, the end of its first segment, under 0.75 of edge 0-1; the velocity is 1/4 and 3/4 of the
  * nodes'. */
-static void an_event_of_an_edge_tells_the_vertex_and_the_weight_of_its_second_node(void **state)
+static void an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node(void **state)
 {
     scene s;
     (void)state;
@@ -519,8 +519,8 @@ int main(void)
         cmocka_unit_test(a_move_enters_the_energy_that_it_puts_in),
         cmocka_unit_test(the_force_on_a_contact_is_elastic_and_weight),
         cmocka_unit_test(a_sliding_edge_stores_force_and_friction),
-        cmocka_unit_test(an_event_of_a_node_tells_where_it_is_and_how_it_moves),
-        cmocka_unit_test(an_event_of_an_edge_tells_the_vertex_and_the_weight_of_its_second_node),
+        cmocka_unit_test(an_event_of_a_node_reports_where_it_is_and_how_it_moves),
+        cmocka_unit_test(an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,7 +21,7 @@ static dem_status hear(void *context, const dem_event *event)
     return h->says[h->n_heard++];
 }
 
-static void a_new_book_is_empty(void **state)
+static void a_new_ledger_is_empty(void **state)
 {
     contact_ledger b;
     (void)state;
@@ -128,7 +128,7 @@ static void the_first_status_other_than_ok_is_kept(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_new_book_is_empty),
+        cmocka_unit_test(a_new_ledger_is_empty),
         cmocka_unit_test(impulses_add_up_for_each_obstacle_by_itself),
         cmocka_unit_test(every_kind_of_event_has_its_count),
         cmocka_unit_test(a_close_event_is_reported_but_counted_where_it_is_done),

@@ -594,7 +594,7 @@ static void a_second_event_adds_to_the_first(void **state)
 
 /* A node by itself lands on the floor and slides: m g holds it, mu m g slows it; the quadratures have what that comes
  * to. */
-static void a_node_that_lands_is_booked_by_closed_forms(void **state)
+static void the_ledger_of_a_node_that_lands_has_closed_forms(void **state)
 {
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
@@ -731,7 +731,7 @@ int main(void)
         cmocka_unit_test(so_they_do_where_springs_are_damped),
         cmocka_unit_test(edges_on_vertices_move_together),
         cmocka_unit_test(a_second_event_adds_to_the_first),
-        cmocka_unit_test(a_node_that_lands_is_booked_by_closed_forms),
+        cmocka_unit_test(the_ledger_of_a_node_that_lands_has_closed_forms),
         cmocka_unit_test(its_error_falls_with_the_sixth_power_of_the_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -112,7 +112,7 @@ static void all_are_called_in_the_order_in_which_they_came(void **state)
     expect("e1e2s1s2f2");
 }
 
-static void who_has_no_ears_is_left_out(void **state)
+static void observers_without_a_function_are_left_out(void **state)
 {
     observers a = {0};
     voice v = {'v', DEM_OK};
@@ -133,7 +133,7 @@ static void who_has_no_ears_is_left_out(void **state)
 }
 
 /* An observer that comes later is called all the same. */
-static void the_first_complaint_counts(void **state)
+static void the_first_status_that_is_not_ok_is_returned(void **state)
 {
     observers a = {0};
     voice content = {'1', DEM_OK}, stops = {'2', DEM_STOPPED}, fails = {'3', DEM_ERROR_MEMORY};
@@ -195,9 +195,9 @@ int main(void)
         cmocka_unit_test(at_most_eight_are_admitted),
         cmocka_unit_test(an_interval_is_finite),
         cmocka_unit_test(all_are_called_in_the_order_in_which_they_came),
-        cmocka_unit_test(who_has_no_ears_is_left_out),
+        cmocka_unit_test(observers_without_a_function_are_left_out),
         cmocka_unit_test(frames_too_many_to_be_numbered_are_refused),
-        cmocka_unit_test(the_first_complaint_counts),
+        cmocka_unit_test(the_first_status_that_is_not_ok_is_returned),
         cmocka_unit_test(frames_come_in_the_order_of_time),
         cmocka_unit_test(a_frame_at_the_end_is_not_lost_to_rounding),
     };

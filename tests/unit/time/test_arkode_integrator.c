@@ -227,10 +227,10 @@ static void an_unknown_method_is_refused(void **state)
     integrator_destroy(&(integrator){0});
 }
 
-/* ---- the path of a step ---- */
+/* ---- the dense output of a step ---- */
 
 /* ARKODE's interpolant gives the derivatives at its ends back to rounding. */
-static void a_path_starts_where_the_last_one_ended_and_holds_the_derivatives(void **state)
+static void a_step_starts_where_the_last_one_ended_and_holds_the_derivatives(void **state)
 {
     world w = {.fails_after = 1e9};
     dense_output p;
@@ -255,7 +255,7 @@ static void a_path_starts_where_the_last_one_ended_and_holds_the_derivatives(voi
     integrator_destroy(&i);
 }
 
-static void after_a_restart_the_path_has_the_derivatives_of_the_new_state(void **state)
+static void after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state(void **state)
 {
     const double elsewhere[4] = {0.3, -0.7, 1.5, 2.5};
     world w = {.fails_after = 1e9};
@@ -381,7 +381,7 @@ static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state
     integrator_destroy(&i);
 }
 
-/* A path that ended at a root is gone on from to its end where nobody restarts. */
+/* Without a restart a step that was cut short at a root goes on to its end. */
 static void without_a_restart_it_goes_on_through_a_root(void **state)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0};
@@ -520,8 +520,8 @@ int main(void)
         cmocka_unit_test(adaptive_steps_keep_the_error_they_are_given),
         cmocka_unit_test(errors_of_positions_and_of_velocities_both_count),
         cmocka_unit_test(an_unknown_method_is_refused),
-        cmocka_unit_test(a_path_starts_where_the_last_one_ended_and_holds_the_derivatives),
-        cmocka_unit_test(after_a_restart_the_path_has_the_derivatives_of_the_new_state),
+        cmocka_unit_test(a_step_starts_where_the_last_one_ended_and_holds_the_derivatives),
+        cmocka_unit_test(after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state),
         cmocka_unit_test(evaluations_are_counted),
         cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
         cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),

@@ -152,7 +152,7 @@ static void a_bend_is_the_quintic_through_both_ends(void **state)
     changed_motion_destroy(&s.changed);
 }
 
-/* As a path that is parabolic: x and v do not know of each other but at the start; the acceleration at the end is not
+/* As a parabolic dense output: x and v do not know of each other but at the start; the acceleration at the end is not
  * looked at. */
 static void parabolas_go_through_what_they_are_given(void **state)
 {

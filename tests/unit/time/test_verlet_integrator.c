@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* verlet_integrator.c: order, reversibility, stability with and without damping, roots on its own path, prescribed
- * velocities. */
+/* verlet_integrator.c: order, reversibility, stability with and without damping, roots on its own dense output,
+ * prescribed velocities. */
 #include "verification/support.h"
 
 #include <string.h>
@@ -122,7 +122,8 @@ static int move_with_book(double t, const double *y, double *u, double *a, void 
     return move(t, node, u, a, context);
 }
 
-/* From every other state; `v1` and `f1` of the book are left to the engine and to the rates. */
+/* A fused step of the node, but not from below 0. Quadratures' velocities are left to the integrator, their rates are
+ * those above. */
 static int fused_from_above(const ode_fused_step *s, void *context)
 {
     const double h = s->h;
@@ -275,11 +276,11 @@ static void prescribed_velocities_are_taken_over(void **state)
     assert_close(y[0], 0.1 * 0.25 + 0.9 * 0.5, 1e-15); /* the first step starts from what the caller gave */
 }
 
-/* ---- its path ---- */
+/* ---- its dense output ---- */
 
 /* Up to any time within a step it is where a step of that length would go; its velocity there differs in the third
  * order. */
-static void the_path_of_a_step_is_that_of_shorter_steps(void **state)
+static void the_dense_output_of_a_step_is_that_of_shorter_steps(void **state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
     world w = plain;
@@ -287,15 +288,15 @@ static void the_path_of_a_step_is_that_of_shorter_steps(void **state)
     integrator V = make(&w, h, 0, y0);
     const dense_output p = take(&V, 1);
     for (int k = 0; k <= 10; k++) {
-        double y[4], on_path[4];
+        double y[4], inside[4];
         run(plain, fmax(h * k / 10.0, 1e-300), 1, y0, y);
-        dense_output_state(&p, h * k / 10.0, on_path);
-        for (int c = 0; c < 4; c++) assert_close(on_path[c], y[c], c == 2 ? 0.1 * h * h * h : 1e-15);
+        dense_output_state(&p, h * k / 10.0, inside);
+        for (int c = 0; c < 4; c++) assert_close(inside[c], y[c], c == 2 ? 0.1 * h * h * h : 1e-15);
     }
     integrator_destroy(&V);
 }
 
-static void a_path_starts_where_the_last_one_ended(void **state)
+static void a_step_starts_where_the_last_one_ended(void **state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
@@ -458,8 +459,8 @@ int main(void)
         cmocka_unit_test(stiffening_halves_the_step),
         cmocka_unit_test(no_stiffening_stops_the_time),
         cmocka_unit_test(prescribed_velocities_are_taken_over),
-        cmocka_unit_test(the_path_of_a_step_is_that_of_shorter_steps),
-        cmocka_unit_test(a_path_starts_where_the_last_one_ended),
+        cmocka_unit_test(the_dense_output_of_a_step_is_that_of_shorter_steps),
+        cmocka_unit_test(a_step_starts_where_the_last_one_ended),
         cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
         cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),
         cmocka_unit_test(it_goes_on_from_a_new_state_or_through_the_root),
