@@ -8,6 +8,7 @@
 #include "base/status.h"
 #include "base/threads.h"
 #include "contact/automaton_step.h"
+#include "contact/contact_entry.h"
 #include "contact/impact_group.h"
 
 /* ---- set-up ---- */
@@ -272,6 +273,20 @@ static void contact_source_undo(void *self)
     forget_saved(s);
 }
 
+/* ---- records ---- */
+
+static dem_status contact_source_save(const void *self, dem_record *record)
+{
+    return contact_entry_put(&((const contact_source *)self)->automaton->set, record);
+}
+
+static dem_status contact_source_restore(void *self, const dem_record *record, double t, const double *y)
+{
+    contact_source *s = self;
+    TRY(contact_entry_get(&s->automaton->set, record));
+    return automaton_restore(s->automaton, t, y);
+}
+
 event_source contact_source_events(contact_source *s)
 {
     return (event_source){.name = "contact",
@@ -282,5 +297,7 @@ event_source contact_source_events(contact_source *s)
                           .prepare = contact_source_prepare,
                           .resolve = contact_source_resolve,
                           .follow = contact_source_follow,
-                          .undo = contact_source_undo};
+                          .undo = contact_source_undo,
+                          .save = contact_source_save,
+                          .restore = contact_source_restore};
 }

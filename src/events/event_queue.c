@@ -11,23 +11,21 @@
 
 /* ---- set-up ---- */
 
-dem_status event_queue_create(event_queue *out, const state_layout *l, const local_forces *f, const constraints *c,
-                              const local_correction_rule *rule, bool controlled)
+dem_status event_queue_create(event_queue *out, const event_queue_parts *parts)
 {
-    *out = (event_queue){.layout = *l, .forces = f, .constraints = c, .most = controlled ? 1.0 : (double)INFINITY};
+    const state_layout *l = parts->layout;
+    const local_forces *f = parts->forces;
+    const constraints *c = parts->constraints;
+    *out = (event_queue){.layout = *l,
+                         .forces = f,
+                         .constraints = c,
+                         .sources = parts->sources,
+                         .most = parts->controlled ? 1.0 : (double)INFINITY};
     dem_status status = changed_motion_create(&out->changed, l);
     if (status == DEM_OK) status = local_nodes_create(&out->renewed, l->n_nodes, 0);
-    if (status == DEM_OK) status = local_correction_create(&out->correction, l, f, c, rule);
+    if (status == DEM_OK) status = local_correction_create(&out->correction, l, f, c, &parts->rule);
     if (status != DEM_OK) event_queue_destroy(out);
     return status;
-}
-
-dem_status event_queue_add_source(event_queue *q, event_source source)
-{
-    CHECK(grow_array((void **)&q->sources, &q->source_capacity, q->n_sources + 1, sizeof *q->sources), DEM_ERROR_MEMORY,
-          "out of memory for a source of events");
-    q->sources[q->n_sources++] = source;
-    return DEM_OK;
 }
 
 void event_queue_destroy(event_queue *q)
@@ -35,7 +33,6 @@ void event_queue_destroy(event_queue *q)
     local_correction_destroy(&q->correction);
     changed_motion_destroy(&q->changed);
     local_nodes_destroy(&q->renewed);
-    free(q->sources);
     free(q->seeds);
     free(q->events);
     *q = (event_queue){0};
@@ -53,8 +50,8 @@ typedef struct due_event {
 static due_event next_of(const event_queue *q)
 {
     due_event first = {.t = (double)INFINITY};
-    for (dem_index kind = 0; kind < q->n_sources; kind++) {
-        due_event due = {.source = &q->sources[kind]};
+    for (dem_index kind = 0; kind < q->sources->n; kind++) {
+        due_event due = {.source = &q->sources->list[kind]};
         due.t = due.source->next(due.source->self, &due.key);
         if (due.t < first.t) first = due;
     }
@@ -66,7 +63,8 @@ static void look_ahead(event_queue *q)
     q->now = q->step->t0;
     q->error = q->ahead = 0.0;
     q->settled = false;
-    for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].begin(q->sources[k].self, q->step, q->state);
+    for (dem_index k = 0; k < q->sources->n; k++)
+        q->sources->list[k].begin(q->sources->list[k].self, q->step, q->state);
 }
 
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
@@ -83,7 +81,7 @@ void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f
 void event_queue_undo(event_queue *q)
 {
     if (q->n_stops == 0) return;
-    for (dem_index k = q->n_sources - 1; k >= 0; k--) q->sources[k].undo(q->sources[k].self);
+    for (dem_index k = q->sources->n - 1; k >= 0; k--) q->sources->list[k].undo(q->sources->list[k].self);
     changed_motion_undo(&q->changed);
     q->n_events = q->n_stops = 0;
 }
@@ -124,7 +122,7 @@ static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
 static dem_status resolve(event_queue *q, const due_event *due, const event_place *at)
 {
     const event_listener listener = {hear, q};
-    for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].prepare(q->sources[k].self, at);
+    for (dem_index k = 0; k < q->sources->n; k++) q->sources->list[k].prepare(q->sources->list[k].self, at);
     return due->source->resolve(due->source->self, due->key, at, &listener);
 }
 
@@ -144,7 +142,7 @@ static dem_status take(event_queue *q, const due_event *due)
           (long long)q->correction.near.nodes.list[0], due->source->name, q->now);
     q->error += error;
     q->ahead += error * growth((q->step->t1 - q->step->t0) / q->correction.h);
-    for (dem_index k = 0; k < q->n_sources; k++) q->sources[k].follow(q->sources[k].self, &at);
+    for (dem_index k = 0; k < q->sources->n; k++) q->sources->list[k].follow(q->sources->list[k].self, &at);
     return DEM_OK;
 }
 

@@ -5,13 +5,14 @@
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
-#include "events/event_source.h"
 #include "events/local_correction.h"
+#include "events/source_list.h"
 
 typedef struct event_queue {
     state_layout layout;
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
+    const source_list *sources;
     local_correction correction;
     changed_motion changed;
     local_nodes renewed;      /* those with another derivative at the end */
@@ -23,8 +24,6 @@ typedef struct event_queue {
     double error;             /* of all local corrections, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of `error`; beyond it the step is rejected, and no further event resolved */
-    dem_index n_sources, source_capacity;
-    event_source *sources; /* [n_sources] by their kind */
     dem_index seed_capacity;
     dem_index *seeds; /* [seed_capacity] nodes that an event changes at once */
     dem_index n_events, capacity;
@@ -32,16 +31,19 @@ typedef struct event_queue {
     dem_index n_stops; /* times at which something happened */
 } event_queue;
 
-/** Without sources. Borrows forces and constraints (NULL: none). `controlled`: a step is rejected for an error above 1.
- *  Must stay where it is. Free with event_queue_destroy(). */
-dem_status event_queue_create(event_queue *out, const state_layout *l, const local_forces *f, const constraints *c,
-                              const local_correction_rule *rule, bool controlled);
-void event_queue_destroy(event_queue *q);
+/** What a queue works with, all borrowed. */
+typedef struct event_queue_parts {
+    const state_layout *layout;
+    const local_forces *forces;
+    const constraints *constraints; /* NULL: none */
+    const source_list *sources;
+    local_correction_rule rule;
+    bool controlled; /* a step is rejected for an error above 1 */
+} event_queue_parts;
 
-/** Adds a source of events, before the first step: of several events at the same time those of sources added earlier
- *  come first. Borrows what the source works on.
- *  \return DEM_ERROR_MEMORY */
-dem_status event_queue_add_source(event_queue *q, event_source source);
+/** Must stay where it is. Free with event_queue_destroy(). */
+dem_status event_queue_create(event_queue *out, const event_queue_parts *parts);
+void event_queue_destroy(event_queue *q);
 
 /** Begins with an accepted step: finds the first event of every source. The step ends in y1, with derivative f1, which
  *  change with it; it gets the changed motions, and must stay where it is.

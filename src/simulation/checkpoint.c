@@ -25,124 +25,12 @@ typedef struct sizes {
     dem_index n_nodes, n_springs, n_triangles, n_segments, n_vertices, n_obstacles, n_candidates, n_unknowns;
 } sizes;
 
-typedef struct touch_entry {
-    dem_index feature, slide, held;
-    double place, force, friction;
-} touch_entry;
-
-/* A candidate that differs from one that has never touched anything. */
-typedef struct candidate_entry {
-    dem_index k, n_closed, behind[2], storm;
-    double storm_start;
-    touch_entry closed[2];
-} candidate_entry;
-
 static sizes sizes_of(const dem_simulation *s)
 {
     const dem_model *m = s->model;
     return (sizes){m->lattice.n_nodes,      m->lattice.n_springs, m->lattice.n_triangles, m->obstacles.n_segments,
                    m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     state_velocities(&s->layout)};
 }
-
-/* ---- contacts ---- */
-
-static bool remembers(const contact_candidate *candidate)
-{
-    return candidate->n_closed > 0 || candidate->behind[0] >= 0 || candidate->behind[1] >= 0 || candidate->storm.n > 0;
-}
-
-static candidate_entry describe(const contact_candidate *candidate, dem_index k)
-{
-    candidate_entry e = {k,
-                         candidate->n_closed,
-                         {candidate->behind[0], candidate->behind[1]},
-                         candidate->storm.n,
-                         candidate->storm.start,
-                         {{0}}};
-    for (int q = 0; q < candidate->n_closed; q++) {
-        const contact_point *point = &candidate->closed[q];
-        e.closed[q] =
-            (touch_entry){point->feature, point->slide, point->held, point->place, point->force, point->friction};
-    }
-    return e;
-}
-
-static dem_status put_contacts(const contact_set *c, dem_record *record)
-{
-    dem_index n = 0;
-    for (dem_index k = 0; k < c->n; k++) n += remembers(&c->list[k]);
-    candidate_entry *list = malloc(((size_t)n + 1) * sizeof *list);
-    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contacts of a record");
-    n = 0;
-    for (dem_index k = 0; k < c->n; k++)
-        if (remembers(&c->list[k])) list[n++] = describe(&c->list[k], k);
-    const dem_status status = dem_record_put(record, "contacts", list, (size_t)n * sizeof *list);
-    free(list);
-    return status;
-}
-
-static bool is_within(dem_index value, dem_index low, dem_index high)
-{
-    return value >= low && value <= high;
-}
-
-/* Whether an entry can be that of a candidate. */
-static bool is_possible(const contact_set *c, const candidate_entry *e)
-{
-    const obstacle_set *o = &c->scene.model->obstacles;
-    if (!is_within(e->k, 0, c->n - 1) || !is_within(e->n_closed, 0, 2)) return false;
-    if (!is_within(e->behind[0], -1, o->n - 1) || !is_within(e->behind[1], -1, o->n - 1)) return false;
-    if (e->storm < 0 || !isfinite(e->storm_start)) return false;
-    const dem_index n_features = candidate_is_edge(&c->list[e->k]) ? o->n_vertices : o->n_segments;
-    for (dem_index q = 0; q < e->n_closed; q++) {
-        const touch_entry *point = &e->closed[q];
-        if (!is_within(point->feature, 0, n_features - 1) || !is_within(point->slide, -1, 1)) return false;
-        if (!is_within(point->held, 0, 1) || !isfinite(point->place)) return false;
-        if (!isfinite(point->force) || !isfinite(point->friction)) return false;
-    }
-    return e->n_closed < 2 || e->closed[0].feature != e->closed[1].feature;
-}
-
-static void forget(contact_candidate *candidate)
-{
-    *candidate = candidate_reset(candidate);
-    candidate->behind[0] = candidate->behind[1] = -1;
-}
-
-static void restore(contact_candidate *candidate, const candidate_entry *e)
-{
-    candidate->n_closed = (int)e->n_closed;
-    candidate->storm.n = e->storm;
-    candidate->storm.start = e->storm_start;
-    for (int q = 0; q < 2; q++) candidate->behind[q] = e->behind[q];
-    for (int q = 0; q < candidate->n_closed; q++) {
-        const touch_entry *point = &e->closed[q];
-        candidate->closed[q] = (contact_point){.feature = point->feature,
-                                               .slide = (int)point->slide,
-                                               .held = point->held != 0,
-                                               .place = point->place,
-                                               .force = point->force,
-                                               .friction = point->friction};
-    }
-}
-
-static dem_status get_contacts(contact_set *c, const dem_record *record)
-{
-    size_t size;
-    dem_index last = -1;
-    const candidate_entry *list = dem_record_find(record, "contacts", &size);
-    CHECK(list != NULL && size % sizeof *list == 0, DEM_ERROR_IO, "the record has no contacts");
-    for (dem_index k = 0; k < c->n; k++) forget(&c->list[k]);
-    for (size_t k = 0; k < size / sizeof *list; k++) {
-        CHECK(is_possible(c, &list[k]) && list[k].k > last, DEM_ERROR_IO,
-              "entry %zu of the contacts in the record is impossible", k);
-        last = list[k].k;
-        restore(&c->list[last], &list[k]);
-    }
-    return DEM_OK;
-}
-
-/* ---- all of it ---- */
 
 /* Puts the entries into a record, or gets them from it. */
 static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem_counts *counts)
@@ -208,7 +96,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
     TRY(record_pass(&way, "sizes", &size, sizeof size));
     TRY(put_motion(s->model, record));
     TRY(pass(s, &way, &n, &counts));
-    TRY(put_contacts(&s->automaton.set, record));
+    TRY(source_list_save(&s->sources, record));
     return record_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
 }
 
@@ -269,7 +157,7 @@ static dem_status check_numbers(const numbers *n)
     const bool timely = isfinite(n->t) && n->t >= 0.0 && isfinite(n->step) && n->step >= 0.0;
     CHECK(finite && timely && isfinite(n->next_step) && n->next_step >= 0.0, DEM_ERROR_IO,
           "the record's time %g s, step %g s or next step %g s is impossible", n->t, n->step, n->next_step);
-    CHECK(is_within(n->unlooked, 0, INT32_MAX) && n->events >= 0 && n->idle >= 0, DEM_ERROR_IO,
+    CHECK(n->unlooked >= 0 && n->unlooked <= INT32_MAX && n->events >= 0 && n->idle >= 0, DEM_ERROR_IO,
           "the record's counts are impossible");
     return DEM_OK;
 }
@@ -283,7 +171,7 @@ static dem_status get(dem_simulation *s, const dem_record *record, numbers *n, c
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
     TRY(find_state(s, record, y));
-    return get_contacts(&s->automaton.set, record);
+    return source_list_restore(&s->sources, record, n->t, *y);
 }
 
 dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
@@ -306,5 +194,5 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
     s->path = (dense_output){0};
     TRY(integrator_renew(&s->integrator, &(integrator_start){n.t, n.next_step, y, c->ledger.counts}));
     s->y = integrator_state(&s->integrator);
-    return automaton_restore(&s->automaton, s->t, s->y);
+    return DEM_OK;
 }

@@ -38,7 +38,8 @@ struct dem_simulation {
     local_springs local_springs;
     local_forces local_forces;   /* those of local_springs, as events see them */
     constraints closed_contacts; /* as events see them */
-    event_queue queue;           /* of the events inside steps; without sources if the whole body stops at them */
+    source_list sources;         /* of events */
+    event_queue queue;           /* of the events inside steps; empty if the whole body stops at them */
     integrator integrator;
     double t;              /* s, of y */
     double step;           /* s, length of the last committed step */

@@ -53,15 +53,27 @@ static forces forces_of(const dem_simulation *s)
 }
 
 /* Contact is the first source of events, and so comes first of those at the same time. */
-static dem_status set_up_events(dem_simulation *s, const local_correction_rule *rule)
+static dem_status set_up_sources(dem_simulation *s)
 {
+    TRY(contact_source_create(&s->contact_events, &s->automaton));
+    return source_list_add(&s->sources, contact_source_events(&s->contact_events));
+}
+
+static dem_status set_up_queue(dem_simulation *s)
+{
+    const dem_options *o = &s->options;
+    dem_method_traits method;
+    TRY(dem_method_describe(&method, o->method));
     local_springs_create(&s->local_springs, &s->forces, &s->layout);
     s->local_forces = local_springs_forces(&s->local_springs);
     s->closed_contacts = contact_constraints_of(&s->automaton);
-    TRY(contact_source_create(&s->contact_events, &s->automaton));
-    TRY(event_queue_create(&s->queue, &s->layout, &s->local_forces, &s->closed_contacts, rule,
-                           !(s->options.fixed_step > 0.0)));
-    return event_queue_add_source(&s->queue, contact_source_events(&s->contact_events));
+    return event_queue_create(&s->queue,
+                              &(event_queue_parts){.layout = &s->layout,
+                                                   .forces = &s->local_forces,
+                                                   .constraints = &s->closed_contacts,
+                                                   .sources = &s->sources,
+                                                   .rule = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale},
+                                                   .controlled = !(o->fixed_step > 0.0)});
 }
 
 static dem_status set_up(dem_simulation *s)
@@ -84,10 +96,8 @@ static dem_status set_up(dem_simulation *s)
     const contact_rule rule = rule_of(s);
     TRY(automaton_create(&s->automaton, &s->forces, &rule));
     TRY(reduce_status(automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
-    dem_method_traits method;
-    TRY(dem_method_describe(&method, o->method));
-    const local_correction_rule near = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale};
-    if (run_is_local(s)) TRY(set_up_events(s, &near));
+    TRY(set_up_sources(s));
+    if (run_is_local(s)) TRY(set_up_queue(s));
     const ode_problem problem = right_hand_side_problem(s);
     TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
     s->y = integrator_state(&s->integrator);
@@ -147,6 +157,7 @@ void dem_simulation_destroy(dem_simulation *s)
     integrator_destroy(&s->integrator);
     kernel_destroy(&s->kernel);
     event_queue_destroy(&s->queue);
+    source_list_destroy(&s->sources);
     contact_source_destroy(&s->contact_events);
     local_springs_destroy(&s->local_springs);
     automaton_destroy(&s->automaton);

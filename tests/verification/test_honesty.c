@@ -117,6 +117,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     const double one[2] = {p->options.rtol * p->options.spacing, p->options.rtol * p->options.v_scale};
     automaton c;
     contact_source source;
+    source_list sources = {0};
     local_springs local;
     event_queue q;
     assert_true(arrays != NULL && gsl != NULL);
@@ -127,9 +128,13 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     const local_forces near = local_springs_forces(&local);
     const constraints closed = contact_constraints_of(&c);
     assert_ok(contact_source_create(&source, &c));
-    assert_ok(
-        event_queue_create(&q, &p->rule.layout, &near, &closed, &(local_correction_rule){5, one[0], one[1]}, true));
-    assert_ok(event_queue_add_source(&q, contact_source_events(&source)));
+    assert_ok(source_list_add(&sources, contact_source_events(&source)));
+    assert_ok(event_queue_create(&q, &(event_queue_parts){.layout = &p->rule.layout,
+                                                          .forces = &near,
+                                                          .constraints = &closed,
+                                                          .sources = &sources,
+                                                          .rule = {5, one[0], one[1]},
+                                                          .controlled = true}));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);
     (void)derive(t, y0, f0, p);
@@ -143,6 +148,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
         assert_close(y1[2 * p->n_all + k], product[2 * p->n + k], 1e-3 * one[1] + 1e-12);
     }
     event_queue_destroy(&q);
+    source_list_destroy(&sources);
     contact_source_destroy(&source);
     local_springs_destroy(&local);
     automaton_destroy(&c);

@@ -22,6 +22,7 @@ typedef struct rig {
     forces acting;
     automaton c;
     contact_source contact;
+    source_list sources;
     constraints closed;
     local_springs springs;
     local_forces near;
@@ -51,10 +52,14 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     r->near = local_springs_forces(&r->springs);
     r->closed = contact_constraints_of(&r->c);
     assert_ok(contact_source_create(&r->contact, &r->c));
-    assert_ok(event_queue_create(
-        &r->q, &rule.layout, &r->near, &r->closed,
-        &(local_correction_rule){4, error != NULL ? error[0] : 1.0, error != NULL ? error[1] : 1.0}, error != NULL));
-    assert_ok(event_queue_add_source(&r->q, contact_source_events(&r->contact)));
+    assert_ok(source_list_add(&r->sources, contact_source_events(&r->contact)));
+    const double lax[2] = {1.0, 1.0}, *tolerance = error != NULL ? error : lax;
+    assert_ok(event_queue_create(&r->q, &(event_queue_parts){.layout = scene_layout(&r->c.set.scene),
+                                                             .forces = &r->near,
+                                                             .constraints = &r->closed,
+                                                             .sources = &r->sources,
+                                                             .rule = {4, tolerance[0], tolerance[1]},
+                                                             .controlled = error != NULL}));
 }
 
 /* n free masses at heights y, in a row along x. */
@@ -79,6 +84,7 @@ static void open_masses(rig *r, dem_index n, const double *y, double eta, double
 static void close_rig(rig *r)
 {
     event_queue_destroy(&r->q);
+    source_list_destroy(&r->sources);
     contact_source_destroy(&r->contact);
     local_springs_destroy(&r->springs);
     automaton_destroy(&r->c);
@@ -285,10 +291,31 @@ static dem_status kicks_resolve(void *self, dem_index key, const event_place *at
     return listener->event(listener->context, &event);
 }
 
+static dem_status kicks_save(const void *self, dem_record *record)
+{
+    return dem_record_put(record, "kicks", self, sizeof(kicks));
+}
+
+static dem_status kicks_restore(void *self, const dem_record *record, double t, const double *y)
+{
+    (void)t;
+    (void)y;
+    return dem_record_get(record, "kicks", self, sizeof(kicks));
+}
+
 static event_source kicks_events(kicks *s)
 {
-    return (event_source){"kick",        s,         kicks_begin, kicks_next, kicks_seeds, kicks_see,
-                          kicks_resolve, kicks_see, kicks_undo};
+    return (event_source){.name = "kick",
+                          .self = s,
+                          .begin = kicks_begin,
+                          .next = kicks_next,
+                          .seeds = kicks_seeds,
+                          .prepare = kicks_see,
+                          .resolve = kicks_resolve,
+                          .follow = kicks_see,
+                          .undo = kicks_undo,
+                          .save = kicks_save,
+                          .restore = kicks_restore};
 }
 
 /* Masses 0 and 1 hit the floor. Mass 2 is kicked between both impacts, by the last key, and twice at the time of the
@@ -302,7 +329,7 @@ static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **stat
     (void)state;
     open_masses(&r, 3, heights, 0.5, 0.0);
     jumps.n_all = r.n_all;
-    assert_ok(event_queue_add_source(&r.q, kicks_events(&jumps)));
+    assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
     const double second = r.contact.heap.due[1];
     jumps.t[0] = jumps.t[1] = second;
@@ -330,7 +357,7 @@ static void sources_are_undone_and_redone_to_the_bit(void **state)
     (void)state;
     open_masses(&r, 2, heights, 0.5, 0.0);
     jumps.n_all = r.n_all;
-    assert_ok(event_queue_add_source(&r.q, kicks_events(&jumps)));
+    assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
     const double alone = r.contact.heap.due[1];
     const snapshot before = take_snapshot(&r, h);
@@ -406,8 +433,15 @@ static void open_exposed(rig *r, exposure *s, const surface *before, const surfa
     open_masses(r, 3, heights, 0.5, 0.0);
     *s = (exposure){&r->contact, before, after, 0.07, false};
     assert_ok(contact_source_follow_surface(&r->contact, before));
-    assert_ok(event_queue_add_source(&r->q, (event_source){"exposure", s, exposure_begin, exposure_next, exposure_seeds,
-                                                           kicks_see, exposure_resolve, kicks_see, exposure_undo}));
+    assert_ok(source_list_add(&r->sources, (event_source){.name = "exposure",
+                                                          .self = s,
+                                                          .begin = exposure_begin,
+                                                          .next = exposure_next,
+                                                          .seeds = exposure_seeds,
+                                                          .prepare = kicks_see,
+                                                          .resolve = exposure_resolve,
+                                                          .follow = kicks_see,
+                                                          .undo = exposure_undo}));
     fall(r, 0.0, 0.1);
 }
 

@@ -104,6 +104,49 @@ static void everything_comes_back(void **state)
     close_pair(&p);
 }
 
+/* ---- a source besides contact ---- */
+
+typedef struct counter {
+    dem_index count;
+    double t, y; /* s, m: of the state it was restored for */
+} counter;
+
+static dem_status counter_save(const void *self, dem_record *record)
+{
+    const counter *c = self;
+    return dem_record_put(record, "count", &c->count, sizeof c->count);
+}
+
+static dem_status counter_restore(void *self, const dem_record *record, double t, const double *y)
+{
+    counter *c = self;
+    c->t = t;
+    c->y = y[1];
+    return dem_record_get(record, "count", &c->count, sizeof c->count);
+}
+
+static event_source counter_source(counter *c)
+{
+    return (event_source){.name = "count", .self = c, .save = counter_save, .restore = counter_restore};
+}
+
+static void every_source_comes_back(void **state)
+{
+    counter from = {.count = 5}, to = {.count = 0};
+    pair p;
+    (void)state;
+    open_pair(&p);
+    assert_ok(dem_simulation_advance(p.from, 1e-3));
+    assert_ok(source_list_add(&p.from->sources, counter_source(&from)));
+    assert_ok(source_list_add(&p.to->sources, counter_source(&to)));
+    assert_ok(checkpoint_take(p.from, p.record));
+    assert_ok(checkpoint_restore(p.to, p.record));
+    assert_int_equal(to.count, 5);
+    assert_close(to.t, p.from->t, 0.0);
+    assert_close(to.y, p.from->y[1], 0.0);
+    close_pair(&p);
+}
+
 /* ---- what is refused ---- */
 
 static void refuse(pair *p, const char *name, void *entry, size_t size, const char *message)
@@ -220,6 +263,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(everything_comes_back),
+        cmocka_unit_test(every_source_comes_back),
         cmocka_unit_test(sizes_numbers_and_states_that_cannot_be_are_refused),
         cmocka_unit_test(candidates_that_cannot_be_are_refused),
     };

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* source_list.c: sources go into a record and come back, in their order, and each one's failure is heard of. */
+#include "verification/support.h"
+
+#include <string.h>
+
+#include "events/source_list.h"
+
+/* What a source remembers, and when it was restored. */
+typedef struct counter {
+    const char *entry;
+    dem_index count;
+    double t, y; /* s; the first number of the state */
+} counter;
+
+static dem_status counter_save(const void *self, dem_record *record)
+{
+    const counter *c = self;
+    return dem_record_put(record, c->entry, &c->count, sizeof c->count);
+}
+
+static dem_status counter_restore(void *self, const dem_record *record, double t, const double *y)
+{
+    counter *c = self;
+    c->t = t;
+    c->y = *y;
+    return dem_record_get(record, c->entry, &c->count, sizeof c->count);
+}
+
+static event_source counter_source(counter *c)
+{
+    return (event_source){.name = c->entry, .self = c, .save = counter_save, .restore = counter_restore};
+}
+
+static void open_list(source_list *s, counter counters[2])
+{
+    *s = (source_list){0};
+    for (int k = 0; k < 2; k++) assert_ok(source_list_add(s, counter_source(&counters[k])));
+}
+
+static void sources_keep_the_order_in_which_they_were_added(void **state)
+{
+    counter counters[2] = {{.entry = "one"}, {.entry = "two"}};
+    source_list s;
+    (void)state;
+    open_list(&s, counters);
+    assert_int_equal(s.n, 2);
+    for (int k = 0; k < 2; k++) assert_ptr_equal(s.list[k].self, &counters[k]);
+    source_list_destroy(&s);
+}
+
+static void each_source_comes_back_from_its_own_entry(void **state)
+{
+    counter from[2] = {{.entry = "one", .count = 7}, {.entry = "two", .count = -3}},
+            to[2] = {{.entry = "one"}, {.entry = "two"}};
+    const double y = 0.25;
+    source_list s;
+    dem_record *record;
+    (void)state;
+    assert_ok(dem_record_create(&record));
+    open_list(&s, from);
+    assert_ok(source_list_save(&s, record));
+    source_list_destroy(&s);
+    open_list(&s, to);
+    assert_ok(source_list_restore(&s, record, 1.5, &y));
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(to[k].count, from[k].count);
+        assert_close(to[k].t, 1.5, 0.0);
+        assert_close(to[k].y, y, 0.0);
+    }
+    source_list_destroy(&s);
+    dem_record_destroy(record);
+}
+
+static void a_record_without_the_entry_of_a_source_is_refused(void **state)
+{
+    counter one = {.entry = "one", .count = 7}, both[2] = {{.entry = "one"}, {.entry = "two"}};
+    const double y = 0.0;
+    source_list s = {0};
+    dem_record *record;
+    (void)state;
+    assert_ok(dem_record_create(&record));
+    assert_ok(source_list_add(&s, counter_source(&one)));
+    assert_ok(source_list_save(&s, record));
+    source_list_destroy(&s);
+    open_list(&s, both);
+    assert_int_equal(source_list_restore(&s, record, 0.0, &y), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "two"));
+    source_list_destroy(&s);
+    dem_record_destroy(record);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sources_keep_the_order_in_which_they_were_added),
+        cmocka_unit_test(each_source_comes_back_from_its_own_entry),
+        cmocka_unit_test(a_record_without_the_entry_of_a_source_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
