@@ -10,6 +10,7 @@
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "forces/local_springs.h"
+#include "unit/chain.h"
 #include "verification/support.h"
 
 enum { most_nodes = 6, most_state = 4 * (most_nodes + 4) };
@@ -237,10 +238,11 @@ static void a_node_may_bounce_many_times_in_a_step(void **state)
 
 enum { n_kicks = 3 };
 
-/* Lets the velocity of a node jump upwards at given times; its keys are their numbers. */
+/* Lets place and velocity of a node jump at given times; its keys are their numbers. */
 typedef struct kicks {
-    dem_index node, n_all;
-    double t[n_kicks], speed; /* s, m/s */
+    dem_index node;
+    double t[n_kicks];                                  /* s */
+    double shift[STATE_DIM_MOST], jump[STATE_DIM_MOST]; /* m, m/s */
     bool done[n_kicks];
 } kicks;
 
@@ -286,7 +288,10 @@ static dem_status kicks_resolve(void *self, dem_index key, const event_place *at
 {
     kicks *s = self;
     const dem_event event = {.t = at->t, .kind = DEM_EVENT_PASS, .node = s->node, .segment = key};
-    at->state[2 * (s->n_all + s->node) + 1] += s->speed;
+    const state_layout *l = &at->step->layout;
+    double *x = at->state + state_row(l, s->node);
+    state_add_row(l, x, 1.0, s->shift);
+    state_add_row(l, x + state_velocities(l), 1.0, s->jump);
     s->done[key] = true;
     return listener->event(listener->context, &event);
 }
@@ -324,11 +329,10 @@ static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **stat
 {
     const double heights[3] = {0.02, 0.03, 0.05}, h = 0.1, between = 0.07;
     const dem_index nodes[5] = {0, 2, 1, 2, 2}, keys[5] = {0, 2, 0, 0, 1};
-    kicks jumps = {.node = 2, .speed = 0.25};
+    kicks jumps = {.node = 2, .jump = {0.0, 0.25}};
     rig r;
     (void)state;
     open_masses(&r, 3, heights, 0.5, 0.0);
-    jumps.n_all = r.n_all;
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
     const double second = r.contact.heap.due[1];
@@ -342,9 +346,10 @@ static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **stat
         assert_int_equal(r.q.events[k].kind, nodes[k] == 2 ? DEM_EVENT_PASS : DEM_EVENT_IMPACT);
         if (nodes[k] == 2) assert_int_equal(r.q.events[k].segment, keys[k]);
     }
-    const double way = jumps.speed * ((h - between) + 2.0 * (h - second));
-    assert_close(r.y1[2 * (r.n_all + 2) + 1], 3.0 * jumps.speed - g * h, 1e-14); /* rounding of velocities of order 1 */
-    assert_close(r.y1[2 * 2 + 1], heights[2] + way - 0.5 * g * h * h, 1e-15);    /* and of lengths of order 0.1 */
+    const double way = jumps.jump[1] * ((h - between) + 2.0 * (h - second));
+    assert_close(r.y1[2 * (r.n_all + 2) + 1], 3.0 * jumps.jump[1] - g * h,
+                 1e-14);                                                      /* rounding of velocities of order 1 */
+    assert_close(r.y1[2 * 2 + 1], heights[2] + way - 0.5 * g * h * h, 1e-15); /* and of lengths of order 0.1 */
     close_rig(&r);
 }
 
@@ -352,11 +357,10 @@ static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **stat
 static void sources_are_undone_and_redone_to_the_bit(void **state)
 {
     const double heights[2] = {0.02, 0.03}, h = 0.1;
-    kicks jumps = {.node = 1, .t = {0.07, (double)INFINITY, (double)INFINITY}, .speed = 1.0};
+    kicks jumps = {.node = 1, .t = {0.07, (double)INFINITY, (double)INFINITY}, .jump = {0.0, 1.0}};
     rig r;
     (void)state;
     open_masses(&r, 2, heights, 0.5, 0.0);
-    jumps.n_all = r.n_all;
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
     const double alone = r.contact.heap.due[1];
@@ -374,6 +378,130 @@ static void sources_are_undone_and_redone_to_the_bit(void **state)
     const snapshot again = take_snapshot(&r, h);
     assert_same(&again, &once);
     close_rig(&r);
+}
+
+/* ---- three dimensions, without contact ---- */
+
+/* A step of a chain with kicks of two of its nodes, both twice. They shift the nodes as well, which is felt a ring
+ * further at the end of the step: nodes beside those that have moved accelerate otherwise. */
+typedef struct kicked_chain {
+    chain chain;
+    kicks sources[2];
+    source_list list;
+    event_queue q;
+    double middle[CHAIN_STATE]; /* state at the middle of the step */
+} kicked_chain;
+
+static kicks kicks_of(dem_index node, double first, double second, const double jump[3])
+{
+    return (kicks){.node = node,
+                   .t = {second * chain_step, first * chain_step, (double)INFINITY},
+                   .shift = {0.01 * jump[0], 0.01 * jump[1], 0.01 * jump[2]},
+                   .jump = {jump[0], jump[1], jump[2]}};
+}
+
+static void open_kicked_chain(kicked_chain *s, int dim, const int *axes)
+{
+    static const double along[2][3] = {{1.0, -2.0, 3.0}, {0.5, 4.0, -1.0}};
+    chain *c = &s->chain;
+    double jump[2][3] = {{0.0}};
+    chain_open(c, dim, axes, 9, false);
+    for (int k = 0; k < 2; k++)
+        for (int d = 0; d < dim; d++) jump[k][d] = along[k][axes[d]];
+    s->sources[0] = kicks_of(5, 0.2, 0.7, jump[0]);
+    s->sources[1] = kicks_of(8, 0.4, 0.7, jump[1]);
+    s->list = (source_list){0};
+    for (int k = 0; k < 2; k++) assert_ok(source_list_add(&s->list, kicks_events(&s->sources[k])));
+    assert_ok(event_queue_create(
+        &s->q,
+        &(event_queue_parts){.layout = &c->layout, .forces = &c->forces, .sources = &s->list, .rule = {5, 1.0, 1.0}}));
+    event_queue_start(&s->q, &c->step, c->y1, c->f1, c->state);
+}
+
+static void close_kicked_chain(kicked_chain *s)
+{
+    event_queue_destroy(&s->q);
+    source_list_destroy(&s->list);
+}
+
+static void take_kicked_step(kicked_chain *s, int dim, const int *axes)
+{
+    open_kicked_chain(s, dim, axes);
+    assert_ok(event_queue_show(&s->q, chain_step));
+    dense_output_state(&s->chain.step, 0.5 * chain_step, s->middle);
+}
+
+static void in_three_dimensions_each_component_is_that_of_two(void **state)
+{
+    static const int axes[3] = {0, 1, 2}, others[2] = {2, 0};
+    static const dem_index nodes[4] = {5, 8, 5, 8};
+    kicked_chain three, two[2];
+    chain untouched;
+    (void)state;
+    take_kicked_step(&three, 3, axes);
+    take_kicked_step(&two[0], 2, axes);
+    take_kicked_step(&two[1], 2, others);
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(two[k].q.n_events, 4);
+        chain_check_components(&three.chain, three.chain.y1, &two[k].chain, two[k].chain.y1);
+        chain_check_components(&three.chain, three.chain.f1, &two[k].chain, two[k].chain.f1);
+        chain_check_components(&three.chain, three.middle, &two[k].chain, two[k].middle);
+    }
+    assert_int_equal(three.q.n_events, 4);
+    assert_int_equal(three.q.n_stops, 3);
+    for (int k = 0; k < 4; k++) assert_int_equal(three.q.events[k].node, nodes[k]);
+    chain_open(&untouched, 3, axes, 9, false);
+    for (int c = 0; c < 3; c++)
+        assert_true(state_v(&untouched.layout, three.chain.y1, 5)[c] != state_v(&untouched.layout, untouched.y1, 5)[c]);
+    close_kicked_chain(&three);
+    for (int k = 0; k < 2; k++) close_kicked_chain(&two[k]);
+}
+
+/* Derivatives at the end are those of the state there, but for the prescribed component of node 9, which keeps its
+ * velocity. */
+static void the_end_of_a_step_in_three_dimensions_has_its_own_derivative(void **state)
+{
+    static const int axes[3] = {0, 1, 2};
+    double f[CHAIN_STATE];
+    kicked_chain s;
+    (void)state;
+    take_kicked_step(&s, 3, axes);
+    const state_layout *l = &s.chain.layout;
+    chain_derive(&s.chain, s.chain.y1, f);
+    for (dem_index i = 0; i < CHAIN_NODES; i++) {
+        assert_memory_equal(state_x(l, s.chain.f1, i), state_x(l, f, i), 3 * sizeof *f);
+        assert_memory_equal(state_v(l, s.chain.f1, i), state_v(l, f, i), 3 * sizeof *f);
+    }
+    close_kicked_chain(&s);
+}
+
+/* Taken back, and taken again by sources that come back from a record. */
+static void a_step_in_three_dimensions_is_undone_and_redone_to_the_bit(void **state)
+{
+    static const int axes[3] = {0, 1, 2};
+    static chain before, after;
+    kicked_chain s;
+    dem_record *record;
+    (void)state;
+    open_kicked_chain(&s, 3, axes);
+    memcpy(&before, &s.chain, sizeof before);
+    assert_ok(event_queue_show(&s.q, chain_step));
+    memcpy(&after, &s.chain, sizeof after);
+    event_queue_undo(&s.q);
+    assert_memory_equal(s.chain.y1, before.y1, sizeof before.y1);
+    assert_memory_equal(s.chain.f1, before.f1, sizeof before.f1);
+    assert_ok(dem_record_create(&record));
+    assert_ok(kicks_save(&s.sources[0], record));
+    memset(&s.sources[0], 0, sizeof s.sources[0]);
+    assert_ok(kicks_restore(&s.sources[0], record, 0.0, s.chain.y0));
+    assert_ok(event_queue_show(&s.q, 0.0));
+    assert_memory_equal(s.chain.y1, before.y1, sizeof before.y1);
+    assert_ok(event_queue_show(&s.q, chain_step));
+    assert_int_equal(s.q.n_events, 4);
+    assert_memory_equal(s.chain.y1, after.y1, sizeof after.y1);
+    assert_memory_equal(s.chain.f1, after.f1, sizeof after.f1);
+    dem_record_destroy(record);
+    close_kicked_chain(&s);
 }
 
 /* ---- candidates that come and go ---- */
@@ -851,6 +979,9 @@ int main(void)
         cmocka_unit_test(a_node_may_bounce_many_times_in_a_step),
         cmocka_unit_test(events_of_sources_come_in_the_order_of_time_kind_and_key),
         cmocka_unit_test(sources_are_undone_and_redone_to_the_bit),
+        cmocka_unit_test(in_three_dimensions_each_component_is_that_of_two),
+        cmocka_unit_test(the_end_of_a_step_in_three_dimensions_has_its_own_derivative),
+        cmocka_unit_test(a_step_in_three_dimensions_is_undone_and_redone_to_the_bit),
         cmocka_unit_test(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there),
         cmocka_unit_test(a_candidate_that_goes_within_a_step_touches_no_more),
         cmocka_unit_test(a_step_without_events_is_left_as_it_is),

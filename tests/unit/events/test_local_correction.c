@@ -12,6 +12,7 @@
 #include "contact/contact_constraints.h"
 #include "events/local_correction.h"
 #include "forces/local_springs.h"
+#include "unit/chain.h"
 #include "verification/support.h"
 
 static const double spacing = 0.01, start = 2e-4, position_error = 1e-8, velocity_error = 1e-5;
@@ -718,6 +719,64 @@ static void its_error_falls_with_the_sixth_power_of_the_step(void **state)
     }
 }
 
+/* ---- three dimensions ---- */
+
+/* Corrects a chain whose node 6 gets another velocity. */
+typedef struct chain_correction {
+    chain chain;
+    changed_motion changed;
+    double middle[CHAIN_STATE]; /* state at three quarters of the step */
+} chain_correction;
+
+static void kick_chain(chain_correction *s, int dim, const int *axes, int order)
+{
+    static const double kick[3] = {1.0, -2.0, 3.0};
+    static const dem_index seed = 6;
+    chain *c = &s->chain;
+    local_correction p;
+    double error;
+    chain_open(c, dim, axes, 7, order == 2);
+    assert_ok(changed_motion_create(&s->changed, &c->layout));
+    changed_motion_start(&s->changed, chain_step, c->y1, c->f1);
+    c->step.changed = &s->changed;
+    assert_ok(local_correction_create(&p, &c->layout, &c->forces, NULL, &(local_correction_rule){order, 1.0, 1.0}));
+    assert_ok(local_correction_open(&p, &c->step, &seed, 1, 0.25 * chain_step, c->state));
+    double *v = c->state + state_velocities(&c->layout) + state_row(&c->layout, seed);
+    for (int d = 0; d < dim; d++) v[d] += kick[axes[d]];
+    assert_ok(local_correction_close(&p, &c->step, &s->changed, c->state, &error));
+    assert_true(error > 0.0);
+    dense_output_state(&c->step, 0.75 * chain_step, s->middle);
+    local_correction_destroy(&p);
+    changed_motion_destroy(&s->changed);
+}
+
+/* Node 7, of which one component is prescribed, is in the first ring. */
+static void in_three_dimensions_each_component_is_that_of_two(void **state)
+{
+    static const int axes[3] = {0, 1, 2}, others[2] = {2, 0};
+    static const int orders[2] = {2, 5};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        chain_correction three, two, other;
+        kick_chain(&three, 3, axes, orders[k]);
+        kick_chain(&two, 2, axes, orders[k]);
+        kick_chain(&other, 2, others, orders[k]);
+        chain_check_components(&three.chain, three.chain.y1, &two.chain, two.chain.y1);
+        chain_check_components(&three.chain, three.chain.y1, &other.chain, other.chain.y1);
+        chain_check_components(&three.chain, three.middle, &two.chain, two.middle);
+        chain_check_components(&three.chain, three.middle, &other.chain, other.middle);
+        chain untouched;
+        chain_open(&untouched, 3, axes, 7, orders[k] == 2);
+        const state_layout *l = &untouched.layout;
+        const double *held = state_v(l, three.chain.y1, 7), *free_one = state_v(l, untouched.y1, 7);
+        assert_close(held[2], free_one[2], 0.0);
+        assert_true(held[0] != free_one[0] && held[1] != free_one[1]);
+        assert_memory_equal(state_x(l, three.chain.y1, 12), state_x(l, untouched.y1, 12), 3 * sizeof(double));
+        /* what the springs take of the kick of 3 m/s until the end: h^2 omega^2 of it, 0.2 */
+        assert_close(state_v(l, three.chain.y1, 6)[2] - state_v(l, untouched.y1, 6)[2], 3.0, 3.0 * 0.25);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -733,6 +792,7 @@ int main(void)
         cmocka_unit_test(a_second_event_adds_to_the_first),
         cmocka_unit_test(the_ledger_of_a_node_that_lands_has_closed_forms),
         cmocka_unit_test(its_error_falls_with_the_sixth_power_of_the_step),
+        cmocka_unit_test(in_three_dimensions_each_component_is_that_of_two),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 
 #include "contact/contact_constraints.h"
 #include "forces/local_springs.h"
+#include "unit/chain.h"
 #include "verification/support.h"
 
 typedef struct rig {
@@ -195,6 +196,80 @@ static void a_closed_contact_holds_its_node(void **state)
     close_rig(&r);
 }
 
+/* ---- three dimensions, without contact ---- */
+
+/* Ties nodes 8 and 9 of a chain together: both accelerate as their velocities are. */
+typedef struct tie {
+    chain *of;
+    dem_index group_at[CHAIN_NODES], *groups;
+    double a[STATE_DIM_MOST * CHAIN_NODES], *accelerations;
+} tie;
+
+static dem_status tie_each_node(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
+                                void *context)
+{
+    (void)self;
+    assert_int_equal(group, 3);
+    assert_ok(add(context, 8));
+    return add(context, 9);
+}
+
+static void tie_solve(void *self, dem_index group, constraint_state at)
+{
+    tie *s = self;
+    const state_layout *l = &s->of->layout;
+    assert_int_equal(group, 3);
+    for (dem_index i = 8; i <= 9; i++) state_copy_row(l, s->a + state_row(l, i), state_v(l, at.y, i));
+}
+
+static constraints tie_constraints(tie *s, chain *of)
+{
+    *s = (tie){.of = of};
+    for (dem_index i = 0; i < CHAIN_NODES; i++) s->group_at[i] = i == 8 || i == 9 ? 3 : -1;
+    s->groups = s->group_at;
+    s->accelerations = s->a;
+    return (constraints){
+        .self = s, .group_at = &s->groups, .a = &s->accelerations, .each_node = tie_each_node, .solve = tie_solve};
+}
+
+/* Round node 6: 5 and 7; 4 and 8, with 9, to which it is tied; 3 and 10. */
+static void tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension(void **state)
+{
+    static const int axes[3] = {0, 1, 2};
+    static const dem_index order[8] = {6, 5, 7, 4, 8, 9, 3, 10}, end[4] = {1, 3, 6, 8}, seed = 6;
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        chain s;
+        tie t;
+        neighbourhood b;
+        double x[STATE_DIM_MOST * CHAIN_NODES], v[STATE_DIM_MOST * CHAIN_NODES], a[STATE_DIM_MOST * CHAIN_NODES];
+        chain_open(&s, dim, axes, -1, false);
+        const constraints c = tie_constraints(&t, &s);
+        assert_ok(neighbourhood_create(&b, &s.layout, &s.forces, &c, 3));
+        assert_ok(neighbourhood_gather(&b, &seed, 1));
+        assert_int_equal(b.nodes.n, 8);
+        for (int j = 0; j < 8; j++) assert_int_equal(b.nodes.list[j], order[j]);
+        for (int ring = 0; ring < 4; ring++) assert_int_equal(b.nodes.end[ring], end[ring]);
+        assert_int_equal(b.n_groups, 1);
+        assert_int_equal(b.groups[0].ring, 2);
+        for (int j = 0; j < 8; j++) {
+            state_copy_row(&s.layout, x + state_row(&s.layout, j), state_x(&s.layout, s.y0, order[j]));
+            state_copy_row(&s.layout, v + state_row(&s.layout, j), state_v(&s.layout, s.y0, order[j]));
+        }
+        const local_state here = {0.0, x, v, s.state};
+        neighbourhood_put(&b, &here, 8, s.state);
+        neighbourhood_accelerate(&b, 2, &here, a);
+        for (int j = 0; j < 6; j++) {
+            double expected[STATE_DIM_MOST];
+            const double *tied = state_v(&s.layout, s.y0, order[j]);
+            chain_accelerate_one(&s, order[j], s.y0, expected);
+            for (int k = 0; k < dim; k++)
+                assert_close(a[state_row(&s.layout, j) + k], order[j] >= 8 ? tied[k] : expected[k], 0.0);
+        }
+        neighbourhood_destroy(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -202,6 +277,7 @@ int main(void)
         cmocka_unit_test(accelerations_are_the_models),
         cmocka_unit_test(broken_springs_do_not_pull),
         cmocka_unit_test(a_closed_contact_holds_its_node),
+        cmocka_unit_test(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
