@@ -18,17 +18,26 @@ static int derive(dem_simulation *s, const double *y, slopes *out)
     return problem.derivative(s->t, y, out->u, out->a, problem.context);
 }
 
+/* A rectangle in the air, and its state, which may be changed. */
+static dem_simulation *start_falling(dem_model **model, double y[2 * MOST])
+{
+    const dem_options options = dem_options_default();
+    *model = make_falling(0.5);
+    dem_simulation *s = simulate(*model, &options);
+    assert_true(state_size(&s->layout) <= 2 * MOST);
+    memcpy(y, s->y, (size_t)state_size(&s->layout) * sizeof *y);
+    return s;
+}
+
 /* A stretched rectangle in the air: as it is far from the slope, every node has the acceleration that the forces on it
  * give. Sweeps have the bits of forces_acceleration(). */
 static void free_nodes_have_the_acceleration_of_their_forces(void **state)
 {
-    const dem_options options = dem_options_default();
     double y[2 * MOST];
     slopes at;
+    dem_model *model;
     (void)state;
-    dem_model *model = make_falling(0.5);
-    dem_simulation *s = simulate(model, &options);
-    memcpy(y, s->y, (size_t)state_size(&s->layout) * sizeof *y);
+    dem_simulation *s = start_falling(&model, y);
     for (dem_index k = 0; k < 2 * s->layout.n_nodes; k++) y[k] *= 1.0 + 1e-3 * (double)(k % 7);
     const double *v = y + state_velocities(&s->layout);
     assert_int_equal(derive(s, y, &at), 0);
@@ -80,13 +89,11 @@ static void a_closed_contact_holds_its_node_and_gives_an_impulse(void **state)
 
 static void the_node_is_named_whose_velocity_is_not_finite(void **state)
 {
-    const dem_options options = dem_options_default();
     double y[2 * MOST];
     slopes at;
+    dem_model *model;
     (void)state;
-    dem_model *model = make_falling(0.5);
-    dem_simulation *s = simulate(model, &options);
-    memcpy(y, s->y, (size_t)state_size(&s->layout) * sizeof *y);
+    dem_simulation *s = start_falling(&model, y);
     y[state_velocities(&s->layout) + 2 * 5] = (double)NAN;
     assert_int_equal(derive(s, y, &at), 1);
     assert_non_null(strstr(dem_status_message(), "force or velocity of node 5 is not finite at ("));
