@@ -8,12 +8,12 @@
 
 enum { ENDING = 32 };
 
-static const char series[] = ".pvd", obstacles_file[] = ".obstacle.vtu";
+static const char series[] = ".pvd", obstacles_file[] = ".obstacle.vtu", obstacles_series[] = ".obstacle.pvd";
 static const double line = 3.0; /* VTK_LINE */
 
-static void name_frame(char ending[ENDING], dem_index frame)
+static void name_frame(char ending[ENDING], const char *of, dem_index frame)
 {
-    (void)snprintf(ending, ENDING, "_%04lld.vtu", (long long)frame);
+    (void)snprintf(ending, ENDING, "%s_%04lld.vtu", of, (long long)frame);
 }
 
 /* ---- lines ---- */
@@ -142,7 +142,7 @@ static bool write_frame(const frame_writer *r, dem_index frame)
     char ending[ENDING];
     const dem_lattice *l = dem_film_lattice(r->task->film);
     const piece p = {l->n_nodes, l->n_springs, r->n_arrays, r->arrays, frame, r->scratch};
-    name_frame(ending, frame);
+    name_frame(ending, "", frame);
     if (!read_fields(r, frame) || !task_holds(r->task, dem_film_positions(r->task->film, frame, r->x))) return false;
     for (dem_index i = 0; i < l->n_nodes; i++) memcpy(r->points + 3 * i, r->x + 2 * i, 2 * sizeof *r->x);
     return piece_write(r->task, ending, &p);
@@ -157,16 +157,17 @@ static bool write_frames(const task *t)
     return good;
 }
 
-static bool write_series(const task *t)
+/* The files of the frames, with their times; `of` is what their endings begin with. */
+static bool write_series(const task *t, const char *name, const char *of)
 {
     sheet s;
     char ending[ENDING];
     dem_index n = 0;
     const double *times = dem_film_times(t->film, &n);
-    if (!sheet_open(&s, t, "", series)) return false;
+    if (!sheet_open(&s, t, "", name)) return false;
     sheet_print(&s, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
     for (size_t k = 0; k < t->frames.n; k++) {
-        name_frame(ending, t->frames.frame[k]);
+        name_frame(ending, of, t->frames.frame[k]);
         sheet_print(&s, "<DataSet timestep=\"%.17g\" part=\"0\" file=\"", times[t->frames.frame[k]]);
         piece_print_text(&s, t->name);
         sheet_print(&s, "%s\"/>\n", ending);
@@ -177,52 +178,101 @@ static bool write_series(const task *t)
 
 /* ---- obstacles ---- */
 
-static bool write_outlines(const task *t, const dem_obstacle *obstacles, dem_index n, dem_index n_points)
-{
+/* The polylines as one grid. */
+typedef struct outlines {
+    const task *task;
+    const dem_obstacle *obstacles;
+    dem_index n, n_points;
     lines segments;
-    piece_array arrays[5], *at;
-    double *points = task_allocate(t, 3 * n_points, sizeof *points), *owner = task_allocate(t, n_points, sizeof *owner);
-    bool good = make_lines(&segments, t, n_points - n) && points != NULL && owner != NULL;
-    for (dem_index o = 0, point = 0, segment = 0; good && o < n; o++)
-        for (dem_index k = 0; k < obstacles[o].n_points; k++, point++) {
-            memcpy(points + 3 * point, obstacles[o].points + 2 * k, 2 * sizeof *points);
-            if (k == 0) continue;
-            segments.ends[2 * segment] = (double)(point - 1);
-            segments.ends[2 * segment + 1] = (double)point;
-            owner[segment++] = (double)o;
-        }
-    at = put_lines(arrays, &segments);
-    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_FILM_F64, 3, n_points, points, NULL};
-    *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_FILM_I32, 1, segments.n, owner, NULL};
-    const piece p = {n_points, segments.n, at - arrays, arrays, 0, NULL};
-    good = good && piece_write(t, obstacles_file, &p);
-    free_lines(&segments);
-    free(points);
-    free(owner);
-    return good;
+    double *flat, *points, *owner; /* [n_points][2], [n_points][3] m; [n_segments] obstacle of each */
+} outlines;
+
+static void free_outlines(outlines *o)
+{
+    free_lines(&o->segments);
+    free(o->flat);
+    free(o->points);
+    free(o->owner);
 }
 
+/* Free after a failure too. */
+static bool make_outlines(outlines *o, const task *t)
+{
+    *o = (outlines){.task = t};
+    o->obstacles = dem_film_obstacles(t->film, &o->n);
+    for (dem_index k = 0; k < o->n; k++) o->n_points += o->obstacles[k].n_points;
+    o->flat = task_allocate(t, 2 * o->n_points, sizeof *o->flat);
+    o->points = task_allocate(t, 3 * o->n_points, sizeof *o->points);
+    o->owner = task_allocate(t, o->n_points, sizeof *o->owner);
+    if (!make_lines(&o->segments, t, o->n_points - o->n) || !o->flat || !o->points || !o->owner) return false;
+    for (dem_index k = 0, point = 0, segment = 0; k < o->n; k++, point++)
+        for (dem_index i = 1; i < o->obstacles[k].n_points; i++, point++) {
+            o->segments.ends[2 * segment] = (double)point;
+            o->segments.ends[2 * segment + 1] = (double)(point + 1);
+            o->owner[segment++] = (double)k;
+        }
+    return true;
+}
+
+/* Where they are at a time. */
+static bool write_outlines(const outlines *o, const char *ending, double time)
+{
+    piece_array arrays[5], *at = put_lines(arrays, &o->segments);
+    for (dem_index k = 0, first = 0; k < o->n; first += o->obstacles[k++].n_points)
+        dem_obstacle_points(&o->obstacles[k], time, o->flat + 2 * first);
+    for (dem_index i = 0; i < o->n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
+    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_FILM_F64, 3, o->n_points, o->points, NULL};
+    *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_FILM_I32, 1, o->segments.n, o->owner, NULL};
+    const piece p = {o->n_points, o->segments.n, at - arrays, arrays, 0, NULL};
+    return piece_write(o->task, ending, &p);
+}
+
+static bool some_move(const task *t)
+{
+    dem_index n = 0;
+    bool any = false;
+    const dem_obstacle *obstacles = dem_film_obstacles(t->film, &n);
+    for (dem_index k = 0; k < n; k++) any = any || dem_obstacle_moves(&obstacles[k], NULL);
+    return any;
+}
+
+/* Those at rest in one file; if some move, a file for each frame. */
 static bool write_obstacles(const task *t)
 {
-    dem_index n = 0, n_points = 0;
-    const dem_obstacle *obstacles = dem_film_obstacles(t->film, &n);
-    for (dem_index o = 0; o < n; o++) n_points += obstacles[o].n_points;
-    return n == 0 || write_outlines(t, obstacles, n, n_points);
+    outlines o;
+    dem_index n_times = 0;
+    const double *times = dem_film_times(t->film, &n_times);
+    bool good = make_outlines(&o, t);
+    if (good && o.n > 0 && !some_move(t)) good = write_outlines(&o, obstacles_file, 0.0);
+    for (size_t k = 0; good && some_move(t) && k < t->frames.n; k++) {
+        char ending[ENDING];
+        name_frame(ending, ".obstacle", t->frames.frame[k]);
+        good = write_outlines(&o, ending, times[t->frames.frame[k]]);
+    }
+    free_outlines(&o);
+    return good && (!some_move(t) || write_series(t, obstacles_series, ".obstacle"));
 }
 
 /* ---- all ---- */
 
-static bool is_free(const task *t)
+static bool frames_are_free(const task *t, const char *of)
 {
-    char ending[ENDING];
-    dem_index n = 0;
-    (void)dem_film_obstacles(t->film, &n);
-    bool good = sheet_is_free(t, "", series) && (n == 0 || sheet_is_free(t, "", obstacles_file));
+    bool good = true;
     for (size_t k = 0; good && k < t->frames.n; k++) {
-        name_frame(ending, t->frames.frame[k]);
+        char ending[ENDING];
+        name_frame(ending, of, t->frames.frame[k]);
         good = sheet_is_free(t, "", ending);
     }
     return good;
+}
+
+static bool is_free(const task *t)
+{
+    dem_index n = 0;
+    (void)dem_film_obstacles(t->film, &n);
+    if (!sheet_is_free(t, "", series) || !frames_are_free(t, "")) return false;
+    if (some_move(t)) return sheet_is_free(t, "", obstacles_series) && frames_are_free(t, ".obstacle");
+    return n == 0 || sheet_is_free(t, "", obstacles_file);
 }
 
 bool vtu_export(const task *t)
@@ -231,5 +281,5 @@ bool vtu_export(const task *t)
         outcome_fail(t->outcome, EXIT_INVALID, "dem_export", "%s: has no frames", t->input);
         return false;
     }
-    return is_free(t) && write_frames(t) && write_series(t) && write_obstacles(t);
+    return is_free(t) && write_frames(t) && write_series(t, series, "") && write_obstacles(t);
 }

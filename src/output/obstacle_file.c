@@ -170,9 +170,22 @@ void obstacle_file_free(dem_obstacle *obstacles, dem_index n)
 
 /* ---- writing for ParaView ---- */
 
+#define STEPS GRID "Steps/"
+
+bool obstacle_file_moves(const dem_model *model)
+{
+    dem_index n = 0;
+    bool any = false;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    for (dem_index o = 0; o < n; o++) any = any || dem_obstacle_moves(&obstacles[o], NULL);
+    return any;
+}
+
 /* The polylines as one grid. */
 typedef struct outline {
+    const dem_model *model;
     grid grid;
+    double *flat;   /* [n_points][2] */
     double *points; /* [n_points][3] */
     dem_index *ends;
     int32_t *owner; /* [n_cells] the obstacle of each segment */
@@ -180,20 +193,22 @@ typedef struct outline {
 
 static void free_outline(outline *o)
 {
+    free(o->flat);
     free(o->points);
     free(o->ends);
     free(o->owner);
 }
 
-static dem_status allocate_outline(outline *out, dem_index n_points, dem_index n_segments)
+static dem_status allocate_outline(outline *out, const dem_model *model, dem_index n_points, dem_index n_segments)
 {
-    outline o = {.grid = {n_points, n_segments, NULL}};
+    outline o = {.model = model, .grid = {n_points, n_segments, NULL}};
+    o.flat = calloc((size_t)n_points, 2 * sizeof *o.flat);
     o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
     o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
     o.owner = calloc((size_t)n_segments, sizeof *o.owner);
     o.grid.ends = o.ends;
     *out = o;
-    if (o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
+    if (o.flat != NULL && o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
     free_outline(&o);
     return status_fail(DEM_ERROR_MEMORY, "out of memory");
 }
@@ -203,10 +218,9 @@ static dem_status make_outline(outline *out, const dem_model *model)
     dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
     const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
     for (dem_index o = 0; o < n_obstacles; o++) n_points += obstacles[o].n_points;
-    TRY(allocate_outline(out, n_points, n_points - n_obstacles));
+    TRY(allocate_outline(out, model, n_points, n_points - n_obstacles));
     for (dem_index o = 0; o < n_obstacles; o++)
         for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
-            memcpy(out->points + 3 * point, obstacles[o].points + 2 * p, 2 * sizeof *out->points);
             if (p == 0) continue;
             out->ends[2 * segment] = point - 1;
             out->ends[2 * segment + 1] = point;
@@ -215,22 +229,72 @@ static dem_status make_outline(outline *out, const dem_model *model)
     return DEM_OK;
 }
 
-static dem_status write_outline(const hdf5_file *file, const outline *o, int deflate)
+/* Where they are at t. */
+static void place_points(const outline *o, double t)
 {
-    const hdf5_rows points = {GRID "Points", HDF5_F64, 2, {3}, 0, deflate};
-    const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
-    TRY(vtk_grid_write(file, &o->grid, deflate));
-    TRY(hdf5_write(file, points, (hsize_t)o->grid.n_points, o->points));
-    return hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner);
+    dem_index n = 0, first = 0;
+    const dem_obstacle *obstacles = dem_model_obstacles(o->model, &n);
+    for (dem_index k = 0; k < n; first += obstacles[k++].n_points)
+        dem_obstacle_points(&obstacles[k], t, o->flat + 2 * first);
+    for (dem_index i = 0; i < o->grid.n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
 }
 
-dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, int deflate)
+static dem_status write_points(const hdf5_file *file, const outline *o, obstacle_file_times at, int deflate)
+{
+    const hsize_t n = (hsize_t)o->grid.n_points;
+    const hdf5_rows rows = {GRID "Points", HDF5_F64, 2, {3}, n, deflate};
+    if (at.n > 0) TRY(hdf5_create(file, &rows));
+    for (dem_index k = 0; k < at.n; k++) {
+        place_points(o, at.t[k]);
+        TRY(hdf5_append(file, &rows, (hsize_t)k * n, n, o->points));
+    }
+    if (at.n > 0) return DEM_OK;
+    place_points(o, 0.0);
+    return hdf5_write(file, (hdf5_rows){GRID "Points", HDF5_F64, 2, {3}, 0, deflate}, n, o->points);
+}
+
+/* One number a step, `first` and so on by `increment`. */
+static dem_status write_row(const hdf5_file *file, hdf5_rows rows, dem_index n, dem_index first, dem_index increment)
+{
+    dem_index *numbers = malloc((size_t)n * sizeof *numbers);
+    CHECK_MEMORY(numbers);
+    for (dem_index k = 0; k < n; k++) numbers[k] = first + k * increment;
+    const dem_status status = hdf5_write(file, rows, (hsize_t)n, numbers);
+    free(numbers);
+    return status;
+}
+
+/* Each step has points of its own, and the cells of all. */
+static dem_status write_steps(const hdf5_file *file, const outline *o, obstacle_file_times at)
+{
+    TRY(hdf5_write_attribute(file, GRID "Steps", "NSteps", HDF5_I64, 1, &at.n));
+    TRY(hdf5_write(file, (hdf5_rows){STEPS "Values", HDF5_F64, 1, {0}, 0, 0}, (hsize_t)at.n, at.t));
+    TRY(write_row(file, (hdf5_rows){STEPS "NumberOfParts", HDF5_I64, 1, {0}, 0, 0}, at.n, 1, 0));
+    TRY(write_row(file, (hdf5_rows){STEPS "PartOffsets", HDF5_I64, 1, {0}, 0, 0}, at.n, 0, 0));
+    TRY(write_row(file, (hdf5_rows){STEPS "PointOffsets", HDF5_I64, 1, {0}, 0, 0}, at.n, 0, o->grid.n_points));
+    TRY(write_row(file, (hdf5_rows){STEPS "CellOffsets", HDF5_I64, 2, {1}, 0, 0}, at.n, 0, 0));
+    TRY(hdf5_link(file, STEPS "ConnectivityIdOffsets", STEPS "CellOffsets"));
+    return hdf5_link(file, STEPS "CellDataOffsets/obstacle", STEPS "PartOffsets");
+}
+
+static dem_status write_outline(const hdf5_file *file, const outline *o, obstacle_file_times at, int deflate)
+{
+    const hdf5_rows owner = {GRID "CellData/obstacle", HDF5_I32, 1, {0}, 0, deflate};
+    TRY(vtk_grid_write(file, &o->grid, deflate));
+    TRY(write_points(file, o, at, deflate));
+    TRY(hdf5_write(file, owner, (hsize_t)o->grid.n_cells, o->owner));
+    return at.n > 0 ? write_steps(file, o, at) : DEM_OK;
+}
+
+dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, obstacle_file_times at,
+                                 int deflate)
 {
     outline o;
     hdf5_file file;
     TRY(make_outline(&o, model));
-    dem_status status = hdf5_open_new(&file, part, 64 * (hsize_t)o.grid.n_points);
-    if (status == DEM_OK) status = hdf5_close(&file, write_outline(&file, &o, deflate));
+    const hsize_t n = (hsize_t)o.grid.n_points;
+    dem_status status = hdf5_open_new(&file, part, 64 * n + (hsize_t)at.n * (24 * n + 64));
+    if (status == DEM_OK) status = hdf5_close(&file, write_outline(&file, &o, at, deflate));
     if (status == DEM_OK) status = hdf5_publish(part, path);
     if (status != DEM_OK) (void)unlink(part);
     free_outline(&o);

@@ -3,6 +3,8 @@
 #ifndef DEM_OUTPUT_OBSTACLE_FILE_H
 #define DEM_OUTPUT_OBSTACLE_FILE_H
 
+#include <stdbool.h>
+
 #include "output/hdf5_file.h"
 
 /** Makes /obstacles/0, /obstacles/1, ... */
@@ -14,7 +16,17 @@ dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model);
 dem_status obstacle_file_read(const hdf5_file *file, dem_obstacle **out, dem_index *n);
 void obstacle_file_free(dem_obstacle *obstacles, dem_index n);
 
+/** Whether some obstacle moves. */
+bool obstacle_file_moves(const dem_model *model);
+
+/** Times at which obstacles are drawn, s; none: at t = 0 only, in a file without steps. */
+typedef struct obstacle_file_times {
+    dem_index n;
+    const double *t;
+} obstacle_file_times;
+
 /** Makes the file `part`, of lines, and publishes it as `path`; after a failure there is no part. */
-dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, int deflate);
+dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, obstacle_file_times at,
+                                 int deflate);
 
 #endif

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "output/obstacle_file.h"
 #include "output/trajectory_parts.h"
+#include "output/vtk_grid.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -216,7 +217,7 @@ static dem_status start(dem_trajectory *t)
     dem_status status = DEM_OK;
     if (dem_model_sizes(r->model).n_obstacles > 0)
         status = obstacle_file_publish(s->names[PARTS_OBSTACLE_PART], s->names[PARTS_OBSTACLE], r->model,
-                                       r->options.deflate);
+                                       (obstacle_file_times){0, NULL}, r->options.deflate);
     if (status == DEM_OK) status = trajectory_parts_prune(&t->segments);
     if (status != DEM_OK) (void)unlink(part_of(t));
     return status;
@@ -305,6 +306,33 @@ dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *
     return status;
 }
 
+/* The times of all frames, of which the whole has n; free with free(). */
+static dem_status read_times(const dem_trajectory *t, double **out, dem_index *n)
+{
+    hdf5_file file;
+    const hdf5_rows rows = {GRID "Steps/Values", HDF5_F64, 1, {0}, 0, 0};
+    *n = (dem_index)trajectory_rows_total(&t->rows, ROWS_FRAMES);
+    *out = malloc(((size_t)*n + 1) * sizeof **out);
+    CHECK_MEMORY(*out);
+    TRY(hdf5_open_read(&file, path_of(t)));
+    return hdf5_close(&file, hdf5_read(&file, &rows, 0, (hsize_t)*n, *out));
+}
+
+/* Draws obstacles of which some move where they are at each frame. */
+static dem_status draw_moving(const dem_trajectory *t)
+{
+    char *const *names = t->segments.names;
+    double *times = NULL;
+    dem_index n = 0;
+    if (!obstacle_file_moves(t->rows.model)) return DEM_OK;
+    dem_status status = read_times(t, &times, &n);
+    if (status == DEM_OK)
+        status = obstacle_file_publish(names[PARTS_OBSTACLE_PART], names[PARTS_OBSTACLE], t->rows.model,
+                                       (obstacle_file_times){n, times}, t->rows.options.deflate);
+    free(times);
+    return status;
+}
+
 dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 {
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
@@ -312,7 +340,7 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
     TRY(flush(trajectory));
     TRY(trajectory_parts_join(&trajectory->segments, &trajectory->rows));
     trajectory->finished = 1;
-    return DEM_OK;
+    return draw_moving(trajectory);
 }
 
 void dem_trajectory_destroy(dem_trajectory *trajectory)

@@ -7,7 +7,7 @@
 
 #include "output/hdf5_file.h"
 
-enum { FOUND_VALUES = 16 };
+enum { FOUND_VALUES = 32 };
 
 /** A dataset of n numbers. */
 static inline void found_reals(const hdf5_file *file, const char *name, const double *expected, hsize_t n)

@@ -121,7 +121,7 @@ static void the_file_has_them_as_lines(void **state)
     const double points[15] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0, 4.0, -2.0, 0.0};
     dem_model *model = make_model();
     hdf5_file file;
-    assert_ok(obstacle_file_publish(part, path, model, 1));
+    assert_ok(obstacle_file_publish(part, path, model, (obstacle_file_times){0, NULL}, 1));
     assert_int_not_equal(access(part, F_OK), 0);
     assert_ok(hdf5_open_read(&file, path));
     found_reals(&file, "/VTKHDF/Points", points, 15);
@@ -131,11 +131,34 @@ static void the_file_has_them_as_lines(void **state)
     dem_model_destroy(model);
 }
 
+/* The second obstacle moves with (1.5, -2) m/s. */
+static void with_times_the_file_has_steps_with_points_of_their_own(void **state)
+{
+    (void)state;
+    const double times[2] = {0.5, 2.0};
+    const double points[30] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.75, -3.0, 0.0, 4.75, -3.0, 0.0,
+                               -1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 6.0,  -6.0, 0.0, 7.0,  -6.0, 0.0};
+    dem_model *model = make_model();
+    hdf5_file file;
+    assert_true(obstacle_file_moves(model));
+    assert_ok(obstacle_file_publish(part, path, model, (obstacle_file_times){2, times}, 1));
+    assert_ok(hdf5_open_read(&file, path));
+    found_reals(&file, "/VTKHDF/Points", points, 30);
+    found_reals(&file, "/VTKHDF/Connectivity", (const double[]){0, 1, 1, 2, 3, 4}, 6);
+    found_reals(&file, "/VTKHDF/Steps/Values", times, 2);
+    found_reals(&file, "/VTKHDF/Steps/PointOffsets", (const double[]){0, 5}, 2);
+    found_reals(&file, "/VTKHDF/Steps/NumberOfParts", (const double[]){1, 1}, 2);
+    found_reals(&file, "/VTKHDF/Steps/CellDataOffsets/obstacle", (const double[]){0, 0}, 2);
+    assert_ok(hdf5_close(&file, DEM_OK));
+    dem_model_destroy(model);
+}
+
 static void a_part_that_cannot_be_published_is_taken_away(void **state)
 {
     (void)state;
     dem_model *model = make_model();
-    assert_int_equal(obstacle_file_publish(part, "no/such/folder/a.h5", model, 1), DEM_ERROR_IO);
+    assert_int_equal(obstacle_file_publish(part, "no/such/folder/a.h5", model, (obstacle_file_times){0, NULL}, 1),
+                     DEM_ERROR_IO);
     assert_int_not_equal(access(part, F_OK), 0);
     dem_model_destroy(model);
 }
@@ -147,6 +170,7 @@ int main(void)
         cmocka_unit_test(they_are_read_back),
         cmocka_unit_test(what_is_no_obstacle_is_refused),
         cmocka_unit_test(the_file_has_them_as_lines),
+        cmocka_unit_test(with_times_the_file_has_steps_with_points_of_their_own),
         cmocka_unit_test(a_part_that_cannot_be_published_is_taken_away),
     };
     return cmocka_run_group_tests(tests, make_folder, scratch_remove);
