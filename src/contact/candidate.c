@@ -156,8 +156,9 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
     const contact_frame f = contact_frame_at(scene, candidate, q, state);
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
-    for (int p = 0; p < f.n && rests; p++) /* then the acceleration says where it heads */
-        speed += f.weight[p] * vec2_dot(forces_acceleration(scene->forces, f.node[p], state.x, state.v), f.tangent);
+    for (int p = 0; p < f.nodes.n && rests; p++) /* then the acceleration says where it heads */
+        speed += f.nodes.weight[p] *
+                 vec2_dot(forces_acceleration(scene->forces, f.nodes.node[p], state.x, state.v), f.tangent);
     if (rests) speed -= f.carried;
     const double heading =
         candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge opposite to the body */

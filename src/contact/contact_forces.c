@@ -283,11 +283,7 @@ static void hold_corner(contact_forces *r, dem_index k, const scene_state *state
 static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const contact_frame *f, bool tangential)
 {
     contact_equation *row = &r->rows[(*n)++];
-    *row = (contact_equation){.candidate = k, .q = q, .tangential = tangential, .n = f->n};
-    for (int p = 0; p < f->n; p++) {
-        row->node[p] = f->node[p];
-        row->weight[p] = f->weight[p];
-    }
+    *row = (contact_equation){.candidate = k, .q = q, .tangential = tangential, .nodes = f->nodes};
     row->direction = row->push = tangential ? f->tangent : f->normal;
 }
 
@@ -315,9 +311,11 @@ static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_stat
             r->rows[n - 1].wanted = to == FORCE ? f.keep[1] : along(r, f.wall, f.tangent);
         }
     }
-    for (dem_index j = 0; j < n && to != SHIFT; j++)
-        for (int p = 0; p < r->rows[j].n; p++)
-            r->rows[j].wanted -= r->rows[j].weight[p] * vec2_dot(vec2_at(u, r->rows[j].node[p]), r->rows[j].direction);
+    for (dem_index j = 0; j < n && to != SHIFT; j++) {
+        contact_equation *row = &r->rows[j];
+        for (int p = 0; p < row->nodes.n; p++)
+            row->wanted -= row->nodes.weight[p] * vec2_dot(vec2_at(u, row->nodes.node[p]), row->direction);
+    }
     return n;
 }
 
@@ -326,10 +324,10 @@ static dem_index band_width(contact_forces *r, dem_index n)
 {
     dem_index width = 0;
     for (dem_index j = 0; j < n; j++)
-        for (int p = 0; p < r->rows[j].n; p++) r->first[r->rows[j].node[p]] = -1;
+        for (int p = 0; p < r->rows[j].nodes.n; p++) r->first[r->rows[j].nodes.node[p]] = -1;
     for (dem_index j = 0; j < n; j++)
-        for (int p = 0; p < r->rows[j].n; p++) {
-            dem_index *first = &r->first[r->rows[j].node[p]];
+        for (int p = 0; p < r->rows[j].nodes.n; p++) {
+            dem_index *first = &r->first[r->rows[j].nodes.node[p]];
             if (*first < 0) *first = j;
             if (j - *first > width) width = j - *first;
         }
@@ -339,11 +337,7 @@ static dem_index band_width(contact_forces *r, dem_index n)
 /* Motion along the direction of row j per unit of the force of row k. */
 static double entry(const contact_forces *r, const contact_equation *j, const contact_equation *k)
 {
-    double mobility = 0.0;
-    for (int p = 0; p < j->n; p++)
-        for (int q = 0; q < k->n; q++)
-            if (j->node[p] == k->node[q])
-                mobility += j->weight[p] * k->weight[q] * r->scene->model->inverse_mass[j->node[p]];
+    const double mobility = contact_nodes_coupling(&j->nodes, &k->nodes, r->scene->model->inverse_mass);
     return mobility * vec2_dot(j->direction, k->push);
 }
 
@@ -380,13 +374,8 @@ static void solve(contact_forces *r, dem_index group, aim to, scene_state state,
 {
     const dem_index n = set_rows(r, group, to, state, u), width = band_width(r, n);
     eliminate(r, n, width);
-    for (dem_index j = 0; j < n; j++) {
-        const contact_equation *row = &r->rows[j];
-        for (int p = 0; p < row->n; p++) {
-            const double step = row->weight[p] * r->scene->model->inverse_mass[row->node[p]] * row->wanted;
-            vec2_put(u, row->node[p], vec2_along(vec2_at(u, row->node[p]), step, row->push));
-        }
-    }
+    for (dem_index j = 0; j < n; j++)
+        contact_nodes_push(&r->rows[j].nodes, r->scene->model->inverse_mass, r->rows[j].wanted, r->rows[j].push, u);
     for (dem_index j = 0; j < n && to != SHIFT; j++) {
         const contact_equation *row = &r->rows[j];
         contact_force *f = &r->force[row->candidate][row->q];

@@ -18,9 +18,7 @@ typedef struct contact_equation {
     dem_index candidate;
     int q;
     bool tangential;
-    int n;
-    dem_index node[2];
-    double weight[2];
+    contact_nodes nodes;
     vec2 direction, push;
     double wanted; /* right-hand side, then the solution */
 } contact_equation;

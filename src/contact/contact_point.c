@@ -16,9 +16,7 @@ static inline contact_frame node_frame(const contact_scene *scene, const contact
                                        const surface_line *line, scene_state state)
 {
     const vec2 at = vec2_at(state.x, candidate->node);
-    return (contact_frame){.n = 1,
-                           .node = {candidate->node, -1},
-                           .weight = {1.0, 0.0},
+    return (contact_frame){.nodes = {1, {candidate->node}, {1.0}},
                            .normal = line->normal,
                            .tangent = line->tangent,
                            .velocity = vec2_at(state.v, candidate->node),
@@ -39,19 +37,18 @@ typedef struct vertex_motion {
 static inline contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
                                        const contact_point *point, const vertex_motion *vertex, scene_state state)
 {
-    const double *inverse_mass = scene->model->inverse_mass;
     const vec2 at = vertex->at;
     const vec2 a = vec2_at(state.x, candidate->node), b = vec2_at(state.x, candidate->other), ab = vec2_sub(b, a);
     const vec2 va = vec2_at(state.v, candidate->node), vb = vec2_at(state.v, candidate->other);
     const double length = vec2_norm(ab);
     const vec2 t = vec2_scale(1.0 / length, ab), n = {-t.y, t.x};
     const double place = point->slide == 0 ? point->place : vec2_dot(vec2_sub(at, a), t) / length;
-    const double wa = 1.0 - place, wb = place, turn = vec2_dot(vec2_sub(vb, va), n) / length;
+    const double turn = vec2_dot(vec2_sub(vb, va), n) / length;
     contact_frame f = {
-        .n = 2, .node = {candidate->node, candidate->other}, .weight = {wa, wb}, .normal = n, .tangent = t};
+        .nodes = {2, {candidate->node, candidate->other}, {1.0 - place, place}}, .normal = n, .tangent = t};
     const double beta = draw_back / scene->rule.max_step;
     const vec2 off = vec2_sub(vec2_along(a, place, ab), at);
-    f.velocity = vec2_add(vec2_scale(wa, va), vec2_scale(wb, vb));
+    f.velocity = contact_nodes_sum(&f.nodes, state.v);
     if (vertex->moves) f.wall = vertex->velocity;
     if (vertex->moves) f.velocity = vec2_sub(f.velocity, f.wall);
     f.gap = vec2_dot(off, n);
@@ -63,7 +60,7 @@ static inline contact_frame edge_frame(const contact_scene *scene, const contact
     f.keep[0] = f.turning - beta * (2.0 * vn + beta * f.gap);
     f.keep[1] = -beta * (2.0 * vt + beta * vec2_dot(off, t));
     if (vertex->moves) f.keep[1] += f.carried;
-    f.mobility = wa * wa * inverse_mass[candidate->node] + wb * wb * inverse_mass[candidate->other];
+    f.mobility = contact_nodes_mobility(&f.nodes, scene->model->inverse_mass);
     return f;
 }
 
@@ -122,21 +119,15 @@ contact_frame contact_frame_at(const contact_scene *scene, const contact_candida
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x)
 {
     const double omega = scene->model->omega_max,
-                 extent = vec2_norm(vec2_at(x, f->node[0])) + 2.0 * scene->model->spacing;
+                 extent = vec2_norm(vec2_at(x, f->nodes.node[0])) + 2.0 * scene->model->spacing;
     return 32.0 * DBL_EPSILON * extent * omega * omega / f->mobility;
-}
-
-vec2 contact_frame_velocity(const contact_frame *f, const double *v)
-{
-    const vec2 first = vec2_at(v, f->node[0]);
-    return f->n == 1 ? first
-                     : vec2_add(vec2_scale(f->weight[0], first), vec2_scale(f->weight[1], vec2_at(v, f->node[1])));
 }
 
 double contact_point_noise(const contact_frame *f, const double *v)
 {
+    const contact_nodes *on = &f->nodes;
     double speed = vec2_norm(f->wall);
-    for (int p = 0; p < f->n && f->n > 1; p++) speed += fabs(f->weight[p]) * vec2_norm(vec2_at(v, f->node[p]));
+    for (int p = 0; p < on->n && on->n > 1; p++) speed += fabs(on->weight[p]) * vec2_norm(vec2_at(v, on->node[p]));
     return 64.0 * DBL_EPSILON * speed;
 }
 
@@ -148,14 +139,17 @@ dem_contact contact_point_describe(const contact_scene *scene, const contact_can
     const surface_feature feature = contact_point_feature(candidate, point->feature);
     const vec2 at =
         candidate_is_edge(candidate) ? surface_vertex_at(scene, point->feature, t) : vec2_at(x, candidate->node);
-    return (dem_contact){.n_nodes = f.n,
-                         .state = point->held || point->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
-                         .nodes = {f.node[0], f.n > 1 ? f.node[1] : 0},
-                         .weights = {f.weight[0], f.weight[1]},
-                         .obstacle = surface_obstacle(scene, feature),
-                         .segment = surface_segment_index(scene, feature),
-                         .x = {at.x, at.y},
-                         .normal = {f.normal.x, f.normal.y},
-                         .force = point->force,
-                         .friction = point->friction};
+    dem_contact out = {.n_nodes = f.nodes.n,
+                       .state = point->held || point->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
+                       .obstacle = surface_obstacle(scene, feature),
+                       .segment = surface_segment_index(scene, feature),
+                       .x = {at.x, at.y},
+                       .normal = {f.normal.x, f.normal.y},
+                       .force = point->force,
+                       .friction = point->friction};
+    for (int p = 0; p < f.nodes.n; p++) {
+        out.nodes[p] = f.nodes.node[p];
+        out.weights[p] = f.nodes.weight[p];
+    }
+    return out;
 }

@@ -5,6 +5,7 @@
 #ifndef DEM_CONTACT_CONTACT_POINT_H
 #define DEM_CONTACT_CONTACT_POINT_H
 
+#include "contact/contact_nodes.h"
 #include "contact/surface_feature.h"
 
 /** What a candidate is, whatever its place in a list: its nodes. With a feature it is the key of a contact point, as a
@@ -50,9 +51,7 @@ typedef struct contact_candidate {
 
 /** A closed contact in a state: the point of the body that touches, and how it moves. */
 typedef struct contact_frame {
-    int n; /* nodes that carry the point: 1, or 2 */
-    dem_index node[2];
-    double weight[2];     /* sum 1 */
+    contact_nodes nodes;  /* that carry the point */
     vec2 normal, tangent; /* unit; out of the obstacle; tangent = (normal.y, -normal.x) */
     vec2 wall;            /* m/s, velocity of the obstacle there */
     vec2 velocity;        /* m/s, of the point relative to that */
@@ -63,7 +62,7 @@ typedef struct contact_frame {
     double carried;       /* m/s^2, tangential acceleration of the latter */
     double keep[2];       /* m/s^2, normal and tangential acceleration that keep it closed and stuck, with a part that
                              draws back what the integrator's error has opened */
-    double mobility;      /* 1/kg, sum of weight^2/m */
+    double mobility;      /* 1/kg, of the nodes */
 } contact_frame;
 
 static inline bool candidate_is_edge(const contact_candidate *candidate)
@@ -122,7 +121,10 @@ vec2 contact_point_keep(const contact_scene *scene, const contact_candidate *can
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
 
 /** Velocity of the point itself, not relative to the obstacle, m/s. */
-vec2 contact_frame_velocity(const contact_frame *f, const double *v);
+static inline vec2 contact_frame_velocity(const contact_frame *f, const double *v)
+{
+    return contact_nodes_sum(&f->nodes, v);
+}
 
 /** Bound of the velocity that rounding leaves to a point at rest, m/s: 0 for a node on an obstacle at rest, whose
  *  velocity is set to 0. */

@@ -351,9 +351,7 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
 
 void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse, double *v)
 {
-    for (int p = 0; p < f->n; p++)
-        vec2_put(v, f->node[p],
-                 vec2_along(vec2_at(v, f->node[p]), f->weight[p] * c->scene.model->inverse_mass[f->node[p]], impulse));
+    contact_nodes_push(&f->nodes, c->scene.model->inverse_mass, 1.0, impulse, v);
 }
 
 void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal, vec2 carried)

@@ -97,11 +97,11 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
             const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
             const double away = vec2_dot(f.velocity, f.normal), speed = vec2_dot(f.velocity, f.tangent);
             double back = f.turning;
-            for (int e = 0; e < f.n; e++)
-                back -=
-                    f.weight[e] * vec2_dot(f.normal, forces_acceleration(c->scene.forces, f.node[e], now->x, now->v));
+            for (int p = 0; p < f.nodes.n; p++)
+                back -= f.nodes.weight[p] *
+                        vec2_dot(f.normal, forces_acceleration(c->scene.forces, f.nodes.node[p], now->x, now->v));
             const impact_surface wall = impact_rest_surface(c, k, point->feature, f.normal);
-            const double rest = impact_rest_speed(c, vec2_at(now->x, f.node[0]), back, &wall, shared);
+            const double rest = impact_rest_speed(c, vec2_at(now->x, f.nodes.node[0]), back, &wall, shared);
             impact->opens = away > (impact->fresh ? rest : fmax(rest, tolerance));
             impact->rests = rest > 0.0 && away <= rest;
             const int sign = impact_rest_slide(c, k, point->feature, fabs(speed) <= tolerance ? 0.0 : speed);

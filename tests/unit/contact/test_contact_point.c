@@ -24,9 +24,9 @@ static void the_frame_of_a_node_is_that_of_its_segment(void **state)
     vec2_put(b.x, 1, (vec2){1.0 + 1.6 - 0.3, 2.0 + 1.2 + 0.4}); /* 2 along, 0.5 up */
     vec2_put(b.v, 1, (vec2){3.0, -7.0});
     const contact_frame f = contact_frame_at(&b.scene, &b.candidates[1], 0, (scene_state){0.0, b.x, b.v});
-    assert_int_equal(f.n, 1);
-    assert_int_equal(f.node[0], 1);
-    assert_close(f.weight[0], 1.0, 0.0);
+    assert_int_equal(f.nodes.n, 1);
+    assert_int_equal(f.nodes.node[0], 1);
+    assert_close(f.nodes.weight[0], 1.0, 0.0);
     check_vector(f.normal, -0.6, 0.8, 0.0);
     check_vector(f.tangent, 0.8, 0.6, 0.0);
     check_vector(f.velocity, 3.0, -7.0, 0.0);
@@ -56,12 +56,12 @@ static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void 
     const dem_index feature = bench_touch(&b, edge, 0, 0.0, -1)->feature;
     b.vertices[feature].at = (vec2){0.75, 2.0};
     const contact_frame f = contact_frame_at(&b.scene, &b.candidates[edge], 0, (scene_state){0.0, b.x, b.v});
-    assert_int_equal(f.n, 2);
-    assert_int_equal(f.node[0], 0);
-    assert_int_equal(f.node[1], 1);
+    assert_int_equal(f.nodes.n, 2);
+    assert_int_equal(f.nodes.node[0], 0);
+    assert_int_equal(f.nodes.node[1], 1);
     /* halves and quarters: exact */
-    assert_close(f.weight[0], 0.75, 0.0);
-    assert_close(f.weight[1], 0.25, 0.0);
+    assert_close(f.nodes.weight[0], 0.75, 0.0);
+    assert_close(f.nodes.weight[1], 0.25, 0.0);
     check_vector(f.normal, -1.0, 0.0, 0.0);
     check_vector(f.tangent, 0.0, 1.0, 0.0);
     check_vector(f.velocity, 2.0, 1.5, 0.0);
@@ -281,7 +281,7 @@ static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void
         e.b.candidates[e.edge].closed[0].slide = k % 2 == 0 ? 1 : -1; /* has no say in it */
         const contact_frame f = frame_of(&e);
         const vec2 at = *vertex_of(&e);
-        const vec2 a = vec2_along(vec2_scale(2.0 * f.weight[0], m.a[2]), 2.0 * f.weight[1], m.b[2]);
+        const vec2 a = vec2_along(vec2_scale(2.0 * f.nodes.weight[0], m.a[2]), 2.0 * f.nodes.weight[1], m.b[2]);
         differentiate(&m, at, &first, &second);
         assert_close(f.gap, look(&m, at, 0.0).height, 1e-15); /* rounding of positions of order 1 */
         assert_close(f.place, look(&m, at, 0.0).place, 1e-15);
@@ -336,8 +336,8 @@ static void a_sticking_contact_keeps_its_place(void **state)
         const contact_frame f = frame_of(&e);
         const vec2 at = vec2_add(vec2_scale(0.625, m.a[0]), vec2_scale(0.375, m.b[0]));
         assert_close(f.place, 0.375, 0.0);
-        assert_close(f.weight[0], 0.625, 0.0);
-        assert_close(f.weight[1], 0.375, 0.0);
+        assert_close(f.nodes.weight[0], 0.625, 0.0);
+        assert_close(f.nodes.weight[1], 0.375, 0.0);
         /* rounding of lengths of order 1 */
         assert_close(f.gap, vec2_dot(vec2_sub(at, *vertex_of(&e)), f.normal), 1e-15);
     }
