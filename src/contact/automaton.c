@@ -3,27 +3,13 @@
 #include "contact/automaton.h"
 
 #include <float.h>
+#include <stdlib.h>
 
+#include "base/grow.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/candidate_resolve.h"
 #include "contact/early_reflection.h"
-
-void automaton_root_functions(automaton *c, double t, const double *y, double *g)
-{
-    contact_set *s = &c->set;
-    const scene_state state = automaton_state(c, t, y);
-    contact_set_solve_all(s, state);
-    c->solved = t;
-    c->quiet = true;
-    for (dem_index k = 0; k < CANDIDATE_ROOTS * s->n; k++) g[k] = 1.0;
-    for (dem_index a = 0; a < c->broad_phase.n; a++) {
-        const dem_index k = c->broad_phase.active[a];
-        double *of_candidate = &g[CANDIDATE_ROOTS * k];
-        candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], state, of_candidate);
-        for (int q = 0; q < CANDIDATE_ROOTS; q++) c->quiet = c->quiet && of_candidate[q] > 0.0;
-    }
-}
 
 void automaton_constrain(automaton *c, double t, const double *y, double *a)
 {
@@ -31,24 +17,34 @@ void automaton_constrain(automaton *c, double t, const double *y, double *a)
     contact_forces_hold(&c->set.forces, automaton_state(c, t, y), a);
 }
 
+/* Makes room for so many candidates. */
+static dem_status reserve(automaton *c, dem_index n)
+{
+    TRY(broad_phase_reserve(&c->broad_phase, n));
+    CHECK(grow_array((void **)&c->units, &c->capacity, n, CANDIDATE_ROOTS * sizeof *c->units), DEM_ERROR_MEMORY,
+          "out of memory for %lld contact candidates", (long long)n);
+    return DEM_OK;
+}
+
 dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule)
 {
     *out = (automaton){0};
     TRY(contact_set_create(&out->set, acting, rule));
-    const dem_status status = broad_phase_reserve(&out->broad_phase, out->set.n);
-    if (status != DEM_OK) contact_set_destroy(&out->set);
+    const dem_status status = reserve(out, out->set.n);
+    if (status != DEM_OK) automaton_destroy(out);
     return status;
 }
 
 void automaton_destroy(automaton *c)
 {
+    free(c->units);
     broad_phase_destroy(&c->broad_phase);
     contact_set_destroy(&c->set);
 }
 
 dem_status automaton_follow_surface(automaton *c, const surface *to)
 {
-    TRY(broad_phase_reserve(&c->broad_phase, to->n_nodes + to->n_edges));
+    TRY(reserve(c, to->n_nodes + to->n_edges));
     TRY(contact_set_follow_surface(&c->set, to));
     broad_phase_list(&c->broad_phase, &c->set);
     c->solved = NAN;

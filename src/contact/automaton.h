@@ -11,11 +11,13 @@
 typedef struct automaton {
     contact_set set;
     broad_phase broad_phase;
-    double solved;  /* s, time of the state for which the contacts' forces are known; NAN: none */
-    bool quiet;     /* and all root functions were > 0 in that state: no change is due */
-    double way;     /* m, bound of how far any candidate goes in the step checked last */
-    bool all;       /* by that, inactive candidates may touch: all have to be checked */
-    dem_index idle; /* events in a row that changed nothing */
+    double solved;      /* s, time of the state for which the contacts' forces are known; NAN: none */
+    bool quiet;         /* and all root functions were > 0 in that state: no change is due */
+    double way;         /* m, bound of how far any candidate goes in the step checked last */
+    bool all;           /* by that, inactive candidates may touch: all have to be checked */
+    dem_index idle;     /* events in a row that changed nothing */
+    dem_index capacity; /* active candidates that there is room for in: */
+    double *units;      /* [n_active][CANDIDATE_ROOTS] root functions of the active candidates at the start of a step */
 } automaton;
 
 /** The state y = (x, v) at t. */
@@ -48,9 +50,6 @@ dem_status automaton_open_all(automaton *c);
  *  forces and active candidates anew.
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_restore(automaton *c, double t, const double *y);
-
-/** Values of all root functions in a state at t, [n_candidates][CANDIDATE_ROOTS]: see candidate_root_functions(). */
-void automaton_root_functions(automaton *c, double t, const double *y, double *g);
 
 /** Adds to the accelerations a [n][2] in a state those by the forces of the closed contacts. */
 void automaton_constrain(automaton *c, double t, const double *y, double *a);

@@ -6,6 +6,9 @@
 #include "contact/event_location.h"
 #include "contact/impact_group.h"
 
+/* Of the root function: a unit may be no more than rounding, and a secant from further down is the same. */
+static const double lowest_value = -1e30;
+
 /* Bound of how far any candidate goes in the step, m: twice what the fastest at either end of the step would. The speed
  * at its beginning is that of the last update of the broad phase. */
 static double furthest(const automaton *c, const dense_output *p)
@@ -25,6 +28,45 @@ static scene_state end_of(automaton *c, dem_index group, const dense_output *p, 
 void automaton_solve_group(automaton *c, const dense_output *p, dem_index group, double *state)
 {
     contact_forces_solve(&c->set.forces, group, end_of(c, group, p, state));
+}
+
+void automaton_begin_roots(automaton *c, double t, const double *y)
+{
+    const contact_set *s = &c->set;
+    const scene_state state = automaton_state(c, t, y);
+    if (c->solved != t) contact_set_solve_all(&c->set, state);
+    for (dem_index a = 0; a < c->broad_phase.n; a++) {
+        const dem_index k = c->broad_phase.active[a];
+        candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], state, &c->units[CANDIDATE_ROOTS * a]);
+    }
+}
+
+/* The lowest of the root functions of the a-th active candidate in a state, in units of the start of the step. */
+static double lowest_root(automaton *c, dem_index a, scene_state state)
+{
+    double g[CANDIDATE_ROOTS];
+    const contact_set *s = &c->set;
+    const dem_index k = c->broad_phase.active[a];
+    candidate_root_functions(&s->scene, &s->list[k], s->forces.force[k], state, g);
+    for (int q = 0; q < CANDIDATE_ROOTS; q++) c->quiet = c->quiet && g[q] > 0.0;
+    return candidate_lowest_root(g, &c->units[CANDIDATE_ROOTS * a]);
+}
+
+double automaton_root_function(automaton *c, const dense_output *p, double *state)
+{
+    const contact_set *s = &c->set;
+    const bool whole = p->end == p->t1;
+    const scene_state now = automaton_state(c, p->end, whole ? p->y1 : state);
+    double low = 1.0;
+    for (dem_index g = 0; g < s->forces.n_groups; g++) automaton_solve_group(c, p, s->forces.groups[g], state);
+    c->solved = p->end;
+    c->quiet = true;
+    for (dem_index a = 0; a < c->broad_phase.n; a++) {
+        const contact_candidate *candidate = &s->list[c->broad_phase.active[a]];
+        if (!whole && candidate->n_closed == 0) event_location_place(candidate, p, p->end, state);
+        low = fmin(low, lowest_root(c, a, now));
+    }
+    return fmax(low, lowest_value);
 }
 
 /* First time at which closed contacts of a candidate change, if they have to at the end of the step; else infinity. */

@@ -13,6 +13,16 @@ void automaton_begin_step(automaton *c, const dense_output *p, double *state);
 /** Solves for the forces of one group at the end of the step. */
 void automaton_solve_group(automaton *c, const dense_output *p, dem_index group, double *state);
 
+/** Evaluates the root functions of the active candidates in the state y from which a step goes, as units for
+ *  automaton_root_function() in the step. */
+void automaton_begin_roots(automaton *c, double t, const double *y);
+
+/** The root function of all contact events, at the end of a path: the lowest of those of the active candidates
+ *  (candidate_root_functions()), at most 1. Each is taken in units of its value at the start of the step, so that the
+ *  first secant ends where the first of theirs does. One that was not above 0 at the start is left out:
+ *  automaton_check_step() finds what comes of it in the step.  \param[out] state  [4 n] scratch */
+double automaton_root_function(automaton *c, const dense_output *p, double *state);
+
 /** Candidates whose contacts can change in the step: their number, and the a-th of them. */
 static inline dem_index automaton_n_active(const automaton *c)
 {

@@ -76,6 +76,15 @@ double candidate_grip(const contact_scene *scene, const contact_candidate *candi
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
                               const contact_force force[2], scene_state state, double *g);
 
+/** The lowest of root functions, each in its unit; one whose unit is not above 0 is left out. Infinity if all are. */
+static inline double candidate_lowest_root(const double g[CANDIDATE_ROOTS], const double unit[CANDIDATE_ROOTS])
+{
+    double low = INFINITY;
+    for (int q = 0; q < CANDIDATE_ROOTS; q++)
+        if (unit[q] > 0.0) low = fmin(low, g[q] / unit[q]);
+    return low;
+}
+
 /** Whether a closed candidate's contacts have to change in a state. */
 bool candidate_due(const contact_scene *scene, const contact_candidate *candidate, const contact_force force[2],
                    scene_state state);

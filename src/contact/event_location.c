@@ -208,9 +208,14 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
 
 /* ---- closed contacts ---- */
 
-static void put_node(const dense_output *p, double t, dem_index i, double *state)
+static void put_position(const dense_output *p, double t, dem_index i, double *state)
 {
     dense_output_position(p, t, i, state + state_row(&p->layout, i));
+}
+
+static void put_node(const dense_output *p, double t, dem_index i, double *state)
+{
+    put_position(p, t, i, state);
     dense_output_velocity(p, t, i, state + state_velocities(&p->layout) + state_row(&p->layout, i));
 }
 
@@ -219,6 +224,14 @@ static void put_around(const forces *f, const dense_output *p, double t, dem_ind
 {
     put_node(p, t, i, state);
     for (forces_neighbours j = forces_neighbours_of(f, i); forces_next_neighbour(&j);) put_node(p, t, j.node, state);
+}
+
+void event_location_place(const contact_candidate *candidate, const dense_output *p, double t, double *state)
+{
+    put_position(p, t, candidate->node, state);
+    if (candidate_is_edge(candidate)) put_position(p, t, candidate->other, state);
+    if (candidate->previous >= 0) put_position(p, t, candidate->previous, state);
+    if (candidate->next >= 0) put_position(p, t, candidate->next, state);
 }
 
 void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
@@ -244,11 +257,9 @@ static void solve_at(contact_forces *r, dem_index group, const dense_output *p, 
 /* The lowest of a candidate's root functions in the state at t, each divided by its value at first. */
 static double lowest_guard(contact_forces *r, dem_index k, double t, const double *state, const double *scale)
 {
-    double guard[CANDIDATE_ROOTS], low = INFINITY;
+    double guard[CANDIDATE_ROOTS];
     candidate_root_functions(r->scene, &r->candidates[k], r->force[k], scene_state_at(r->scene, t, state), guard);
-    for (int q = 0; q < CANDIDATE_ROOTS; q++)
-        if (scale[q] > 0.0) low = fmin(low, guard[q] / scale[q]);
-    return low;
+    return candidate_lowest_root(guard, scale);
 }
 
 double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,

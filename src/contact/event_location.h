@@ -19,6 +19,9 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
 double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,
                              double *state);
 
+/** The positions at t of the nodes that the gap of a candidate depends on, into state [4 n]. */
+void event_location_place(const contact_candidate *candidate, const dense_output *p, double t, double *state);
+
 /** The positions and velocities at t that the forces on a group's nodes depend on, into state [4 n]. */
 void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state);
 

@@ -4,6 +4,7 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "contact/automaton_step.h"
 
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
@@ -65,10 +66,16 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     return 1;
 }
 
-static void root_functions(double t, const double *y, double *g, void *context)
+static void begin_roots(double t, const double *y, void *context)
 {
     dem_simulation *s = context;
-    automaton_root_functions(&s->automaton, t, y, g);
+    automaton_begin_roots(&s->automaton, t, y);
+}
+
+static double root_function(const dense_output *step, void *context)
+{
+    dem_simulation *s = context;
+    return reduce_min(automaton_root_function(&s->automaton, step, s->frame));
 }
 
 static double stiffening(const double *y, void *context)
@@ -81,13 +88,14 @@ ode_problem right_hand_side_problem(dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
+    const bool rooted = model->obstacles.n > 0 && !run_is_local(s);
     return (ode_problem){
         .layout = s->layout,
-        .n_roots = model->obstacles.n > 0 && !run_is_local(s) ? CANDIDATE_ROOTS * s->automaton.set.n : 0,
         .prescribes = boundary_conditions_move(&s->boundaries),
         .derivative = derivative,
         .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
-        .root_functions = root_functions,
+        .begin_roots = rooted ? begin_roots : NULL,
+        .root_function = rooted ? root_function : NULL,
         .stiffening = stiffening,
         .context = s,
         .method = o->method,

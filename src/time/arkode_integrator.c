@@ -31,9 +31,7 @@ typedef struct arkode_integrator {
     N_Vector y;              /* what ARKODE returns */
     N_Vector y0, y1, f0, f1; /* the accepted step for the dense output; y0 is the last accepted state */
     N_Vector weights;        /* of the error, the same at all times */
-    double *inside;          /* [4 n] state at a root function's time */
-    double *root_functions;  /* [n_roots] values of the root functions at root_functions_t */
-    double root_functions_t; /* s; NAN: none */
+    double root;             /* the root function at the end of the last step; 1 after a restart */
     double t;                /* last accepted time, of y0 */
     double t1;               /* end of the step that y1, f0, f1 hold */
     bool holds_step;         /* y1, f0, f1 are those of the step that ends at t1 */
@@ -90,31 +88,22 @@ static dense_output held_path(const arkode_integrator *I)
                           .f1 = nvector_values(I->f1)};
 }
 
-/* ARKODE calls this at the ends of a step and, while it brackets a root, inside: there the quintic of the dense output
- * replaces ARKODE's cubic, so that the root is that of the state in which the event is resolved. */
-static int call_root_functions(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
+/* ARKODE calls this at the end of a step and, while it brackets a root, inside: there the quintic of the dense output
+ * replaces ARKODE's cubic, so that the root is that of the state in which the event is resolved. At the start of the
+ * next step it has the value from the end of the last. If that was after a root it calls once more, and gets the same:
+ * else a run that is resumed in between would have other bits. */
+static int call_root_function(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
     arkode_integrator *I = user;
-    double now;
-    const double *state = nvector_values(y);
-    if (ARKodeGetCurrentTime(I->arkode, &now) != ARK_SUCCESS) return -1;
-    if (t > I->t && t < now) {
-        if (fetch_step(I) != 0) return -1;
-        const dense_output step = held_path(I);
-        dense_output_state(&step, t, I->inside);
-        state = I->inside;
-    }
-    const size_t size = (size_t)I->problem.n_roots * sizeof *g;
-    if (t == I->root_functions_t) { /* ARKODE asks at the end of a step, and again as the next one starts there */
-        memcpy(g, I->root_functions, size);
-        return 0;
-    }
-    I->problem.root_functions(t, state, g, I->problem.context);
-    for (dem_index k = 0; k < I->problem.n_roots; k++)
-        if (!isfinite(g[k])) return -1;
-    memcpy(I->root_functions, g, size);
-    I->root_functions_t = t;
-    return 0;
+    (void)y;
+    *g = I->root;
+    if (t <= I->t) return 0;
+    if (fetch_step(I) != 0) return -1;
+    dense_output step = held_path(I);
+    step.end = t;
+    *g = I->problem.root_function(&step, I->problem.context);
+    if (t == step.t1) I->root = *g;
+    return isfinite(*g) ? 0 : -1;
 }
 
 static int call_weights(N_Vector y, N_Vector weights, void *user)
@@ -139,9 +128,8 @@ static dem_status allocate(arkode_integrator *I)
     N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
-    I->inside = aligned_zeros((size_t)n);
     I->space = nvector_space_create(n, I->problem.ops, I->problem.n_threads, most_vectors + I->table.stages);
-    bool complete = I->inside != NULL && I->space != NULL;
+    bool complete = I->space != NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
         *vectors[k] = nvector_create(I->space, I->sundials);
         complete = *vectors[k] != NULL;
@@ -171,6 +159,7 @@ static void start_from(arkode_integrator *I, double t, const double *y)
     nvector_share(I->y0, I->y);
     I->t = t;
     I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;
+    I->root = 1.0;
 }
 
 /* The order given to ARKODE limits the degree of its interpolant, and nothing else: below 4 it would not hold the
@@ -214,22 +203,12 @@ static int set_adaptivity(arkode_integrator *I)
     return failed;
 }
 
-static dem_status set_root_functions(arkode_integrator *I)
+static int set_root_function(arkode_integrator *I)
 {
-    const dem_index n = I->problem.n_roots;
-    if (n == 0) return DEM_OK;
-    I->root_functions_t = NAN;
-    I->root_functions = malloc((size_t)n * sizeof *I->root_functions);
-    CHECK(I->root_functions != NULL, DEM_ERROR_MEMORY, "out of memory for %lld root functions", (long long)n);
-    int *falling = malloc((size_t)n * sizeof *falling);
-    CHECK(falling != NULL, DEM_ERROR_MEMORY, "out of memory for %lld root functions", (long long)n);
-    for (dem_index k = 0; k < n; k++) falling[k] = -1;
-    int failed = ARKodeRootInit(I->arkode, (int)n, call_root_functions);
-    failed |= ARKodeSetRootDirection(I->arkode, falling);
-    failed |= ARKodeSetNoInactiveRootWarn(I->arkode);
-    free(falling);
-    CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its root functions: %s", I->message);
-    return DEM_OK;
+    if (I->problem.root_function == NULL) return 0;
+    int falling = -1, failed = ARKodeRootInit(I->arkode, 1, call_root_function);
+    failed |= ARKodeSetRootDirection(I->arkode, &falling);
+    return failed;
 }
 
 static dem_status set_up(arkode_integrator *I, double t, const double *y)
@@ -237,8 +216,6 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     TRY(butcher_load(&I->table, I->problem.method));
     CHECK(I->table.embedded_order > 0 || I->problem.fixed_step > 0.0, DEM_ERROR_ARGUMENT,
           "a method without error estimate needs a fixed step");
-    CHECK(I->problem.n_roots <= INT32_MAX, DEM_ERROR_ARGUMENT, "%lld root functions are too many for ARKODE",
-          (long long)I->problem.n_roots);
     TRY(allocate(I));
     fill_weights(I);
     start_from(I, t, y);
@@ -253,8 +230,9 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     failed |= ARKodeSetMaxNumSteps(I->arkode, -1);
     failed |= ARKodeSetMaxHnilWarns(I->arkode, -1);
     failed |= set_adaptivity(I);
+    failed |= set_root_function(I);
     CHECK(failed == 0, DEM_ERROR_INTEGRATOR, "ARKODE refuses its settings: %s", I->message);
-    return set_root_functions(I);
+    return DEM_OK;
 }
 
 /* ---- the functions of the table ---- */
@@ -270,8 +248,6 @@ static void arkode_integrator_destroy(void *self)
         if (vectors[k] != NULL) N_VDestroy(vectors[k]);
     nvector_space_free(I->space);
     if (I->sundials != NULL) SUNContext_Free(&I->sundials);
-    free(I->inside);
-    free(I->root_functions);
     free(I);
 }
 
@@ -295,7 +271,7 @@ static dem_status reset(arkode_integrator *I)
     nvector_share(I->y0, I->y);
     I->at_end = I->holds_step = false;
     I->gives_f0 = I->knows_f0;
-    I->root_functions_t = NAN;
+    I->root = 1.0;
     CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
           "ARKODE does not restart at t = %.9g s: %s", I->t, I->message);
     return DEM_OK;
@@ -326,7 +302,7 @@ static const char *cause(const arkode_integrator *I, int flag)
     case ARK_ERR_FAILURE:
         return I->problem.fixed_step > 0.0 ? "it may be too long" : "no step is short enough for rtol";
     case ARK_RTFUNC_FAIL:
-        return "a guard is not finite";
+        return "the root function is not finite";
     default:
         return I->message;
     }
@@ -386,6 +362,7 @@ static dem_status arkode_integrator_step(void *self, dense_output *step, bool *r
 {
     arkode_integrator *I = self;
     go_on(I);
+    if (I->problem.begin_roots != NULL) I->problem.begin_roots(I->t, nvector_values(I->y0), I->problem.context);
     double reached, h = 0.0;
     int flag = ARK_RHSFUNC_FAIL;
     for (int attempt = 0; attempt <= max_retries; attempt++) {
@@ -422,7 +399,6 @@ static dem_status arkode_integrator_renew(void *self, const integrator_start *fr
 {
     arkode_integrator *I = self;
     start_from(I, from->t, from->y);
-    I->root_functions_t = NAN;
     I->counts = (dem_counts){.steps = from->counts.steps,
                              .rejected = from->counts.rejected,
                              .evaluations = from->counts.evaluations,

@@ -15,7 +15,6 @@ typedef struct ode_fused_step {
 
 typedef struct ode_problem {
     state_layout layout; /* of y; what stands behind the nodes is integrated along, and has no part in the error */
-    dem_index n_roots;   /* root functions, each looked for as it falls through 0; may be 0 */
     bool prescribes;     /* whether some x' are given, so that they are not v */
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An integrator that knows v may
      *  leave u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or
@@ -25,7 +24,11 @@ typedef struct ode_problem {
      *  its end are given: with the bits of kick, drift, derivative and kick in turn. Returns as `derivative`, or -1 if
      *  it cannot from this state. NULL: it never can. */
     int (*fused_step)(const ode_fused_step *step, void *context);
-    void (*root_functions)(double t, const double *y, double *g, void *context);
+    /** Called with the state from which a step goes, before root_function() in the step. */
+    void (*begin_roots)(double t, const double *y, void *context);
+    /** Value at `end` of a step: 1 at its start, and 0 or less after the first event in it. NULL, with begin_roots():
+     *  no events end a step. */
+    double (*root_function)(const dense_output *step, void *context);
     /** Bound of the highest frequency in units of that about the rest shape, >= 1. NULL: it is 1. */
     double (*stiffening)(const double *y, void *context);
     void *context;

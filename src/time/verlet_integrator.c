@@ -16,29 +16,23 @@ typedef struct verlet_integrator {
     ode_problem problem;
     double *arrays;                    /* [5][4 n] those that follow */
     double *y0, *f0, *y1, *f1, *state; /* ends of the step with derivatives; a state inside */
-    double *values;                    /* [3][n_roots] those that follow */
-    double *low, *high, *trial;        /* root functions at both ends of a bracket and inside */
     double t, t1;                      /* s, of y0, y1 */
-    bool has_f0, has_low;              /* f0 is that of y0, low the root functions there */
+    bool has_f0;                       /* f0 is that of y0 */
     bool at_end;                       /* the dense output was handed out: y1 is the start of the next step */
     dem_counts counts;
 } verlet_integrator;
 
 static dem_status allocate(verlet_integrator *V)
 {
-    const size_t n = (size_t)state_size(&V->problem.layout), n_roots = (size_t)V->problem.n_roots;
+    const size_t n = (size_t)state_size(&V->problem.layout);
     V->arrays = aligned_zeros(5 * n);
-    V->values = calloc(3 * n_roots + 1, sizeof *V->values);
-    CHECK(V->arrays && V->values, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+    CHECK(V->arrays != NULL, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)V->problem.layout.n_nodes);
     V->y0 = V->arrays;
     V->f0 = V->arrays + n;
     V->y1 = V->arrays + 2 * n;
     V->f1 = V->arrays + 3 * n;
     V->state = V->arrays + 4 * n;
-    V->low = V->values;
-    V->high = V->values + n_roots;
-    V->trial = V->values + 2 * n_roots;
     return DEM_OK;
 }
 
@@ -47,7 +41,6 @@ static void verlet_integrator_destroy(void *self)
     verlet_integrator *V = self;
     if (V == NULL) return;
     free(V->arrays);
-    free(V->values);
     free(V);
 }
 
@@ -56,7 +49,7 @@ static dem_status verlet_integrator_restart(void *self, double t, const double *
     verlet_integrator *V = self;
     if (y != V->y0) memcpy(V->y0, y, (size_t)state_size(&V->problem.layout) * sizeof *y);
     V->t = t;
-    V->has_f0 = V->has_low = V->at_end = false;
+    V->has_f0 = V->at_end = false;
     return DEM_OK;
 }
 
@@ -95,7 +88,6 @@ static void go_on(verlet_integrator *V)
     if (!V->at_end) return;
     swap(&V->y0, &V->y1);
     swap(&V->f0, &V->f1);
-    swap(&V->low, &V->high);
     V->t = V->t1;
     V->at_end = false;
 }
@@ -117,7 +109,6 @@ static void verlet_integrator_settle(void *self, const dense_output *step)
     }
     go_on(V);
     V->has_f0 = step->end == step->t1;
-    V->has_low = V->has_low && V->has_f0;
 }
 
 static double *verlet_integrator_state(const void *self)
@@ -198,54 +189,32 @@ static int kick_drift_kick(verlet_integrator *V, double h)
 
 /* ---- roots ---- */
 
-static dem_status look(verlet_integrator *V, double t, const double *y, double *g)
+/* The root function at `end` of a step. */
+static dem_status look(const verlet_integrator *V, const dense_output *step, double *g)
 {
-    if (V->problem.n_roots == 0) return DEM_OK;
-    V->problem.root_functions(t, y, g, V->problem.context);
-    for (dem_index k = 0; k < V->problem.n_roots; k++)
-        CHECK(isfinite(g[k]), DEM_ERROR_INTEGRATOR, "guard %lld is not finite at t = %.9g s", (long long)k, t);
+    *g = V->problem.root_function(step, V->problem.context);
+    CHECK(isfinite(*g), DEM_ERROR_INTEGRATOR, "the root function is not finite at t = %.9g s", step->end);
     return DEM_OK;
 }
 
-static bool falls(double before, double after)
+/* Shortens the step to the first root, if there is one: secants, and the middle after one that did not halve the
+ * bracket. */
+static dem_status find_root(const verlet_integrator *V, dense_output *step, bool *rooted)
 {
-    return before > 0.0 && after <= 0.0;
-}
-
-/* Where the first of the root functions that fall through 0 between both ends does so by linear interpolation; 1 if
- * none does. */
-static double first_secant(const verlet_integrator *V, const double *low, const double *high)
-{
-    double share = 1.0;
-    for (dem_index k = 0; k < V->problem.n_roots; k++)
-        if (falls(low[k], high[k])) share = fmin(share, low[k] / (low[k] - high[k]));
-    return share;
-}
-
-static bool any_falls(const verlet_integrator *V, const double *low, const double *high)
-{
-    for (dem_index k = 0; k < V->problem.n_roots; k++)
-        if (falls(low[k], high[k])) return true;
-    return false;
-}
-
-/* Shortens the step to the first root: secants, and the middle after one that did not halve the bracket. */
-static dem_status find_root(verlet_integrator *V, dense_output *step)
-{
-    double low = step->t0, high = step->t1;
-    bool secant = true;
+    double low = step->t0, high = step->t1, above = 1.0, below = 1.0, trial;
     const double width = 100.0 * DBL_EPSILON * (fabs(high) + high - low);
-    while (high - low > width) {
-        const double share = secant ? first_secant(V, V->low, V->high) : 0.5, whole = high - low;
-        const double t = fmin(fmax(low + share * whole, low + 0.5 * width), high - 0.5 * width);
-        dense_output_state(step, t, V->state);
-        TRY(look(V, t, V->state, V->trial));
-        if (any_falls(V, V->low, V->trial)) {
-            high = t;
-            swap(&V->high, &V->trial);
+    if (V->problem.root_function != NULL) TRY(look(V, step, &below));
+    *rooted = below <= 0.0;
+    for (bool secant = true; *rooted && high - low > width;) {
+        const double share = secant ? above / (above - below) : 0.5, whole = high - low;
+        step->end = fmin(fmax(low + share * whole, low + 0.5 * width), high - 0.5 * width);
+        TRY(look(V, step, &trial));
+        if (trial <= 0.0) {
+            high = step->end;
+            below = trial;
         } else {
-            low = t;
-            swap(&V->low, &V->trial);
+            low = step->end;
+            above = trial;
         }
         secant = high - low <= 0.5 * whole;
     }
@@ -259,11 +228,10 @@ static dem_status verlet_integrator_step(void *self, dense_output *step, bool *r
 {
     verlet_integrator *V = self;
     go_on(V);
+    if (V->problem.begin_roots != NULL) V->problem.begin_roots(V->t, V->y0, V->problem.context);
     if (!V->has_f0 && evaluate(V, V->t, V->y0, V->f0) != 0) return DEM_ERROR_INTEGRATOR; /* message: derivative's */
     V->has_f0 = true;
-    if (!V->has_low) TRY(look(V, V->t, V->y0, V->low));
     if (kick_drift_kick(V, ode_problem_fixed_step(&V->problem, V->y0)) != 0) return DEM_ERROR_INTEGRATOR;
-    TRY(look(V, V->t1, V->y1, V->high));
     *step = (dense_output){.layout = V->problem.layout,
                            .parabolic = true,
                            .t0 = V->t,
@@ -273,9 +241,7 @@ static dem_status verlet_integrator_step(void *self, dense_output *step, bool *r
                            .f0 = V->f0,
                            .y1 = V->y1,
                            .f1 = V->f1};
-    *rooted = any_falls(V, V->low, V->high);
-    V->has_low = !*rooted; /* of the end, when that is the start */
-    if (*rooted) TRY(find_root(V, step));
+    TRY(find_root(V, step, rooted));
     V->counts.steps++;
     V->at_end = true;
     return DEM_OK;

@@ -566,38 +566,6 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
     }
 }
 
-/* ---- the check after a step ---- */
-
-/* The first may reach the floor in a step of 0.01 s, the third is inactive. */
-static void root_functions_of_all_candidates_stand_one_after_the_other(void **state)
-{
-    scene s;
-    double roots[3 * CANDIDATE_ROOTS];
-    (void)state;
-    open_scene(&s, 3, &half, 1);
-    scene_put(&s, 0, 1.0, 0.25, 0.0, -20.0);
-    scene_put(&s, 1, 3.5, 0.0, 0.0, 0.0);
-    scene_put(&s, 2, 1.0, 0.75, 0.0, 0.0);
-    assert_ok(scene_take_up(&s));
-    for (int k = 0; k < 3; k++)
-        s.c.set.list[k].clearance.distance = 0.0; /* else a lower bound would do for their gaps */
-    automaton_root_functions(&s.c, 0.2, s.y, roots);
-    const double expected[3 * CANDIDATE_ROOTS] = {0.25 + penetration_tolerance,
-                                                  1.0,
-                                                  1.0,
-                                                  1.0,
-                                                  1.0 + penetration_tolerance,
-                                                  2.0 * g,
-                                                  0.5 + penetration_tolerance,
-                                                  1.0,
-                                                  1.0,
-                                                  1.0,
-                                                  1.0,
-                                                  1.0};
-    for (int k = 0; k < 3 * CANDIDATE_ROOTS; k++) assert_close(roots[k], expected[k], 1e-15);
-    scene_close(&s);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -628,7 +596,6 @@ int main(void)
         cmocka_unit_test(what_passes_a_vertex_within_the_window_is_not_reflected),
         cmocka_unit_test(an_early_reflection_takes_what_an_impact_takes_in_any_order),
         cmocka_unit_test(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early),
-        cmocka_unit_test(root_functions_of_all_candidates_stand_one_after_the_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

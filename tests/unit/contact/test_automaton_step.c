@@ -65,7 +65,6 @@ static void a_closed_edge_that_has_opened_is_put_back(void **state)
 static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(void **state)
 {
     scene s;
-    double roots[CANDIDATE_ROOTS];
     scene_flight f;
     (void)state;
     open_scene(&s, 1, &half, 1);
@@ -73,8 +72,7 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(s.c.set.list[0].behind[0], 0);
-    automaton_root_functions(&s.c, 0.2, s.y, roots);
-    assert_close(roots[0], 1.0, 0.0); /* it is inactive */
+    assert_true(s.c.set.list[0].clearance.inactive);
     scene_put(&s, 0, -3.0, -0.01, 1.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
     automaton_end_step(&s.c, &f.dense, s.y);
@@ -86,6 +84,65 @@ static void a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front(vo
     assert_int_equal(s.c.set.list[0].behind[0], -1);
     assert_int_equal(s.n_impacts, 0);
     scene_close(&s);
+}
+
+/* ---- the root function ---- */
+
+/* The root function at a time in a step: it reads nothing but the nodes that the active candidates depend on. */
+static double root_at(scene *s, scene_flight *f, double t)
+{
+    for (int k = 0; k < 4 * SCENE_NODES; k++) f->scratch[k] = (double)NAN;
+    f->dense.end = t;
+    return automaton_root_function(&s->c, &f->dense, f->scratch);
+}
+
+/* The first node falls on the floor, the second slides to its end, which one of them is nearer to; the third is
+ * inactive. */
+static void the_root_function_is_the_lowest_of_all_candidates(void **state)
+{
+    static const double fall[2] = {20.0, 10.0}, height = 0.25, slide = 30.0, way = 0.5;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        scene s;
+        scene_flight f;
+        open_scene(&s, 3, &half, 1);
+        scene_put(&s, 0, 1.0, height, 0.0, -fall[k]);
+        scene_put(&s, 1, 4.0 - way, 0.0, slide, 0.0);
+        scene_put(&s, 2, 1.0, 0.75, 0.0, 0.0);
+        assert_ok(scene_take_up(&s));
+        assert_true(s.c.set.list[2].clearance.inactive);
+        for (int i = 0; i < 3; i++)
+            s.c.set.list[i].clearance.distance = 0.0; /* else a lower bound would do for their gaps */
+        automaton_begin_roots(&s.c, 0.0, s.y);
+        scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 0.01, &f);
+        for (int part = 1; part <= 4; part++) {
+            const double t = 0.01 * part / 4.0;
+            const double falls = (height - fall[k] * t + penetration_tolerance) / (height + penetration_tolerance);
+            const double slides = (way - slide * t + penetration_tolerance) / (way + penetration_tolerance);
+            assert_true((falls < slides) == (k == 0));
+            assert_close(root_at(&s, &f, t), fmin(falls, slides), 1e-14);
+            assert_true(s.c.quiet);
+        }
+        scene_close(&s);
+    }
+}
+
+/* It turns back from a speed at the start of the step, in units of which its root function is. */
+static void what_is_zero_at_the_start_is_left_out_of_the_root_function(void **state)
+{
+    static const double speed[3] = {1e-3, 1e-40, 0.0}, expected[3] = {-9.0, -1e30, 1.0};
+    (void)state;
+    for (int k = 0; k < 3; k++) {
+        scene s;
+        scene_flight f;
+        rub(&s, 1.0);
+        scene_v(&s)[0] = speed[k];
+        automaton_begin_roots(&s.c, 0.0, s.y);
+        scene_fly(&s, (vec2){-1.0, 0.0}, 0.0, 0.01, &f);
+        assert_close(root_at(&s, &f, 0.01), expected[k], 1e-12);
+        assert_false(s.c.quiet);
+        scene_close(&s);
+    }
 }
 
 /* ---- the check after a step ---- */
@@ -162,10 +219,10 @@ static void the_check_goes_by_the_root_functions_at_the_end_of_the_step(void **s
     for (int ends = 0; ends <= 1; ends++) {
         scene s;
         scene_flight f;
-        double roots[CANDIDATE_ROOTS];
         slide(&s, &half, 3.0, ends ? 2.0 : 0.5);
         scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
-        automaton_root_functions(&s.c, 1.0, f.y1, roots);
+        automaton_begin_roots(&s.c, 0.0, s.y);
+        assert_true((automaton_root_function(&s.c, &f.dense, f.scratch) > 0.0) == !ends);
         assert_int_equal(s.c.quiet, !ends);
         assert_int_equal(automaton_check_step(&s.c, &f.dense, false, f.scratch), ends);
         if (ends) assert_close(f.dense.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
@@ -205,6 +262,8 @@ int main(void)
         cmocka_unit_test(a_closed_edge_that_has_opened_is_put_back),
         cmocka_unit_test(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front),
         cmocka_unit_test(what_goes_round_a_free_end_at_a_distance_is_behind_it),
+        cmocka_unit_test(the_root_function_is_the_lowest_of_all_candidates),
+        cmocka_unit_test(what_is_zero_at_the_start_is_left_out_of_the_root_function),
         cmocka_unit_test(a_step_is_cut_at_the_first_contact_that_was_overlooked),
         cmocka_unit_test(a_contact_at_the_root_that_ends_a_step_is_no_other),
         cmocka_unit_test(a_step_without_contacts_is_left_as_it_is),

@@ -343,6 +343,27 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
     scene_close(&s);
 }
 
+/* A square 0 to 3 and two more nodes: the gap of an edge depends on its nodes and on those before and after it. */
+static void the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them(void **state)
+{
+    const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
+    const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
+    scene s;
+    scene_flight f;
+    double y[24];
+    (void)state;
+    scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
+    scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
+    dense_output_state(&f.dense, 0.3, y);
+    for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
+    event_location_place(&s.c.set.list[0], &f.dense, 0.3, f.scratch);
+    for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k < 2 ? y[k] : 77.0, 0.0);
+    event_location_place(&s.c.set.list[scene_edge(&s, 0, 1)], &f.dense, 0.3, f.scratch);
+    for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k < 8 ? y[k] : 77.0, 0.0);
+    scene_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -363,6 +384,7 @@ int main(void)
         cmocka_unit_test(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end),
         cmocka_unit_test(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight),
         cmocka_unit_test(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours),
+        cmocka_unit_test(the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,6 +10,7 @@
 
 #include "base/status.h"
 #include "time/integrator.h"
+#include "unit/floor_and_ceiling.h"
 
 static const double g = 9.81;
 
@@ -18,7 +19,7 @@ typedef struct world {
     double fails_after; /* s: derivatives later than this fail ... */
     int failures_left;  /* ... as often as this */
     int calls;
-    double floor; /* m: root functions are y - floor and floor + 1 - y */
+    floor_and_ceiling walls;
 } world;
 
 static int fail_if_due(world *w, double t)
@@ -58,20 +59,17 @@ static int rattle(double t, const double *y, double *u, double *a, void *context
     return fail_if_due(context, t);
 }
 
-static void heights(double t, const double *y, double *roots, void *context)
+static void begin_roots(double t, const double *y, void *context)
 {
+    world *w = context;
     (void)t;
-    const world *w = context;
-    roots[0] = y[1] - w->floor;
-    roots[1] = w->floor + 1.0 - y[1];
+    floor_and_ceiling_begin(&w->walls, y);
 }
 
-static void broken_heights(double t, const double *y, double *roots, void *context)
+static double root_function(const dense_output *step, void *context)
 {
-    (void)t;
-    (void)y;
-    (void)context;
-    roots[0] = roots[1] = (double)NAN;
+    world *w = context;
+    return floor_and_ceiling_root(&w->walls, step);
 }
 
 static integrator make(world *w, int (*derivative)(double, const double *, double *, double *, void *),
@@ -297,9 +295,9 @@ static integrator make_fall(world *w, const double *y)
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
-                                 .n_roots = 2,
                                  .derivative = fall,
-                                 .root_functions = heights,
+                                 .begin_roots = begin_roots,
+                                 .root_function = root_function,
                                  .context = w,
                                  .method = DEM_METHOD_FEHLBERG45,
                                  .position_error = 1e-12,
@@ -326,7 +324,7 @@ static void step_to_root(integrator *i, dense_output *p)
 static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 {
     const double y[4] = {0.0, 0.9, 1.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
-    world w = {.fails_after = 1e9, .floor = 0.2};
+    world w = {.fails_after = 1e9, .walls.floor = 0.2};
     dense_output p;
     double end[4];
     (void)state;
@@ -344,7 +342,7 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 static void a_root_is_looked_for_only_as_the_function_falls(void **state)
 {
     const double y[4] = {0.0, -0.5, 0.0, 10.0};
-    world w = {.fails_after = 1e9, .floor = 0.0};
+    world w = {.fails_after = 1e9, .walls.floor = 0.0};
     dense_output p;
     (void)state;
     integrator i = make_fall(&w, y);
@@ -358,7 +356,7 @@ static void a_root_is_looked_for_only_as_the_function_falls(void **state)
 static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0}, penetration_tolerance = 1e-9, u = sqrt(2.0 * g * 0.5);
-    world w = {.fails_after = 1e9, .floor = -penetration_tolerance};
+    world w = {.fails_after = 1e9, .walls.floor = -penetration_tolerance};
     double reflected[4];
     dense_output p;
     bool rooted;
@@ -385,7 +383,7 @@ static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state
 static void without_a_restart_it_goes_on_through_a_root(void **state)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0};
-    world w = {.fails_after = 1e9, .floor = 0.0};
+    world w = {.fails_after = 1e9, .walls.floor = 0.0};
     dense_output p;
     bool rooted;
     (void)state;
@@ -480,28 +478,15 @@ static void a_tolerance_below_rounding_is_reported(void **state)
     integrator_destroy(&i);
 }
 
-static void root_functions_that_are_no_numbers_are_an_error(void **state)
+static void a_root_function_that_is_no_number_is_an_error(void **state)
 {
-    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
-                                 .ops = &array_ops_portable,
-                                 .n_threads = 1,
-                                 .n_roots = 2,
-                                 .derivative = fall,
-                                 .root_functions = broken_heights,
-                                 .method = DEM_METHOD_FEHLBERG45,
-                                 .position_error = 1e-12,
-                                 .velocity_error = 1e-12,
-                                 .max_step = 0.1};
-    world w = {.fails_after = 1e9};
-    ode_problem with_world = problem;
+    world w = {.fails_after = 1e9, .walls.broken = true};
     dense_output p;
     bool rooted;
-    integrator i;
     (void)state;
-    with_world.context = &w;
-    assert_ok(integrator_create(&i, &with_world, 0.0, at_rest));
+    integrator i = make_fall(&w, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
-    assert_string_equal(dem_status_message(), "the step from t = 0 s fails: a guard is not finite");
+    assert_string_equal(dem_status_message(), "the step from t = 0 s fails: the root function is not finite");
     integrator_destroy(&i);
 }
 
@@ -532,7 +517,7 @@ int main(void)
         cmocka_unit_test(fixed_steps_are_not_tried_again),
         cmocka_unit_test(a_tolerance_out_of_reach_is_reported),
         cmocka_unit_test(a_tolerance_below_rounding_is_reported),
-        cmocka_unit_test(root_functions_that_are_no_numbers_are_an_error),
+        cmocka_unit_test(a_root_function_that_is_no_number_is_an_error),
         cmocka_unit_test(the_version_of_sundials_has_three_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

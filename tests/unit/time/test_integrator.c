@@ -4,25 +4,37 @@
 #include "verification/support.h"
 
 #include "time/integrator.h"
+#include "unit/floor_and_ceiling.h"
 
 static const double g = 9.81, penetration_tolerance = 1e-10;
 
+typedef struct world {
+    floor_and_ceiling walls;
+    int calls; /* of the derivative */
+} world;
+
 static int fall(double t, const double *y, double *u, double *a, void *context)
 {
-    int *calls = context;
+    world *w = context;
     (void)t;
-    (*calls)++;
+    w->calls++;
     for (int c = 0; c < 2 && u != NULL; c++) u[c] = y[2 + c];
     a[0] = 0.0;
     a[1] = -g;
     return 0;
 }
 
-static void height(double t, const double *y, double *root, void *context)
+static void begin_roots(double t, const double *y, void *context)
 {
+    world *w = context;
     (void)t;
-    (void)context;
-    root[0] = y[1] + penetration_tolerance;
+    floor_and_ceiling_begin(&w->walls, y);
+}
+
+static double root_function(const dense_output *step, void *context)
+{
+    world *w = context;
+    return floor_and_ceiling_root(&w->walls, step);
 }
 
 static void every_method_finds_the_bounces_of_a_ball(void **state)
@@ -32,14 +44,15 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
     for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
         dem_method_traits traits;
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
-        int calls = 0, bounces = 0;
+        world w = {.walls.floor = -penetration_tolerance};
+        int bounces = 0;
         const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                      .ops = &array_ops_portable,
                                      .n_threads = 1,
-                                     .n_roots = 1,
                                      .derivative = fall,
-                                     .root_functions = height,
-                                     .context = &calls,
+                                     .begin_roots = begin_roots,
+                                     .root_function = root_function,
+                                     .context = &w,
                                      .method = (dem_method)method,
                                      .position_error = 1.0,
                                      .velocity_error = 1.0,
@@ -61,7 +74,7 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
             assert_ok(integrator_restart(&e, p.end, y));
         }
         const dem_counts counts = integrator_counts(&e);
-        assert_int_equal(counts.evaluations, calls);
+        assert_int_equal(counts.evaluations, w.calls);
         assert_true(counts.steps >= (dem_index)(p.end / 0.05));
         integrator_destroy(&e);
     }
@@ -74,14 +87,15 @@ static void steps_are_settled_and_states_changed_where_they_are(void **state)
     const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
     (void)state;
     for (int m = 0; m < 2; m++) {
-        int calls = 0, bounces = 0;
+        world w = {.walls.floor = -penetration_tolerance};
+        int bounces = 0;
         const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                      .ops = &array_ops_portable,
                                      .n_threads = 1,
-                                     .n_roots = 1,
                                      .derivative = fall,
-                                     .root_functions = height,
-                                     .context = &calls,
+                                     .begin_roots = begin_roots,
+                                     .root_function = root_function,
+                                     .context = &w,
                                      .method = methods[m],
                                      .position_error = 1.0,
                                      .velocity_error = 1.0,

@@ -7,17 +7,18 @@
 
 #include "base/status.h"
 #include "time/integrator.h"
+#include "unit/floor_and_ceiling.h"
 
 static const double g = 9.81;
 
 /* x'' = -omega^2 sin x - gamma v in the first component; y falls freely. The same answer for any number of calls. */
 typedef struct world {
     double omega, gamma;
-    double floor;            /* m: root functions are y - floor, and floor + 1 - y */
-    double fails_after;      /* s */
-    double pulled;           /* m/s: velocity of x as prescribed, or NAN */
-    double stiff_below;      /* m: the stiffening is 3 where x is below */
-    int calls, n_root_calls; /* of derivative and of the root functions */
+    floor_and_ceiling walls;
+    double fails_after; /* s */
+    double pulled;      /* m/s: velocity of x as prescribed, or NAN */
+    double stiff_below; /* m: the stiffening is 3 where x is below */
+    int calls;          /* of derivative */
 } world;
 
 static const world plain = {.omega = 1.0, .fails_after = 1e9, .pulled = (double)NAN, .stiff_below = -1e9};
@@ -38,13 +39,17 @@ static int move(double t, const double *y, double *u, double *a, void *context)
     return 1;
 }
 
-static void heights(double t, const double *y, double *roots, void *context)
+static void begin_roots(double t, const double *y, void *context)
 {
     world *w = context;
     (void)t;
-    w->n_root_calls++;
-    roots[0] = y[1] - w->floor;
-    roots[1] = w->floor + 1.0 - y[1];
+    floor_and_ceiling_begin(&w->walls, y);
+}
+
+static double root_function(const dense_output *step, void *context)
+{
+    world *w = context;
+    return floor_and_ceiling_root(&w->walls, step);
 }
 
 static double stiffening(const double *y, void *context)
@@ -53,15 +58,15 @@ static double stiffening(const double *y, void *context)
     return y[0] < w->stiff_below ? 3.0 : 1.0;
 }
 
-static integrator make(world *w, double h, dem_index n_roots, const double *y)
+static integrator make(world *w, double h, bool rooted, const double *y)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
                                  .n_threads = 1,
-                                 .n_roots = n_roots,
                                  .prescribes = !isnan(w->pulled),
                                  .derivative = move,
-                                 .root_functions = heights,
+                                 .begin_roots = rooted ? begin_roots : NULL,
+                                 .root_function = rooted ? root_function : NULL,
                                  .stiffening = stiffening,
                                  .context = w,
                                  .method = DEM_METHOD_VERLET,
@@ -86,11 +91,11 @@ static dense_output take(integrator *V, int n)
 /* State after n steps of h. */
 static void run(world w, double h, int n, const double *y0, double *y)
 {
-    integrator V = make(&w, h, 0, y0);
+    integrator V = make(&w, h, false, y0);
     const dense_output p = take(&V, n);
     memcpy(y, p.y1, 4 * sizeof *y);
     assert_int_equal(w.calls, n + 1);
-    assert_int_equal(w.n_root_calls, 0);
+    assert_int_equal(w.walls.asked, 0);
     assert_int_equal(integrator_counts(&V).evaluations, n + 1);
     assert_int_equal(integrator_counts(&V).steps, n);
     integrator_destroy(&V);
@@ -237,7 +242,7 @@ static void stiffening_halves_the_step(void **state)
     (void)state;
     w.stiff_below = 0.5;
     w.omega = 3.0;
-    integrator V = make(&w, 0.1, 0, y0);
+    integrator V = make(&w, 0.1, false, y0);
     int n_short = 0, n_long = 0;
     for (int k = 0; k < 100; k++) {
         bool rooted;
@@ -285,7 +290,7 @@ static void the_dense_output_of_a_step_is_that_of_shorter_steps(void **state)
     const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
     world w = plain;
     (void)state;
-    integrator V = make(&w, h, 0, y0);
+    integrator V = make(&w, h, false, y0);
     const dense_output p = take(&V, 1);
     for (int k = 0; k <= 10; k++) {
         double y[4], inside[4];
@@ -303,8 +308,8 @@ static void a_step_starts_where_the_last_one_ended(void **state)
     double t = 0.0, y[4], a[2];
     (void)state;
     memcpy(y, y0, sizeof y);
-    integrator V = make(&w, 0.1, 2, y0);
-    w.floor = -1e3;
+    integrator V = make(&w, 0.1, true, y0);
+    w.walls.floor = -1e3;
     for (int k = 0; k < 20; k++) {
         dense_output p;
         bool rooted;
@@ -340,14 +345,14 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
     dense_output p;
     double y[4];
     (void)state;
-    w.floor = 0.2;
-    integrator V = make(&w, 0.1, 2, y0);
+    w.walls.floor = 0.2;
+    integrator V = make(&w, 0.1, true, y0);
     step_to_root(&V, &p);
     assert_close(p.end, t, 1e-13);
     dense_output_state(&p, p.end, y);
     assert_close(y[1], 0.2, 1e-12);
     assert_close(y[3], -g * t, 1e-12);
-    assert_true(w.n_root_calls < 30); /* 4 steps; secants do it in a few */
+    assert_true(w.walls.asked < 30); /* 4 steps; secants do it in a few */
     integrator_destroy(&V);
 }
 
@@ -358,7 +363,7 @@ static void a_root_is_looked_for_only_as_the_function_falls(void **state)
     world w = plain;
     dense_output p;
     (void)state;
-    integrator V = make(&w, 0.04, 2, y0);
+    integrator V = make(&w, 0.04, true, y0);
     step_to_root(&V, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-13);
     integrator_destroy(&V);
@@ -375,8 +380,8 @@ static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
         world w = plain;
         dense_output p;
         bool rooted;
-        w.floor = -penetration_tolerance;
-        integrator V = make(&w, 0.07, 2, y0);
+        w.walls.floor = -penetration_tolerance;
+        integrator V = make(&w, 0.07, true, y0);
         step_to_root(&V, &p);
         const double first = p.end, t1 = p.t1;
         dense_output_state(&p, p.end, reflected);
@@ -407,7 +412,7 @@ static void a_derivative_that_fails_leaves_the_last_state(void **state)
     double y[4];
     (void)state;
     w.fails_after = 0.55;
-    integrator V = make(&w, 0.1, 0, y0);
+    integrator V = make(&w, 0.1, false, y0);
     p = take(&V, 5);
     memcpy(y, p.y1, sizeof y);
     assert_int_equal(integrator_step(&V, &p, &rooted), DEM_ERROR_INTEGRATOR);
@@ -419,17 +424,18 @@ static void a_derivative_that_fails_leaves_the_last_state(void **state)
     integrator_destroy(&(integrator){0});
 }
 
-static void root_functions_that_are_no_numbers_are_an_error(void **state)
+static void a_root_function_that_is_no_number_is_an_error(void **state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
     dense_output p;
     bool rooted;
     (void)state;
-    w.floor = (double)NAN;
-    integrator V = make(&w, 0.1, 2, y0);
+    integrator V = make(&w, 0.1, true, y0);
+    assert_ok(integrator_step(&V, &p, &rooted));
+    w.walls.broken = true;
     assert_int_equal(integrator_step(&V, &p, &rooted), DEM_ERROR_INTEGRATOR);
-    assert_string_equal(dem_status_message(), "guard 0 is not finite at t = 0 s");
+    assert_string_equal(dem_status_message(), "the root function is not finite at t = 0.2 s");
     integrator_destroy(&V);
 }
 
@@ -465,7 +471,7 @@ int main(void)
         cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),
         cmocka_unit_test(it_goes_on_from_a_new_state_or_through_the_root),
         cmocka_unit_test(a_derivative_that_fails_leaves_the_last_state),
-        cmocka_unit_test(root_functions_that_are_no_numbers_are_an_error),
+        cmocka_unit_test(a_root_function_that_is_no_number_is_an_error),
         cmocka_unit_test(without_a_fixed_step_it_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
