@@ -50,7 +50,8 @@ static inline double defect(const ends *e, dem_index k, double h)
 {
     const double x0 = e->x0[k], x1 = e->x1[k], v0 = e->v0[k], v1 = e->v1[k];
     const double d = x1 - x0 - h * (0.5 * (v0 + v1) + h * (e->a0[k] - e->a1[k]) / 12.0);
-    return fabs(d) > 4.0 * DBL_EPSILON * fmax(fabs(x0), fabs(x1)) ? d : 0.0;
+    const double larger = fabs(x0) > fabs(x1) ? fabs(x0) : fabs(x1); /* fmax() is a call */
+    return fabs(d) > 4.0 * DBL_EPSILON * larger ? d : 0.0;
 }
 
 /* From y0 with slope f0 to y1. */
