@@ -2,21 +2,22 @@
 /* Evaluates the external force, and keeps its failure. */
 #include "forces/external_force.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
 
-dem_status external_force_create(external_force **out, const dem_options *options, dem_index n_nodes)
+dem_status external_force_create(external_force **out, const dem_options *options, int dim, dem_index n_nodes)
 {
     const size_t n = (size_t)n_nodes;
     *out = NULL;
     if (options->force == NULL) return DEM_OK;
     external_force *c = calloc(1, sizeof *c);
     CHECK_MEMORY(c);
-    *c = (external_force){.force = options->force, .context = options->force_context, .n_nodes = n_nodes};
+    *c = (external_force){.force = options->force, .context = options->force_context, .dim = dim, .n_nodes = n_nodes};
     c->all = malloc(n * sizeof *c->all);
-    c->value = malloc(2 * n * sizeof *c->value);
+    c->value = malloc((size_t)dim * n * sizeof *c->value);
     if (c->all == NULL || c->value == NULL) {
         external_force_destroy(c);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for forces on %lld nodes", (long long)n_nodes);
@@ -43,14 +44,13 @@ static void fail(external_force *c, const dem_force_query *query, dem_status sta
 
 static void check(external_force *c, const dem_force_query *query, const double *force)
 {
-    for (dem_index k = 0; k < query->n && c->status == DEM_OK; k++)
-        if (!isfinite(force[2 * k]) || !isfinite(force[2 * k + 1]))
-            fail(c, query, DEM_ERROR_INTEGRATOR, query->nodes[k]);
+    for (dem_index k = 0; k < c->dim * query->n && c->status == DEM_OK; k++)
+        if (!isfinite(force[k])) fail(c, query, DEM_ERROR_INTEGRATOR, query->nodes[k / c->dim]);
 }
 
 static void ask(external_force *c, const dem_force_query *query, double *force)
 {
-    const size_t size = 2 * (size_t)query->n * sizeof *force;
+    const size_t size = (size_t)c->dim * (size_t)query->n * sizeof *force;
     memset(force, 0, size);
     if (c->status != DEM_OK) return;
     const dem_status status = c->force(c->context, query, force);
@@ -66,18 +66,20 @@ void external_force_evaluate(external_force *c, const dem_force_query *query)
     ask(c, query, c->value);
 }
 
-vec2 external_force_of_node(external_force *c, double t, dem_index node, vec2 x, vec2 v)
+void external_force_of_node(external_force *c, double t, dem_index node, const double *x, const double *v,
+                            double *force)
 {
-    const double at[2] = {x.x, x.y}, speed[2] = {v.x, v.y};
-    double force[2];
-    ask(c, &(dem_force_query){.t = t, .n = 1, .nodes = &node, .x = at, .v = speed}, force);
-    return vec2_at(force, 0);
+    ask(c, &(dem_force_query){.t = t, .n = 1, .nodes = &node, .x = x, .v = v}, force);
 }
 
 double external_force_power(const external_force *c, const double *v)
 {
     double power = 0.0;
-    for (dem_index i = 0; i < c->n_nodes; i++) power += vec2_dot(vec2_at(c->value, i), vec2_at(v, i));
+    for (dem_index i = 0; i < c->n_nodes; i++) {
+        double of_node = 0.0;
+        for (dem_index k = c->dim * i; k < c->dim * (i + 1); k++) of_node += c->value[k] * v[k];
+        power += of_node;
+    }
     return power;
 }
 

@@ -6,30 +6,32 @@
 
 #include <stdbool.h>
 
-#include "base/vec2.h"
+#include <dem/dem.h>
 
 typedef struct external_force {
     dem_force force;
     void *context;
+    int dim;
     dem_index n_nodes;
     dem_index *all;    /* [n_nodes] 0, 1, 2 ... */
-    double *value;     /* [n_nodes][2] N, of the last query about more than one node */
+    double *value;     /* [n_nodes][dim] N, of the last query about more than one node */
     dem_status status; /* DEM_OK; else a failure, since which the force is 0 */
     double t;          /* s, when */
     dem_index node;    /* the force on this node was not finite; -1: the status was returned */
 } external_force;
 
 /** Free with external_force_destroy(). */
-dem_status external_force_create(external_force **out, const dem_options *options, dem_index n_nodes);
+dem_status external_force_create(external_force **out, const dem_options *options, int dim, dem_index n_nodes);
 void external_force_destroy(external_force *c);
 
 /** Evaluates the forces on the nodes of a query, into `value`. */
 void external_force_evaluate(external_force *c, const dem_force_query *query);
 
 /** Force on one node with place x and velocity v at t, N; leaves `value` alone. */
-vec2 external_force_of_node(external_force *c, double t, dem_index node, vec2 x, vec2 v);
+void external_force_of_node(external_force *c, double t, dem_index node, const double *x, const double *v,
+                            double *force);
 
-/** Power of the forces in `value`, those on all nodes, W, with velocities v [n_nodes][2]. */
+/** Power of the forces in `value`, those on all nodes, W, with velocities v [n_nodes][dim]. */
 double external_force_power(const external_force *c, const double *v);
 
 /** Whether an evaluation has failed; no force (NULL) never fails. */

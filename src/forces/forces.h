@@ -169,8 +169,9 @@ static inline vec2 forces_acceleration(const forces *f, dem_index i, const doubl
 {
     const vec2 a = forces_own_acceleration(f, i, x, v);
     if (f->external == NULL) return a;
-    const vec2 force = external_force_of_node(f->external, v[f->clock], i, vec2_at(x, i), vec2_at(v, i));
-    return forces_with_external(f, i, a, force);
+    double force[2];
+    external_force_of_node(f->external, v[f->clock], i, x + 2 * i, v + 2 * i, force);
+    return forces_with_external(f, i, a, vec2_at(force, 0));
 }
 
 /** Puts the prescribed components at t into velocities u and accelerations a [n_nodes][2]; v has the velocities, and

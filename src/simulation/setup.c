@@ -84,7 +84,7 @@ static dem_status set_up(dem_simulation *s)
     TRY(boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
                                     model->obstacles.n));
     s->options.boundaries = NULL;
-    TRY(external_force_create(&s->external, o, model->lattice.n_nodes));
+    TRY(external_force_create(&s->external, o, s->layout.dim, model->lattice.n_nodes));
     TRY(options_fill(&s->options, model, &s->boundaries));
     s->forces = forces_of(s);
     TRY(allocate(s));

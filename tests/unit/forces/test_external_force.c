@@ -16,9 +16,11 @@ typedef struct source {
     dem_status status;
 } source;
 
-static vec2 right(dem_index node, double t, vec2 x, vec2 v)
+static int dim; /* of the test that runs */
+
+static void right(dem_index node, double t, const double *x, const double *v, double *force)
 {
-    return (vec2){100.0 * (double)node + x.x - v.y, t + 3.0 * x.y + 2.0 * v.x};
+    for (int c = 0; c < dim; c++) force[c] = 100.0 * (double)node + t * c + 3.0 * x[c] - 2.0 * v[(c + 1) % dim];
 }
 
 static dem_status answer(void *context, const dem_force_query *q, double *force)
@@ -26,9 +28,9 @@ static dem_status answer(void *context, const dem_force_query *q, double *force)
     source *s = context;
     s->calls++;
     for (dem_index k = 0; k < q->n; k++) {
-        assert_true(force[2 * k] == 0.0 && force[2 * k + 1] == 0.0);
-        vec2_put(force, k, right(q->nodes[k], q->t, vec2_at(q->x, k), vec2_at(q->v, k)));
-        if (q->nodes[k] == s->bad) force[2 * k + 1] = s->bad_value;
+        for (int c = 0; c < dim; c++) assert_true(force[dim * k + c] == 0.0);
+        right(q->nodes[k], q->t, q->x + dim * k, q->v + dim * k, force + dim * k);
+        if (q->nodes[k] == s->bad) force[dim * k + dim - 1] = s->bad_value;
     }
     return s->status;
 }
@@ -40,13 +42,13 @@ static external_force *make(source *s)
     *s = (source){.bad = -1};
     options.force = answer;
     options.force_context = s;
-    assert_int_equal(external_force_create(&c, &options, n_nodes), DEM_OK);
+    assert_int_equal(external_force_create(&c, &options, dim, n_nodes), DEM_OK);
     assert_non_null(c);
     return c;
 }
 
-static const double x[2 * n_nodes] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
-static const double v[2 * n_nodes] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+static const double x[3 * n_nodes] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0};
+static const double v[3 * n_nodes] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2};
 
 static void ask_all(external_force *c, double t)
 {
@@ -58,7 +60,7 @@ static void without_a_force_there_is_no_coupling(void **state)
     const dem_options options = dem_options_default();
     external_force *c = (external_force *)1;
     (void)state;
-    assert_int_equal(external_force_create(&c, &options, n_nodes), DEM_OK);
+    assert_int_equal(external_force_create(&c, &options, dim, n_nodes), DEM_OK);
     assert_null(c);
     assert_false(external_force_failed(NULL));
     external_force_destroy(NULL);
@@ -72,11 +74,12 @@ static void one_node_has_the_same_answer_as_all(void **state)
     ask_all(c, 0.25);
     assert_int_equal(s.calls, 1);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 wanted = right(i, 0.25, vec2_at(x, i), vec2_at(v, i));
-        const vec2 alone = external_force_of_node(c, 0.25, i, vec2_at(x, i), vec2_at(v, i));
-        assert_close(c->value[2 * i], wanted.x, 0.0);
-        assert_close(c->value[2 * i + 1], wanted.y, 0.0);
-        assert_memory_equal(&alone, &c->value[2 * i], sizeof alone);
+        const size_t size = (size_t)dim * sizeof(double);
+        double wanted[3], alone[3];
+        right(i, 0.25, x + dim * i, v + dim * i, wanted);
+        external_force_of_node(c, 0.25, i, x + dim * i, v + dim * i, alone);
+        assert_memory_equal(c->value + dim * i, wanted, size);
+        assert_memory_equal(alone, wanted, size);
     }
     assert_int_equal(s.calls, 1 + n_nodes);
     external_force_destroy(c);
@@ -89,8 +92,11 @@ static void power_is_force_times_velocity(void **state)
     (void)state;
     external_force *c = make(&s);
     ask_all(c, 2.0);
-    for (dem_index i = 0; i < n_nodes; i++)
-        power += vec2_dot(right(i, 2.0, vec2_at(x, i), vec2_at(v, i)), vec2_at(v, i));
+    for (dem_index i = 0; i < n_nodes; i++) {
+        double force[3];
+        right(i, 2.0, x + dim * i, v + dim * i, force);
+        for (int k = 0; k < dim; k++) power += force[k] * v[dim * i + k];
+    }
     assert_close(external_force_power(c, v), power, 1e-15 * power);
     external_force_destroy(c);
 }
@@ -98,15 +104,17 @@ static void power_is_force_times_velocity(void **state)
 /* Nobody is asked any more, and forces are 0, until the failure has been reported. */
 static void fail_and_recover(external_force *c, source *s, dem_status status, const char *message)
 {
-    static const double nothing[2 * n_nodes];
+    static const double nothing[3 * n_nodes];
+    const size_t row = (size_t)dim * sizeof(double), all = n_nodes * row;
     ask_all(c, 0.5);
     assert_true(external_force_failed(c));
-    assert_memory_equal(c->value, nothing, sizeof nothing);
+    assert_memory_equal(c->value, nothing, all);
     const long calls = s->calls;
     ask_all(c, 0.75);
-    const vec2 alone = external_force_of_node(c, 0.75, 0, vec2_at(x, 0), vec2_at(v, 0));
-    assert_memory_equal(c->value, nothing, sizeof nothing);
-    assert_memory_equal(&alone, nothing, sizeof alone);
+    double alone[3];
+    external_force_of_node(c, 0.75, 0, x, v, alone);
+    assert_memory_equal(c->value, nothing, all);
+    assert_memory_equal(alone, nothing, row);
     assert_int_equal(s->calls, calls);
     assert_int_equal(external_force_failure(c), status);
     assert_string_equal(dem_status_message(), message);
@@ -135,13 +143,29 @@ static void a_failure_lasts_until_it_is_reported(void **state)
     external_force_destroy(c);
 }
 
+static int in_two_dimensions(void **state)
+{
+    (void)state;
+    dim = 2;
+    return 0;
+}
+
+static int in_three_dimensions(void **state)
+{
+    (void)state;
+    dim = 3;
+    return 0;
+}
+
+#define IN_BOTH(test) cmocka_unit_test_setup(test, in_two_dimensions), cmocka_unit_test_setup(test, in_three_dimensions)
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_a_force_there_is_no_coupling),
-        cmocka_unit_test(one_node_has_the_same_answer_as_all),
-        cmocka_unit_test(power_is_force_times_velocity),
-        cmocka_unit_test(a_failure_lasts_until_it_is_reported),
+        IN_BOTH(without_a_force_there_is_no_coupling),
+        IN_BOTH(one_node_has_the_same_answer_as_all),
+        IN_BOTH(power_is_force_times_velocity),
+        IN_BOTH(a_failure_lasts_until_it_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

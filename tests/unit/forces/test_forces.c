@@ -83,7 +83,7 @@ static void drive(body *b)
          .ramp = 2.0}};
     const dem_options options = {.force = wind};
     assert_ok(boundary_conditions_compile(&b->boundaries, list, 2, &b->model->lattice, 0));
-    assert_ok(external_force_create(&b->external, &options, b->n));
+    assert_ok(external_force_create(&b->external, &options, 2, b->n));
     b->f.mass_damping = 30.0;
     b->f.boundaries = &b->boundaries;
     b->f.external = b->external;
@@ -230,9 +230,10 @@ static void the_power_of_a_node_is_its_force_times_its_velocity(void **state)
         const double at_rest[2 * MOST_NODES] = {0.0};
         drive(&b);
         for (dem_index i = 0; i < b.n; i++) {
-            const vec2 v = vec2_at(b.v, i), x = vec2_at(b.x, i);
-            const vec2 push = external_force_of_node(b.external, b.v[2 * b.n], i, x, v);
-            const forces_power power = forces_node_power(&b.f, i, push, b.x, b.v);
+            const vec2 v = vec2_at(b.v, i);
+            double push[2];
+            external_force_of_node(b.external, b.v[2 * b.n], i, b.x + 2 * i, b.v + 2 * i, push);
+            const forces_power power = forces_node_power(&b.f, i, vec2_at(push, 0), b.x, b.v);
             const double mass = b.model->lattice.mass[i];
             const double elastic = mass * vec2_dot(forces_acceleration(&still, i, b.x, at_rest), v);
             const double held =
