@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* local_springs.c: the nodes round one and their accelerations are those of forces.h, on a block that is deformed and
+ * moves, with springs listed by local numbers and node by node. */
+#include "verification/support.h"
+
+#include <stdlib.h>
+
+#include "forces/local_springs.h"
+
+enum { RINGS = 3 };
+
+typedef struct rig {
+    dem_model *model;
+    forces acting;
+    state_layout layout;
+    local_springs springs;
+    local_forces near;
+    local_nodes nodes;
+    double *y, *x, *v, *a; /* whole state; by local numbers */
+} rig;
+
+/* nu other than 1/3 brings the area term, for which each node is asked. */
+static void open_rig(rig *r, double poissons_ratio)
+{
+    const dem_material rubber = {
+        .youngs_modulus = 1e7, .poissons_ratio = poissons_ratio, .density = 1050.0, .thickness = 1.0};
+    dem_lattice block;
+    *r = (rig){0};
+    assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
+    assert_ok(dem_lattice_assemble(&block, &rubber));
+    assert_ok(dem_model_create(&r->model, &block, NULL, 0));
+    r->layout = state_layout_of(2, block.n_nodes, 0);
+    r->acting = (forces){.model = r->model, .gravity = {0.0, -9.81}, .mass_damping = 3.0};
+    const size_t size = (size_t)state_size(&r->layout);
+    r->y = calloc(4 * size, sizeof *r->y);
+    assert_non_null(r->y);
+    r->x = r->y + size;
+    r->v = r->x + size;
+    r->a = r->v + size;
+    for (dem_index k = 0; k < 2 * block.n_nodes; k++) {
+        r->y[k] = block.x[k] + 1e-4 * sin(3.0 * (double)k);
+        r->y[state_velocities(&r->layout) + k] = cos(5.0 * (double)k);
+    }
+    local_springs_create(&r->springs, &r->acting, &r->layout);
+    r->near = local_springs_forces(&r->springs);
+    assert_ok(local_nodes_create(&r->nodes, block.n_nodes, RINGS));
+    dem_lattice_free(&block);
+}
+
+static void close_rig(rig *r)
+{
+    local_nodes_destroy(&r->nodes);
+    local_springs_destroy(&r->springs);
+    dem_model_destroy(r->model);
+    free(r->y);
+}
+
+/* Gathers the rings round a node. */
+static void gather(rig *r, dem_index node)
+{
+    local_nodes_clear(&r->nodes);
+    assert_ok(local_nodes_add(&r->nodes, node));
+    r->nodes.end[0] = 1;
+    for (int ring = 1; ring <= RINGS; ring++) {
+        const dem_index first = local_nodes_begin(&r->nodes, ring - 1), last = r->nodes.end[ring - 1];
+        assert_ok(r->near.add_neighbours(r->near.self, &r->nodes, first, last));
+        r->nodes.end[ring] = r->nodes.n;
+    }
+    assert_ok(r->near.gather(r->near.self, &r->nodes));
+    for (dem_index j = 0; j < r->nodes.n; j++) {
+        state_copy_row(&r->layout, r->x + 2 * j, state_x(&r->layout, r->y, r->nodes.list[j]));
+        state_copy_row(&r->layout, r->v + 2 * j, state_v(&r->layout, r->y, r->nodes.list[j]));
+    }
+}
+
+/* Forces of 1e3 N on 0.02 kg are summed in another order: 1e-16 times some ten of them. One node alone has the bits. */
+static void check_accelerations(rig *r)
+{
+    const local_state s = {0.0, r->x, r->v, r->y};
+    gather(r, r->layout.n_nodes / 2);
+    for (int ring = 0; ring < RINGS; ring++) {
+        r->near.accelerate(r->near.self, &r->nodes, ring, &s, r->a);
+        for (dem_index j = 0; j < r->nodes.end[ring]; j++) {
+            const dem_index i = r->nodes.list[j];
+            const vec2 a = forces_acceleration(&r->acting, i, r->y, r->y + state_velocities(&r->layout));
+            double alone[2];
+            r->near.accelerate_one(r->near.self, i, r->y, alone);
+            assert_close(alone[0], a.x, 0.0);
+            assert_close(alone[1], a.y, 0.0);
+            assert_close(r->a[2 * j], a.x, 1e-9);
+            assert_close(r->a[2 * j + 1], a.y, 1e-9);
+        }
+    }
+}
+
+static void accelerations_are_those_of_the_model(void **state)
+{
+    (void)state;
+    for (int area = 0; area < 2; area++) {
+        rig r;
+        open_rig(&r, area ? 0.2 : 1.0 / 3.0);
+        assert_int_equal(r.springs.plain, !area);
+        assert_int_equal(r.near.read_state, area);
+        check_accelerations(&r);
+        close_rig(&r);
+    }
+}
+
+/* Half of the springs are broken, those with an odd number. */
+static void broken_springs_do_not_pull(void **state)
+{
+    rig r;
+    element_state broken;
+    (void)state;
+    open_rig(&r, 1.0 / 3.0);
+    assert_ok(element_state_create(&broken, &r.model->lattice));
+    for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2)
+        element_state_break_spring(&broken, &r.model->lattice, k);
+    r.acting.elements = &broken;
+    check_accelerations(&r);
+    element_state_destroy(&broken);
+    close_rig(&r);
+}
+
+/* Every node has its number, in the nearest ring; those gathered before are forgotten. */
+static void nodes_have_their_numbers_in_rings(void **state)
+{
+    rig r;
+    (void)state;
+    open_rig(&r, 1.0 / 3.0);
+    gather(&r, 0);
+    gather(&r, r.layout.n_nodes / 2);
+    dem_index n = 0;
+    for (dem_index i = 0; i < r.layout.n_nodes; i++) n += r.nodes.number[i] >= 0;
+    assert_int_equal(n, r.nodes.n);
+    assert_int_equal(r.nodes.end[1], 7); /* of a triangular lattice */
+    for (dem_index j = 0; j < r.nodes.n; j++) {
+        assert_int_equal(r.nodes.number[r.nodes.list[j]], j);
+        for (int ring = 0; ring <= RINGS; ring++)
+            assert_int_equal(local_nodes_have(&r.nodes, r.nodes.list[j], ring), j < r.nodes.end[ring]);
+    }
+    assert_false(local_nodes_have(&r.nodes, 0, RINGS));
+    close_rig(&r);
+}
+
+/* The damping of masses takes alpha m v^2 of each. */
+static void power_is_summed_over_rings(void **state)
+{
+    double totals[STATE_TOTALS] = {0.0}, expected = 0.0;
+    rig r;
+    (void)state;
+    open_rig(&r, 1.0 / 3.0);
+    gather(&r, r.layout.n_nodes / 2);
+    assert_true(r.near.have_power);
+    r.near.add_power(r.near.self, &r.nodes, 1, r.y, totals);
+    for (dem_index j = 0; j < r.nodes.end[1]; j++) {
+        const vec2 v = vec2_at(r.v, j);
+        expected += 3.0 * r.model->lattice.mass[r.nodes.list[j]] * vec2_dot(v, v);
+    }
+    assert_close(totals[STATE_DAMPING], expected, 1e-14 * expected);
+    assert_close(totals[STATE_WORK], 0.0, 0.0);
+    close_rig(&r);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(accelerations_are_those_of_the_model),
+        cmocka_unit_test(broken_springs_do_not_pull),
+        cmocka_unit_test(nodes_have_their_numbers_in_rings),
+        cmocka_unit_test(power_is_summed_over_rings),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
