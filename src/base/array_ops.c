@@ -155,6 +155,13 @@ static void kick(double *restrict v1, const double *a0, const double *a1, double
     for (dem_index k = 0; k < size; k++) v1[k] += 0.5 * h * (a1[k] - a0[k]);
 }
 
+/* ---- lengths ---- */
+
+static void stretch(double *lengths, const double *reference, int n)
+{
+    for (int k = 0; k < n; k++) lengths[k] = (sqrt(lengths[k]) - reference[k]) / reference[k];
+}
+
 /* ---- exact sums: error-free extraction (Rump, Ogita and Oishi 2008; Demmel and Nguyen 2013) ---- */
 
 INLINE vector magnitudes(vector x)
@@ -215,4 +222,4 @@ static double split(double parts[2], double *terms, int n, double size)
     return total(left);
 }
 
-const array_ops ARRAY_OPS = {combine, square, drift, kick, magnitude, split};
+const array_ops ARRAY_OPS = {combine, square, drift, kick, stretch, magnitude, split};

@@ -5,6 +5,8 @@
 
 #include <dem/dem.h>
 
+#include "base/instruction_set.h"
+
 /** A sum of squares that does not depend on their order: each is rounded to 2^-60 and added as an integer. */
 typedef struct array_ops_sum {
     int64_t high, low; /* in units of 2^-20 and 2^-60, 0 <= low < 2^40 */
@@ -25,6 +27,8 @@ typedef struct array_ops {
     void (*drift)(double *x1, double *v1, const double *const start[3], double h, dem_index size);
     /** v1 += h/2 (a1 - a0) */
     void (*kick)(double *v1, const double *a0, const double *a1, double h, dem_index size);
+    /** In place of n squared lengths: how far each length is off its reference, in units of that. */
+    void (*stretch)(double *lengths, const double *reference, int n);
     /** Sum of the magnitudes of n terms, a multiple of ARRAY_OPS_LANES; NAN or infinite if one of them is that. */
     double (*magnitude)(const double *terms, int n);
     /** Splits n terms, a multiple of ARRAY_OPS_LANES and at most ARRAY_OPS_TERMS, without an error: their sum is that
@@ -40,6 +44,13 @@ extern const array_ops array_ops_portable;
 #define array_ops_avx2   array_ops_portable
 #define array_ops_avx512 array_ops_portable
 #endif
+
+/** The table for this machine, where any will do. */
+static inline const array_ops *array_ops_fastest(void)
+{
+    if (instruction_set_avx512()) return &array_ops_avx512;
+    return instruction_set_avx2() ? &array_ops_avx2 : &array_ops_portable;
+}
 
 /** Adds one sum to another. */
 static inline void array_ops_add(array_ops_sum *sum, const array_ops_sum *other)

@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-#include "base/instruction_set.h"
-
 enum {
     limb_bits = 32,
     mantissa_bits = 53,
@@ -37,17 +35,10 @@ void exact_sum_add_special(exact_sum *s, double term)
 
 /* ---- many terms ---- */
 
-/* All give the same sum. */
-static const array_ops *fastest(void)
-{
-    if (instruction_set_avx512()) return &array_ops_avx512;
-    return instruction_set_avx2() ? &array_ops_avx2 : &array_ops_portable;
-}
-
 /* Usual terms are split once or twice, those as far apart as doubles can be some twenty times. */
 int exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
 {
-    const array_ops *ops = fastest();
+    const array_ops *ops = array_ops_fastest();
     while (n % ARRAY_OPS_LANES != 0) terms[n++] = 0.0;
     double size = ops->magnitude(terms, n), parts[2];
     while (size > 0.0 && size <= ARRAY_OPS_LARGEST_SIZE) {

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/array_ops.h"
 #include "base/reduce.h"
 #include "base/status.h"
 
@@ -112,11 +113,6 @@ static double energy(double stiffness, double rest_length, double strain)
     return 0.5 * stiffness * rest_length * strain * strain;
 }
 
-static double energy_of(const dem_lattice *l, const unsigned char *broken, dem_index k, const double *x)
-{
-    return springs_is_broken(broken, k) ? 0.0 : energy(l->stiffness[k], l->rest_length[k], springs_strain_of(l, k, x));
-}
-
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x)
 {
     double sum = 0.0;
@@ -126,13 +122,27 @@ double springs_node_energy(const springs *s, const unsigned char *broken, dem_in
     return sum;
 }
 
+void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, const double *x, double *strain)
+{
+    const dem_index *ends = lattice->ends + 2 * first;
+    for (int q = 0; q < n; q++) {
+        const vec2 d = vec2_sub(vec2_at(x, ends[2 * q + 1]), vec2_at(x, ends[2 * q]));
+        strain[q] = vec2_dot(d, d);
+    }
+    array_ops_fastest()->stretch(strain, lattice->rest_length + first, n);
+}
+
 double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x)
 {
     exact_sum sum = {0};
     double terms[EXACT_SUM_BLOCK];
+    const double *stiffness = lattice->stiffness, *rest_length = lattice->rest_length;
     for (dem_index first = 0; first < lattice->n_springs; first += EXACT_SUM_BLOCK) {
         const int n = exact_sum_block(first, lattice->n_springs);
-        for (int q = 0; q < n; q++) terms[q] = energy_of(lattice, broken, first + q, x);
+        springs_strain_block(lattice, first, n, x, terms);
+        for (int q = 0; q < n; q++) terms[q] = energy(stiffness[first + q], rest_length[first + q], terms[q]);
+        for (int q = 0; q < n && broken != NULL; q++)
+            if (broken[first + q]) terms[q] = 0.0;
         (void)exact_sum_take(&sum, terms, n);
     }
     return reduce_sum(&sum);
@@ -140,8 +150,10 @@ double springs_energy(const dem_lattice *lattice, const unsigned char *broken, c
 
 void springs_strains(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *strain)
 {
-    for (dem_index k = 0; k < lattice->n_springs; k++)
-        strain[k] = springs_is_broken(broken, k) ? 0.0 : springs_strain_of(lattice, k, x);
+    for (dem_index first = 0; first < lattice->n_springs; first += EXACT_SUM_BLOCK)
+        springs_strain_block(lattice, first, exact_sum_block(first, lattice->n_springs), x, strain + first);
+    for (dem_index k = 0; k < lattice->n_springs && broken != NULL; k++)
+        if (broken[k]) strain[k] = 0.0;
 }
 
 void springs_forces(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *force)

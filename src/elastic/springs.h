@@ -83,6 +83,9 @@ static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, 
     return (vec2_norm(d) - lattice->rest_length[k]) / lattice->rest_length[k];
 }
 
+/** The same of n springs from `first` on, broken or not, into `strain` [n], with vector instructions. */
+void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, const double *x, double *strain);
+
 /** r x f of spring k of a lattice, N m: xx, yy, xy of E_ij (d - d0)/d0 d n n^T, symmetric; the damping left out. Not
  *  finite where its ends coincide. */
 static inline void springs_virial(const dem_lattice *lattice, dem_index k, const double *x, double virial[3])

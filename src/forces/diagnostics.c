@@ -108,7 +108,7 @@ static void measure_triangles(const forces *f, const double *x, dem_strain *stra
         const dem_index *c = &l->triangles[3 * k];
         const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
         const double ratio = vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
-        strain->area_min = fmin(strain->area_min, ratio);
+        if (ratio < strain->area_min) strain->area_min = ratio;
         strain->guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
         strain->inverted += ratio <= 0.0;
     }
@@ -117,34 +117,66 @@ static void measure_triangles(const forces *f, const double *x, dem_strain *stra
     strain->inverted = reduce_count(strain->inverted);
 }
 
-/* The end of a spring with the lower number; -1 without a spring. */
-static dem_index lower_end(const dem_model *model, dem_index spring)
+/* The ends of a spring, the lower number first. */
+typedef struct spring_ends {
+    dem_index low, high;
+} spring_ends;
+
+static spring_ends ends_of(const dem_lattice *l, dem_index spring)
 {
-    if (spring < 0) return -1;
-    const dem_index *ends = &model->lattice.ends[2 * spring];
-    return ends[0] < ends[1] ? ends[0] : ends[1];
+    const dem_index *ends = &l->ends[2 * spring];
+    return ends[0] < ends[1] ? (spring_ends){ends[0], ends[1]} : (spring_ends){ends[1], ends[0]};
+}
+
+/* Of springs with equal strains the first by its ends is named, whatever the order of springs. */
+static bool is_before(const dem_lattice *l, dem_index spring, dem_index other)
+{
+    const spring_ends a = ends_of(l, spring), b = ends_of(l, other);
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+}
+
+/* The extremes so far, and their springs; -1: none. */
+typedef struct extreme_strains {
+    double min, max;
+    dem_index least, largest;
+} extreme_strains;
+
+static void measure_spring(const dem_lattice *l, dem_index k, double strain, extreme_strains *e)
+{
+    if (e->least < 0 || strain < e->min || (strain == e->min && is_before(l, k, e->least))) {
+        e->min = strain;
+        e->least = k;
+    }
+    if (e->largest < 0 || strain > e->max || (strain == e->max && is_before(l, k, e->largest))) {
+        e->max = strain;
+        e->largest = k;
+    }
+}
+
+static void measure_springs(const forces *f, const double *x, dem_strain *strain)
+{
+    const dem_lattice *l = &f->model->lattice;
+    const unsigned char *broken = element_state_springs(f->elements);
+    extreme_strains e = {.least = -1, .largest = -1};
+    double block[EXACT_SUM_BLOCK];
+    for (dem_index first = 0; first < l->n_springs; first += EXACT_SUM_BLOCK) {
+        const int n = exact_sum_block(first, l->n_springs);
+        springs_strain_block(l, first, n, x, block);
+        for (int q = 0; q < n; q++)
+            if (!springs_is_broken(broken, first + q)) measure_spring(l, first + q, block[q], &e);
+    }
+    reduce_least(&e.min, &e.least, e.least < 0 ? -1 : ends_of(l, e.least).low);
+    reduce_largest(&e.max, &e.largest, e.largest < 0 ? -1 : ends_of(l, e.largest).low);
+    strain->min = e.min;
+    strain->max = e.max;
+    strain->spring_min = e.least;
+    strain->spring_max = e.largest;
 }
 
 dem_strain diagnostics_strain(const forces *f, const double *x)
 {
-    const springs *s = &f->model->springs;
-    const unsigned char *broken = element_state_springs(f->elements);
-    dem_strain strain = {.spring_min = -1, .spring_max = -1, .area_min = 1.0};
-    for (dem_index i = 0; i < s->n_nodes; i++)
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            if (s->neighbour[p] < i || springs_broken(s, broken, p)) continue;
-            const double here = springs_strain(s, i, p, x);
-            if (strain.spring_min < 0 || here < strain.min) {
-                strain.min = here;
-                strain.spring_min = s->spring[p];
-            }
-            if (strain.spring_max < 0 || here > strain.max) {
-                strain.max = here;
-                strain.spring_max = s->spring[p];
-            }
-        }
-    reduce_least(&strain.min, &strain.spring_min, lower_end(f->model, strain.spring_min));
-    reduce_largest(&strain.max, &strain.spring_max, lower_end(f->model, strain.spring_max));
+    dem_strain strain = {.area_min = 1.0};
+    measure_springs(f, x, &strain);
     measure_triangles(f, x, &strain);
     return strain;
 }

@@ -65,6 +65,22 @@ static double value(const array_ops *b, const double *x, const double *w, double
 }
 
 /* Each square is off by 2^-61, and a sum in long double by less. */
+static void relative_changes_of_lengths_are_those_of_each_one(void **state)
+{
+    (void)state;
+    for (int t = 0; t < n_tables; t++)
+        for (int n = 0; n < 40; n++) {
+            double lengths[40], reference[40];
+            for (int k = 0; k < n; k++) {
+                lengths[k] = 0.3 + k * k;
+                reference[k] = 0.7 + 0.9 * k;
+            }
+            tables[t]->stretch(lengths, reference, n);
+            for (int k = 0; k < n; k++) /* to the bit */
+                assert_close(lengths[k], (sqrt(0.3 + k * k) - reference[k]) / reference[k], 0.0);
+        }
+}
+
 static void squares_add_up(void **state)
 {
     (void)state;
@@ -218,6 +234,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(combinations_are_sums_from_the_first_term_on),
+        cmocka_unit_test(relative_changes_of_lengths_are_those_of_each_one),
         cmocka_unit_test(squares_add_up),
         cmocka_unit_test(the_order_of_squares_does_not_matter),
         cmocka_unit_test(squares_of_all_sizes_are_exact),

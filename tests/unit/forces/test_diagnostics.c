@@ -207,6 +207,9 @@ static void extremes_of_strain_are_found_with_their_springs(void **state)
     assert_int_equal(strain.spring_max, 3);
     assert_close(strain.area_min, 1.0, 0.0);
     assert_int_equal(strain.guarded, 0);
+    const double rest[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0};
+    strain = strain_of(model, rest);
+    assert_int_equal(strain.spring_max, 3); /* 0-1, before 3-0 and 1-2 by its ends, and 2-3 that has number 0 */
     dem_model_destroy(model);
 }
 
