@@ -241,11 +241,11 @@ double automaton_add_rates(const automaton *c, double t, const double *y, double
     return work;
 }
 
-dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list)
+const dem_contact *automaton_list(const automaton *c, double t, const double *x, dem_index *n)
 {
-    dem_index n = 0;
+    *n = 0;
     for (dem_index k = 0; k < c->set.n; k++)
         for (int q = 0; q < c->set.list[k].n_closed; q++)
-            list[n++] = contact_point_describe(&c->set.scene, &c->set.list[k], q, t, x);
-    return n;
+            c->set.described[(*n)++] = contact_point_describe(&c->set.scene, &c->set.list[k], q, t, x);
+    return c->set.described;
 }

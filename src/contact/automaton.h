@@ -70,8 +70,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
  *  changes only the state near them; projection, other forces and the broad phase are left to the caller. */
 dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener);
 
-/** Closed contacts at positions x at t, in the order of candidates, into list [2 n_candidates]; returns their
- *  number. */
-dem_index automaton_list(const automaton *c, double t, const double *x, dem_contact *list);
+/** Closed contacts at positions x at t, [*n] in the order of candidates, until the next call or another surface. */
+const dem_contact *automaton_list(const automaton *c, double t, const double *x, dem_index *n);
 
 #endif

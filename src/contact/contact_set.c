@@ -36,7 +36,8 @@ static dem_status list_candidates(contact_set *c, const contact_scene *scene)
     c->of_node = malloc((size_t)scene->model->lattice.n_nodes * sizeof *c->of_node);
     c->involved = malloc(((size_t)c->n + 1) * sizeof *c->involved);
     c->impacts = calloc((size_t)c->n + 1, sizeof *c->impacts);
-    CHECK(c->list && c->of_node && c->involved && c->impacts, DEM_ERROR_MEMORY,
+    c->described = calloc(2 * (size_t)c->n + 1, sizeof *c->described);
+    CHECK(c->list && c->of_node && c->involved && c->impacts && c->described, DEM_ERROR_MEMORY,
           "out of memory for %lld contact candidates", (long long)c->n);
     list_nodes(c);
     list_edges(c);
@@ -49,6 +50,7 @@ static void free_candidates(contact_set *c)
     free(c->of_node);
     free(c->involved);
     free(c->impacts);
+    free(c->described);
     contact_forces_destroy(&c->forces);
 }
 

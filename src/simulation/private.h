@@ -18,6 +18,7 @@
 typedef struct run_measures {
     bool has_events, has_state, has_contacts, has_energy, has_strain, has_body;
     dem_index n_contacts;
+    const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;
     dem_strain strain;
     dem_index body; /* the last one asked about */
@@ -41,20 +42,19 @@ struct dem_simulation {
     source_list sources;         /* of events */
     event_queue queue;           /* of the events inside steps; empty if the whole body stops at them */
     integrator integrator;
-    double t;              /* s, of y */
-    double step;           /* s, length of the last committed step */
-    double *y;             /* [4 n] state (x, v) after the last committed step, the integrator's */
-    double *initial;       /* [4 n] state before there is an integrator */
-    double *frame;         /* [4 n] state interpolated to a frame or to t_end */
-    dense_output path;     /* the step in hand */
-    bool in_hand;          /* whether there is one */
-    bool at_event;         /* whether it ends with one */
-    bool started;          /* whether the contacts of the initial state have been taken up */
-    bool advanced;         /* whether the run has begun: no more observers */
-    bool advancing;        /* whether an advance is under way */
-    double seen_t;         /* s, of what observers and callers see: */
-    const double *seen;    /* y or frame */
-    dem_contact *contacts; /* [2 n_candidates + 2 n_edges] closed ones, as seen */
+    double t;           /* s, of y */
+    double step;        /* s, length of the last committed step */
+    double *y;          /* [4 n] state (x, v) after the last committed step, the integrator's */
+    double *initial;    /* [4 n] state before there is an integrator */
+    double *frame;      /* [4 n] state interpolated to a frame or to t_end */
+    dense_output path;  /* the step in hand */
+    bool in_hand;       /* whether there is one */
+    bool at_event;      /* whether it ends with one */
+    bool started;       /* whether the contacts of the initial state have been taken up */
+    bool advanced;      /* whether the run has begun: no more observers */
+    bool advancing;     /* whether an advance is under way */
+    double seen_t;      /* s, of what observers and callers see: */
+    const double *seen; /* y or frame */
     run_measures *measures;
     int unlooked; /* steps since overlaps were looked for */
     dem_index events;

@@ -37,25 +37,28 @@ static const double *seen_of(const dem_simulation *s)
     return s->seen;
 }
 
-static dem_index contacts_of(const dem_simulation *s)
+static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 {
     run_measures *m = s->measures;
-    if (!m->has_contacts) m->n_contacts = automaton_list(&s->automaton, s->seen_t, seen_of(s), s->contacts);
+    if (!m->has_contacts) m->contacts = automaton_list(&s->automaton, s->seen_t, seen_of(s), &m->n_contacts);
     m->has_contacts = true;
-    return m->n_contacts;
+    *n = m->n_contacts;
+    return m->contacts;
 }
 
 /* ---- public ---- */
 
 void dem_simulation_state(const dem_simulation *s, dem_state *state)
 {
+    dem_index n_contacts;
+    const dem_contact *contacts = contacts_of(s, &n_contacts);
     *state = (dem_state){.struct_size = sizeof *state,
                          .t = s->seen_t,
                          .step = s->step,
                          .x = seen_of(s),
                          .v = s->seen + state_velocities(&s->layout),
-                         .n_contacts = contacts_of(s),
-                         .contacts = s->contacts,
+                         .n_contacts = n_contacts,
+                         .contacts = contacts,
                          .energy = dem_simulation_energy(s)};
 }
 
@@ -142,9 +145,11 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 {
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
+    dem_index n_closed;
+    const dem_contact *closed = contacts_of(s, &n_closed);
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
-    dem_obstacle_load load = diagnostics_reaction(s->contacts, contacts_of(s), obstacle);
+    dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle);
     for (int k = 0; k < 2; k++) {
         load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];
         load.friction_impulse[k] = reduce_rounded_sum(ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];

@@ -18,9 +18,8 @@ static dem_status allocate(dem_simulation *s)
     const size_t n = (size_t)state_size(&s->layout);
     s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
-    s->contacts = calloc(2 * (size_t)(s->model->surface.n_nodes + s->model->surface.n_edges) + 1, sizeof *s->contacts);
     s->measures = calloc(1, sizeof *s->measures);
-    CHECK(s->y && s->frame && s->contacts && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
+    CHECK(s->y && s->frame && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
@@ -166,7 +165,6 @@ void dem_simulation_destroy(dem_simulation *s)
     overlap_destroy(&s->overlap);
     free(s->initial);
     free(s->frame);
-    free(s->contacts);
     free(s->measures);
     dem_record_destroy(s->record);
     dem_record_destroy(s->rollback);
