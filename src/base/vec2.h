@@ -11,6 +11,12 @@ typedef struct vec2 {
     double x, y;
 } vec2;
 
+/** Where vector i begins in an array [n][2]; also how many numbers i vectors are. */
+static inline dem_index vec2_row(dem_index i)
+{
+    return 2 * i;
+}
+
 static inline vec2 vec2_at(const double *array, dem_index i) /* array [n][2] */
 {
     return (vec2){array[2 * i], array[2 * i + 1]};

@@ -208,10 +208,10 @@ dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, 
         candidate->storm.start = now->t;
         candidate->storm.n = 0;
     }
+    const vec2 place = vec2_at(now->x, candidate->node);
     CHECK(++candidate->storm.n <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s",
-          candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node,
-          now->x[2 * candidate->node], now->x[2 * candidate->node + 1], (long long)c->scene.rule.max_impacts,
-          c->scene.rule.storm_time, now->t);
+          candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node, place.x, place.y,
+          (long long)c->scene.rule.max_impacts, c->scene.rule.storm_time, now->t);
     return DEM_OK;
 }

@@ -83,9 +83,10 @@ static double push_power(const boundary_condition *b, double t, const double *v)
     return boundary_condition_ramp(b, t) * vec2_dot(b->value, sum);
 }
 
-static void put_component(double *array, dem_index i, int c, vec2 value)
+static vec2 with_components(const boundary_condition *b, vec2 free, vec2 prescribed)
 {
-    array[2 * i + c] = c == 0 ? value.x : value.y;
+    return (vec2){b->components & DEM_COMPONENT_X ? prescribed.x : free.x,
+                  b->components & DEM_COMPONENT_Y ? prescribed.y : free.y};
 }
 
 /* Prescribes components of f and a; returns the power that this takes, the sum of m (a - a without it).v. */
@@ -93,15 +94,15 @@ static double prescribe(const boundary_condition *b, const double *mass, double 
 {
     const vec2 velocity = boundary_condition_velocity(b, t), acceleration = boundary_condition_acceleration(b, t);
     double power = 0.0;
-    for (dem_index k = 0; k < b->n_nodes; k++)
-        for (int c = 0; c < 2; c++) {
-            const dem_index i = b->nodes[k];
-            if (!(b->components & (DEM_COMPONENT_X << c))) continue;
-            const double before = a[2 * i + c];
-            put_component(f, i, c, velocity);
-            put_component(a, i, c, acceleration);
-            power += mass[i] * (a[2 * i + c] - before) * f[2 * i + c];
-        }
+    for (dem_index k = 0; k < b->n_nodes; k++) {
+        const dem_index i = b->nodes[k];
+        const vec2 before = vec2_at(a, i), u = with_components(b, vec2_at(f, i), velocity),
+                   now = with_components(b, before, acceleration);
+        vec2_put(f, i, u);
+        vec2_put(a, i, now);
+        power += mass[i] * (now.x - before.x) * u.x;
+        power += mass[i] * (now.y - before.y) * u.y;
+    }
     return power;
 }
 
@@ -115,13 +116,17 @@ double boundary_conditions_prescribe(const boundary_conditions *b, const double 
     return power;
 }
 
+static void begin(const boundary_condition *b, double *v)
+{
+    const vec2 velocity = boundary_condition_velocity(b, 0.0);
+    for (dem_index k = 0; k < b->n_nodes; k++)
+        vec2_put(v, b->nodes[k], with_components(b, vec2_at(v, b->nodes[k]), velocity));
+}
+
 void boundary_conditions_begin(const boundary_conditions *b, double *v)
 {
     for (dem_index k = 0; k < b->n; k++)
-        for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].kind != DEM_BOUNDARY_FORCE; p++)
-            for (int c = 0; c < 2; c++)
-                if (b->list[k].components & (DEM_COMPONENT_X << c))
-                    put_component(v, b->list[k].nodes[p], c, boundary_condition_velocity(&b->list[k], 0.0));
+        if (b->list[k].kind != DEM_BOUNDARY_FORCE) begin(&b->list[k], v);
 }
 
 bool boundary_conditions_move(const boundary_conditions *b)

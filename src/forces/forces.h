@@ -199,7 +199,7 @@ double forces_damping_power(const forces *f, const double *x, const double *v);
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)
 {
     const dem_model *model = f->model;
-    const double weight = model->lattice.mass[i] * (f->gravity[0] * x[2 * i] + f->gravity[1] * x[2 * i + 1]);
+    const double weight = model->lattice.mass[i] * vec2_dot(vec2_at(f->gravity, 0), vec2_at(x, i));
     const element_state *state = element_state_at(f->elements, i);
     return springs_node_energy(&model->springs, element_state_springs(state), i, x) +
            triangles_node_energy(&model->triangles, element_state_triangles(state), i, x) - weight;

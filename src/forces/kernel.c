@@ -167,9 +167,9 @@ static double sweep_blocks(kernel *k, const sweep *s)
 
 static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last)
 {
-    const dem_index at = 2 * first;
+    const dem_index at = vec2_row(first);
     const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
-    k->ops->drift(p->x1 + at, p->v1 + at, start, p->h, 2 * (last - first));
+    k->ops->drift(p->x1 + at, p->v1 + at, start, p->h, vec2_row(last - first));
 }
 
 /* Drifts those ends of a thread's share of blocks that other threads read, and nodes in no block. */
@@ -190,14 +190,15 @@ static double accelerate_row(const kernel *k, const forces *f, const kernel_stat
     if (p != NULL) drift(k, p, i, i + 1);
     const vec2 a = forces_own_acceleration(f, i, y->x, y->v);
     vec2_put(y->a, i, a);
-    if (p != NULL) k->ops->kick(p->v1 + 2 * i, p->a0 + 2 * i, y->a + 2 * i, p->h, 2);
+    const dem_index at = vec2_row(i);
+    if (p != NULL) k->ops->kick(p->v1 + at, p->a0 + at, y->a + at, p->h, vec2_row(1));
     return a.x + a.y;
 }
 
 static double copy_velocities(const kernel_state *y, dem_index first, dem_index last)
 {
     double sum = 0.0;
-    for (dem_index i = 2 * first; i < 2 * last && y->u != NULL; i++) sum += y->u[i] = y->v[i];
+    for (dem_index c = vec2_row(first); c < vec2_row(last) && y->u != NULL; c++) sum += y->u[c] = y->v[c];
     return sum;
 }
 
@@ -205,7 +206,7 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
 static double sum_up(const kernel_state *y, dem_index n)
 {
     double sum = 0.0;
-    for (dem_index c = 0; c < 2 * n; c++) sum += y->u != NULL ? y->a[c] + y->u[c] : y->a[c];
+    for (dem_index c = 0; c < vec2_row(n); c++) sum += y->u != NULL ? y->a[c] + y->u[c] : y->a[c];
     return sum;
 }
 

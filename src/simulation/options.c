@@ -44,7 +44,7 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
     speed = fmax(speed, fmax(boundary_conditions_speed(b), model->obstacles.bounds.speed));
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
     for (dem_index k = 0; k < model->surface.n_nodes; k++)
-        drop = fmin(drop, dem_model_gap(model, &l->position[2 * model->surface.nodes[k]]));
+        drop = fmin(drop, dem_model_gap(model, &l->position[vec2_row(model->surface.nodes[k])]));
     speed = reduce_max(speed);
     drop = reduce_min(drop);
     const double g = hypot(o->gravity[0], o->gravity[1]);

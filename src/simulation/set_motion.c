@@ -18,12 +18,12 @@ static int held(const dem_simulation *s, dem_index i)
 static dem_status check(const dem_simulation *s, const char *what, const double *wanted, const double *now)
 {
     for (dem_index k = 0; wanted != NULL && k < state_row(&s->layout, s->layout.n_nodes); k++) {
-        const dem_index i = k / 2;
-        CHECK(isfinite(wanted[k]), DEM_ERROR_ARGUMENT, "the %s (%g, %g) of node %lld is not finite", what,
-              wanted[2 * i], wanted[2 * i + 1], (long long)i);
-        CHECK(!(held(s, i) & (DEM_COMPONENT_X << k % 2)) || wanted[k] == now[k], DEM_ERROR_ARGUMENT,
+        const dem_index dim = s->layout.dim, i = k / dim, row = state_row(&s->layout, i);
+        CHECK(isfinite(wanted[k]), DEM_ERROR_ARGUMENT, "the %s (%g, %g) of node %lld is not finite", what, wanted[row],
+              wanted[row + 1], (long long)i);
+        CHECK(!(held(s, i) & (DEM_COMPONENT_X << k % dim)) || wanted[k] == now[k], DEM_ERROR_ARGUMENT,
               "the %s (%.17g, %.17g) of node %lld, which is fixed or prescribed, is not (%.17g, %.17g)", what,
-              wanted[2 * i], wanted[2 * i + 1], (long long)i, now[2 * i], now[2 * i + 1]);
+              wanted[row], wanted[row + 1], (long long)i, now[row], now[row + 1]);
     }
     return DEM_OK;
 }
