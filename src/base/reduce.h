@@ -6,7 +6,7 @@
  *   events, nor behind a condition that is not the same for all;
  * - what is the same for all anyway (options, obstacles, time, counts of steps) is not reduced;
  * - what only spares a rank work of its own is not reduced.
- * docs/method.md lists the calls, and what is still missing. */
+ * docs/algorithms.md lists the calls, and what is still missing. */
 #ifndef DEM_BASE_REDUCE_H
 #define DEM_BASE_REDUCE_H
 

@@ -7,7 +7,7 @@
 
 static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
 static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
-static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/method.md */
+static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/algorithms.md */
 
 dem_status options_check(const dem_options *o)
 {
