@@ -20,7 +20,7 @@ def check_lines(name, text):
 
 
 def check_links(path, name, text):
-    for target in re.findall(r"\]\(([^)#]+)[^)]*\)", text):
+    for target in re.findall(r"\]\(([^)#]+)[^)]*\)", text) + re.findall(r"(?m)^\[[^\]]+\]: (\S+)", text):
         if "://" not in target and not (path.parent / target).exists():
             faults.append(f"{name}: links to {target}, which is not there")
 
