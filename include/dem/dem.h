@@ -215,7 +215,7 @@ typedef enum dem_contact_method {
 DEM_API dem_status dem_kernel_check(dem_kernel kind);
 
 typedef struct dem_options {
-    size_t struct_size; /**< set by dem_options_default() */
+    size_t struct_size; /**< set by dem_options_default(); docs/linking.md says how structs may grow */
     dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
     double gravity[2];  /**< m/s^2, default {0, -9.81}                                                 (2) */
     double rtol;        /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */

@@ -42,7 +42,7 @@ enum {
 /** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
  *  comes from malloc; dem_lattice_free() frees them all. */
 typedef struct dem_lattice {
-    size_t struct_size;     /**< set by dem_lattice_init() */
+    size_t struct_size;     /**< set by dem_lattice_init(), and needed */
     int dim;                /**< 2; 3 is reserved */
     dem_index n_nodes;      /**< > 0 */
     dem_index n_springs;    /**< >= 0 */

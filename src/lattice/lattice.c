@@ -8,8 +8,11 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "base/struct_size.h"
 #include "base/vec2.h"
 #include "lattice/mesh_edges.h"
+
+static const struct_kind kind = {"dem_lattice", STRUCT_SIZE_WITH(dem_lattice, velocity), sizeof(dem_lattice)};
 
 static dem_status check_corners(const char *what, dem_index n, int arity, const dem_index *corner, dem_index n_nodes)
 {
@@ -42,6 +45,7 @@ void *lattice_zeros(dem_index n, size_t size)
 dem_status lattice_check(const dem_lattice *lattice)
 {
     CHECK(lattice != NULL, DEM_ERROR_ARGUMENT, "lattice is NULL");
+    TRY(struct_size_check(&kind, lattice));
     CHECK(lattice->n_nodes >= 0, DEM_ERROR_ARGUMENT, "the number of nodes is negative: %lld",
           (long long)lattice->n_nodes);
     CHECK(lattice->n_nodes == 0 || lattice->x != NULL, DEM_ERROR_ARGUMENT, "%lld nodes, but x is NULL",
@@ -50,6 +54,12 @@ dem_status lattice_check(const dem_lattice *lattice)
     CHECK(lattice->n_springs == 0 || (lattice->rest_length != NULL && lattice->stiffness != NULL), DEM_ERROR_ARGUMENT,
           "%lld springs, but rest_length or stiffness is NULL", (long long)lattice->n_springs);
     return check_corners("triangle", lattice->n_triangles, 3, lattice->triangles, lattice->n_nodes);
+}
+
+dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
+{
+    dem_lattice_init(ours);
+    return struct_size_read(&kind, ours, theirs);
 }
 
 void dem_lattice_init(dem_lattice *lattice)

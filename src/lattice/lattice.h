@@ -5,8 +5,12 @@
 
 #include <dem/dem.h>
 
-/* Whether springs and triangles stay inside the arrays: numbers >= 0, arrays present, node indices in range. */
+/* Whether struct_size is one that this library knows, and springs and triangles stay inside the arrays: numbers >= 0,
+ * arrays present, node indices in range. */
 dem_status lattice_check(const dem_lattice *lattice);
+
+/* Copies a caller's lattice, with its arrays, of which those that are missing are NULL. */
+dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs);
 
 /* Zeroed array of n items, never of no bytes; NULL without memory. */
 void *lattice_zeros(dem_index n, size_t size);

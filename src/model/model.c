@@ -201,9 +201,11 @@ dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const d
     CHECK(out != NULL && lattice != NULL, DEM_ERROR_ARGUMENT, "dem_model_create: %s is NULL", out ? "lattice" : "out");
     CHECK(n_obstacles >= 0 && (n_obstacles == 0 || obstacles != NULL), DEM_ERROR_ARGUMENT,
           "dem_model_create: %lld obstacles, obstacles is %s", (long long)n_obstacles, obstacles ? "given" : "NULL");
+    dem_lattice own;
+    TRY(lattice_read(&own, lattice));
     dem_model *model = calloc(1, sizeof *model);
     CHECK_MEMORY(model);
-    const dem_status status = compile(model, lattice, obstacles, n_obstacles);
+    const dem_status status = compile(model, &own, obstacles, n_obstacles);
     if (status == DEM_OK)
         *out = model;
     else

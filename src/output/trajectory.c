@@ -4,6 +4,7 @@
 #include <dem/trajectory.h>
 
 #include "base/status.h"
+#include "base/struct_size.h"
 #include "output/obstacle_file.h"
 #include "output/trajectory_parts.h"
 #include "output/vtk_grid.h"
@@ -170,14 +171,15 @@ static dem_status read_record(recorded *out, const dem_trajectory *t, const dem_
 
 /* ---- creation ---- */
 
+static const struct_kind options_kind = {"dem_trajectory_options", STRUCT_SIZE_WITH(dem_trajectory_options, probes),
+                                         sizeof(dem_trajectory_options)};
+
 static dem_status check_options(const char *path, const dem_trajectory_options *options)
 {
     static const char suffix[] = PARTS_SUFFIX;
     const size_t length = strlen(path), end = sizeof suffix - 1;
     CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
           "%s: the name of a trajectory ends in %s", path, suffix);
-    CHECK(options->struct_size == sizeof *options, DEM_ERROR_ARGUMENT,
-          "the options are not from dem_trajectory_options_default()");
     CHECK(isfinite(options->frame_interval), DEM_ERROR_ARGUMENT, "frame_interval is not a finite number");
     CHECK((options->fields & ~(uint32_t)DEM_FIELD_ALL) == 0, DEM_ERROR_ARGUMENT, "fields is 0x%x, with unknown bits",
           options->fields);
@@ -196,10 +198,12 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
 {
     CHECK(out != NULL && path != NULL && simulation != NULL && options != NULL, DEM_ERROR_ARGUMENT,
           "a trajectory: an argument is NULL");
-    TRY(check_options(path, options));
+    dem_trajectory_options own = dem_trajectory_options_default();
+    TRY(struct_size_read(&options_kind, &own, options));
+    TRY(check_options(path, &own));
     dem_trajectory *t = calloc(1, sizeof *t);
     CHECK_MEMORY(t);
-    dem_status status = trajectory_rows_init(&t->rows, simulation, options);
+    dem_status status = trajectory_rows_init(&t->rows, simulation, &own);
     if (status == DEM_OK) status = trajectory_parts_init(&t->segments, path, &t->rows);
     if (status == DEM_OK)
         *out = t;

@@ -6,6 +6,9 @@
 #include "forces/boundary_conditions.h"
 #include "model/model.h"
 
+/** Copies a caller's options, of which what is missing has its default.  \return as options_check() */
+dem_status options_read(dem_options *ours, const dem_options *theirs);
+
 /** \return DEM_ERROR_ARGUMENT for a value that no model makes valid */
 dem_status options_check(const dem_options *o);
 

@@ -123,11 +123,12 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
 {
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
-    TRY(options_check(options));
+    dem_options own;
+    TRY(options_read(&own, options));
     dem_simulation *s = calloc(1, sizeof *s);
     CHECK_MEMORY(s);
     s->model = model;
-    s->options = *options;
+    s->options = own;
     s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n);
     dem_status status = reduce_status(set_up(s), 0.0);
     if (status == DEM_OK && record != NULL) status = resume(s, record);

@@ -345,7 +345,8 @@ static void random_springs_agree(void **state)
     static double x[2 * n], mass[n], rest_length[most], stiffness[most], viscosity[most];
     static dem_index ends[2 * most];
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
-    dem_lattice lattice = {.dim = 2,
+    dem_lattice lattice = {.struct_size = sizeof(dem_lattice),
+                           .dim = 2,
                            .n_nodes = n,
                            .x = x,
                            .mass = mass,
@@ -390,7 +391,8 @@ static void a_hub_of_many_springs_agrees(void **state)
             ends[2 * i] = 0;
             ends[2 * i + 1] = i + 1;
         }
-        const dem_lattice lattice = {.dim = 2,
+        const dem_lattice lattice = {.struct_size = sizeof(dem_lattice),
+                                     .dim = 2,
                                      .n_nodes = n,
                                      .n_springs = n - 1,
                                      .x = x,
@@ -517,7 +519,8 @@ static void the_guard_stiffens_what_it_squeezes(void **state)
     const double x[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.2}, L = log(2.0), J = 0.2, A0 = 0.5;
     const double w1 = 3.0 * L * L / J, w2 = (6.0 * L + 3.0 * L * L) / (J * J);
     const double side[3] = {0.2 * 0.2, 1.0 + 0.2 * 0.2, 1.0};
-    const dem_lattice lattice = {.dim = 2,
+    const dem_lattice lattice = {.struct_size = sizeof(dem_lattice),
+                                 .dim = 2,
                                  .n_nodes = 3,
                                  .n_springs = 2,
                                  .n_triangles = 1,

@@ -93,6 +93,9 @@ static void a_lattice_needs_two_dimensions_nodes_and_masses(void **state)
     square s;
     (void)state;
     make_square(&s);
+    s.lattice.struct_size = 0;
+    refuse(&s, DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is 0, at least 160 expected");
+    make_square(&s);
     s.lattice.dim = 3;
     refuse(&s, DEM_ERROR_ARGUMENT, "the lattice has dimension 3, only 2 is supported");
     make_square(&s);

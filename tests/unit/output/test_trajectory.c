@@ -743,7 +743,7 @@ static void bad_arguments_are_refused(void **state)
     options.probes = same;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "two probes have the name p");
     options = every_frame(), options.struct_size = 0;
-    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "dem_trajectory_options_default");
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "dem_trajectory_options: struct_size is 0");
     options = every_frame();
     open_trajectory(&r, &options);
     assert_int_equal(dem_trajectory_note(r.trajectory, "a/b", "x"), DEM_ERROR_ARGUMENT);

@@ -58,6 +58,22 @@ static void refuse(const dem_options *options, const char *message)
     assert_string_equal(dem_status_message(), message);
 }
 
+/* What an older or newer header gives is test_struct_size.c's business. */
+static void options_of_a_size_that_no_version_has_are_refused(void **state)
+{
+    char message[128];
+    dem_options own, options = point_options();
+    (void)state;
+    options.struct_size = 3;
+    (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, at least %zu expected", sizeof options);
+    assert_int_equal(options_read(&own, &options), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), message);
+    options.struct_size = sizeof options;
+    options.rtol = 0.2;
+    assert_int_equal(options_read(&own, &options), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "rtol must be in [1e-13, 0.1], got 0.2");
+}
+
 static void lengths_times_and_speeds_are_finite_and_not_negative(void **state)
 {
     static const char *const names[6] = {"spacing",   "v_scale", "max_step", "fixed_step", "penetration_tolerance",
@@ -85,14 +101,9 @@ static void lengths_times_and_speeds_are_finite_and_not_negative(void **state)
 
 static void options_outside_their_ranges_are_named(void **state)
 {
-    char message[128];
     (void)state;
     dem_options options = point_options();
     assert_ok(options_check(&options));
-    options.struct_size = 3;
-    (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, %zu expected", sizeof options);
-    refuse(&options, message);
-    options = point_options();
     options.gravity[0] = fabs((double)NAN);
     refuse(&options, "gravity (nan, -9.81) is not finite");
     options = point_options();
@@ -307,6 +318,7 @@ static void steps_follow_obstacles_that_shake(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(options_of_a_size_that_no_version_has_are_refused),
         cmocka_unit_test(lengths_times_and_speeds_are_finite_and_not_negative),
         cmocka_unit_test(options_outside_their_ranges_are_named),
         cmocka_unit_test(a_model_without_springs_needs_its_scales),

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copies public structs to and from callers whose header is of another version. */
+#include "base/struct_size.h"
+
+#include <string.h>
+
+#include "base/status.h"
+
+/* The struct is read as bytes, since it may end before what its type has in this library. */
+static size_t size_of(const void *theirs)
+{
+    size_t size;
+    memcpy(&size, theirs, sizeof size);
+    return size;
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static dem_status check_least(const struct_kind *kind, size_t size)
+{
+    CHECK(size >= kind->first, DEM_ERROR_ARGUMENT, "%s: struct_size is %zu, at least %zu expected", kind->name, size,
+          kind->first);
+    return DEM_OK;
+}
+
+dem_status struct_size_check(const struct_kind *kind, const void *theirs)
+{
+    const size_t size = size_of(theirs);
+    const unsigned char *bytes = theirs;
+    TRY(check_least(kind, size));
+    CHECK(size <= STRUCT_SIZE_MOST, DEM_ERROR_ARGUMENT, "%s: struct_size is %zu, at most %d expected", kind->name, size,
+          STRUCT_SIZE_MOST);
+    for (size_t k = kind->own; k < size; k++)
+        CHECK(bytes[k] == 0, DEM_ERROR_ARGUMENT,
+              "%s: struct_size is %zu, and what is set at byte %zu is unknown to this library, whose own has %zu",
+              kind->name, size, k, kind->own);
+    return DEM_OK;
+}
+
+dem_status struct_size_read(const struct_kind *kind, void *ours, const void *theirs)
+{
+    TRY(struct_size_check(kind, theirs));
+    memcpy(ours, theirs, smaller(size_of(theirs), kind->own));
+    memcpy(ours, &kind->own, sizeof kind->own);
+    return DEM_OK;
+}
+
+dem_status struct_size_write(const struct_kind *kind, void *theirs, const void *ours)
+{
+    const size_t size = size_of(theirs), head = sizeof size;
+    TRY(check_least(kind, size));
+    memcpy((char *)theirs + head, (const char *)ours + head, smaller(size - size % sizeof(double), kind->own) - head);
+    return DEM_OK;
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* struct_size.c: structs of callers whose header is older or newer than the library. Each is allocated with exactly the
+ * size it says, so that a memory checker sees any access beyond it. */
+#include "unit/close.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/struct_size.h"
+
+/* The library's: its first version ended with `old`. */
+typedef struct thing {
+    size_t struct_size;
+    double old;
+    double added[2];
+} thing;
+
+static const struct_kind kind = {"thing", STRUCT_SIZE_WITH(thing, old), sizeof(thing)};
+static const thing ours = {sizeof ours, 1.0, {2.0, 3.0}};
+
+/* A caller's struct of `size` bytes, all of `fill` but its size. */
+static void *make_theirs(size_t size, int fill)
+{
+    unsigned char *theirs = malloc(size);
+    assert_non_null(theirs);
+    memset(theirs, fill, size);
+    memcpy(theirs, &size, sizeof size);
+    return theirs;
+}
+
+static void check_read(size_t size, const thing *expected)
+{
+    thing out = ours;
+    void *theirs = make_theirs(size, 0);
+    assert_int_equal(struct_size_read(&kind, &out, theirs), DEM_OK);
+    assert_memory_equal(&out, expected, sizeof out);
+    free(theirs);
+}
+
+static void what_an_older_caller_does_not_know_keeps_its_default(void **state)
+{
+    (void)state;
+    check_read(16, &(thing){sizeof(thing), 0.0, {2.0, 3.0}});
+    check_read(24, &(thing){sizeof(thing), 0.0, {0.0, 3.0}});
+}
+
+static void a_caller_of_the_same_version_sets_all(void **state)
+{
+    (void)state;
+    check_read(sizeof(thing), &(thing){sizeof(thing), 0.0, {0.0, 0.0}});
+}
+
+static void a_newer_caller_may_leave_what_is_unknown_here_at_zero(void **state)
+{
+    (void)state;
+    check_read(sizeof(thing) + 8, &(thing){sizeof(thing), 0.0, {0.0, 0.0}});
+    check_read(STRUCT_SIZE_MOST, &(thing){sizeof(thing), 0.0, {0.0, 0.0}});
+}
+
+static void refuse(size_t size, unsigned char last, const char *message)
+{
+    thing out = ours;
+    unsigned char *theirs = make_theirs(size, 0);
+    if (size > sizeof size) theirs[size - 1] = last;
+    assert_int_equal(struct_size_read(&kind, &out, theirs), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), message);
+    assert_memory_equal(&out, &ours, sizeof out);
+    free(theirs);
+}
+
+static void a_newer_caller_may_not_set_what_is_unknown_here(void **state)
+{
+    (void)state;
+    refuse(sizeof(thing) + 8, 1,
+           "thing: struct_size is 40, and what is set at byte 39 is unknown to this library, whose own has 32");
+}
+
+static void sizes_of_no_version_are_refused(void **state)
+{
+    size_t none = 0;
+    thing out = ours;
+    (void)state;
+    refuse(sizeof(size_t), 0, "thing: struct_size is 8, at least 16 expected");
+    refuse(15, 0, "thing: struct_size is 15, at least 16 expected");
+    refuse(STRUCT_SIZE_MOST + 1, 0, "thing: struct_size is 4097, at most 4096 expected");
+    assert_int_equal(struct_size_read(&kind, &out, &none), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "thing: struct_size is 0, at least 16 expected");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_an_older_caller_does_not_know_keeps_its_default),
+        cmocka_unit_test(a_caller_of_the_same_version_sets_all),
+        cmocka_unit_test(a_newer_caller_may_leave_what_is_unknown_here_at_zero),
+        cmocka_unit_test(a_newer_caller_may_not_set_what_is_unknown_here),
+        cmocka_unit_test(sizes_of_no_version_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
