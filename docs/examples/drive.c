@@ -55,9 +55,10 @@ static dem_status look_at_stress(block *b, const dem_simulation *simulation)
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     block *b = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     double mass = 0.0, moment[2] = {0}, momentum = 0.0;
-    dem_simulation_state(simulation, &state);
+    const dem_status status = dem_simulation_state(simulation, &state);
+    if (status != DEM_OK) return status;
     for (dem_index i = 0; i < b->rest->n_nodes; i++) {
         mass += b->rest->mass[i];
         moment[0] += b->rest->mass[i] * (state.x[2 * i] - b->rest->x[2 * i]);

@@ -48,7 +48,9 @@ contains
     real(c_double), pointer :: x(:, :), v(:, :)
     integer :: k
     call c_f_pointer(context, b)
-    call dem_simulation_state(simulation, state)
+    state%struct_size = c_sizeof(state)
+    look = dem_simulation_state(simulation, state)
+    if (look /= DEM_OK) return
     call c_f_pointer(state%x, x, shape(b%rest))
     call c_f_pointer(state%v, v, shape(b%rest))
     do k = 1, 2

@@ -136,8 +136,8 @@ class Block:
 
     def look(self, simulation):
         """The observer: at every frame."""
-        state, n = dem_state(), len(self.mass)
-        dem.dem_simulation_state(simulation, byref(state))
+        state, n = dem_state(struct_size=ctypes.sizeof(dem_state)), len(self.mass)
+        check(dem.dem_simulation_state(simulation, byref(state)))
         self.way = self.mass @ (view(state.x, n, 2) - self.x) / self.mass.sum()
         if state.t == 0.0:
             self.stress = np.empty((n, 3))

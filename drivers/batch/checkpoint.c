@@ -160,7 +160,7 @@ static bool is_ending(checkpoint *c, const char **why)
 static dem_status put_entries(const checkpoint *c, const dem_simulation *simulation, dem_record *record)
 {
     dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    (void)dem_simulation_state(simulation, &state);
     const char *lineage = c->source->lineage != NULL ? c->source->lineage : c->versions;
     dem_status status = dem_record_put(record, time_entry, &state.t, sizeof state.t);
     if (status == DEM_OK) status = dem_record_put(record, course_entry, c->deck->course, strlen(c->deck->course) + 1);

@@ -187,7 +187,7 @@ static void stop(job *j)
 {
     dem_state state = {.struct_size = sizeof state};
     const checkpoint *c = &j->checkpoint;
-    dem_simulation_state(j->simulation, &state);
+    (void)dem_simulation_state(j->simulation, &state);
     report_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
                 c->t_written >= 0.0 ? c->path : "the beginning");
     outcome_set(&j->outcome, EXIT_STOPPED, "%s: stopped by %s", j->deck.path, c->ended);

@@ -57,7 +57,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     relaxation *r = context;
     dem_state state = {.struct_size = sizeof state};
     if (++r->steps < between_looks) return DEM_OK;
-    dem_simulation_state(simulation, &state);
+    (void)dem_simulation_state(simulation, &state);
     if (state.t < r->settled) return DEM_OK;
     const double residual = dem_simulation_residual(simulation);
     if (isinf(residual)) return DEM_OK;

@@ -144,8 +144,8 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     report *r = context;
-    dem_state state;
-    dem_simulation_state(simulation, &state);
+    dem_state state = {.struct_size = sizeof state};
+    (void)dem_simulation_state(simulation, &state);
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
@@ -175,7 +175,7 @@ void report_start(report *r, FILE *out, bool terminal, const deck *d)
 dem_status report_resume(report *r, const dem_record *record, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    (void)dem_simulation_state(simulation, &state);
     r->t_start = r->t_shown = state.t;
     r->steps_start = dem_simulation_counts(simulation).steps;
     return dem_record_get(record, entry, &r->so_far, sizeof r->so_far);

@@ -184,7 +184,7 @@ static void write_run(json *j, const result *r)
 {
     const dem_counts counts = dem_simulation_counts(r->simulation);
     dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(r->simulation, &state);
+    (void)dem_simulation_state(r->simulation, &state);
     json_real(j, "t", state.t);
     write_counts(j, &counts);
     write_contact(j, r->log, &state, r->simulation);

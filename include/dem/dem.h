@@ -336,7 +336,7 @@ typedef struct dem_event {
 
 /** All a simulation remembers of the motion; arrays are views, valid until its next non-const call. */
 typedef struct dem_state {
-    size_t struct_size;
+    size_t struct_size;  /**< set it to sizeof(dem_state) */
     double t;            /**< s */
     double step;         /**< s, length of the last accepted step */
     const double *x, *v; /**< [n_nodes][2] m, m/s */
@@ -439,7 +439,10 @@ DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const d
  *  dem_simulation_set_motion(). */
 DEM_API const dem_record *dem_simulation_record(const dem_simulation *simulation);
 
-DEM_API void dem_simulation_state(const dem_simulation *simulation, dem_state *state);
+/** What is seen of the motion now.
+ *  \param state  its struct_size is read, and kept; what lies within it is written, and nothing beyond
+ *  \return DEM_ERROR_ARGUMENT for a NULL or a struct_size too small for `t`; then nothing has been written */
+DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *state);
 DEM_API dem_energy dem_simulation_energy(const dem_simulation *simulation);
 DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
 

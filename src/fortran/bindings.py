@@ -26,7 +26,7 @@ MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",
     "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
     "dem_simulation_set_motion.v", "dem_obstacle_moves.by"}
-FILLED = {"out", "state"}  # structs of which nothing is read
+FILLED = {"out"}  # structs of which nothing is read
 ZERO_AT_ENTRY = {"dem_force.force"}
 
 MAX_LINE = 120

@@ -668,11 +668,11 @@ module dem_c
       type(c_ptr), value :: simulation
     end function
 
-    subroutine dem_simulation_state(simulation, state) bind(c)
+    integer(dem_status) function dem_simulation_state(simulation, state) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_state), intent(out) :: state
-    end subroutine
+      type(dem_state), intent(inout) :: state
+    end function
 
     type(dem_energy) function dem_simulation_energy(simulation) bind(c)
       import

@@ -327,7 +327,7 @@ hsize_t frames_bytes(const frames *f)
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
 {
     view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
-    dem_simulation_state(simulation, &v.state);
+    TRY(dem_simulation_state(simulation, &v.state));
     TRY(append_arrays(f, file, &v));
     TRY(append_energies(f, file, &v.state));
     TRY(append_steps(f, file, v.state.t));

@@ -148,7 +148,7 @@ void history_free(history *h)
 void history_record(history *h, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    (void)dem_simulation_state(simulation, &state);
     if (table_total(&h->table) > 0 && state.t == h->last) return;
     const double closure = close_ledger(h, state.energy);
     table_cell *cell = table_add(&h->table);

@@ -162,8 +162,8 @@ static void record_gauge(probe *p, const dem_state *state)
 
 void probe_record(probe *p, const dem_simulation *simulation)
 {
-    dem_state state;
-    dem_simulation_state(simulation, &state);
+    dem_state state = {.struct_size = sizeof state};
+    (void)dem_simulation_state(simulation, &state);
     if (p->seen && state.t == p->last) return;
     p->seen = true;
     p->last = state.t;

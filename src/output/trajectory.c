@@ -46,7 +46,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     dem_state state = {.struct_size = sizeof state};
     hdf5_file file;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
-    dem_simulation_state(simulation, &state);
+    TRY(dem_simulation_state(simulation, &state));
     if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
     TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows) + frames_bytes(f)));
     TRY(hdf5_close(&file, append_frame(t, &file, simulation)));

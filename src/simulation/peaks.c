@@ -36,10 +36,10 @@ static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, doub
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     dem_peaks *p = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     if (p->left-- > 0) return DEM_OK;
     p->left = p->every - 1;
-    dem_simulation_state(simulation, &state);
+    TRY(dem_simulation_state(simulation, &state));
     look_at_nodes(p, simulation, state.t);
     look_at_springs(p, simulation, state.t);
     return DEM_OK;

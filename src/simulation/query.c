@@ -3,6 +3,8 @@
 #include "simulation/query.h"
 
 #include "base/reduce.h"
+#include "base/status.h"
+#include "base/struct_size.h"
 #include "forces/diagnostics.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
@@ -48,18 +50,23 @@ static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 
 /* ---- public ---- */
 
-void dem_simulation_state(const dem_simulation *s, dem_state *state)
+/* A caller may ask for the time alone. */
+static const struct_kind state_kind = {"dem_state", STRUCT_SIZE_WITH(dem_state, t), sizeof(dem_state)};
+
+dem_status dem_simulation_state(const dem_simulation *s, dem_state *state)
 {
+    CHECK(s != NULL && state != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_state: %s is NULL",
+          s == NULL ? "simulation" : "state");
     dem_index n_contacts;
     const dem_contact *contacts = contacts_of(s, &n_contacts);
-    *state = (dem_state){.struct_size = sizeof *state,
-                         .t = s->seen_t,
-                         .step = s->step,
-                         .x = seen_of(s),
-                         .v = s->seen + state_velocities(&s->layout),
-                         .n_contacts = n_contacts,
-                         .contacts = contacts,
-                         .energy = dem_simulation_energy(s)};
+    const dem_state seen = {.t = s->seen_t,
+                            .step = s->step,
+                            .x = seen_of(s),
+                            .v = s->seen + state_velocities(&s->layout),
+                            .n_contacts = n_contacts,
+                            .contacts = contacts,
+                            .energy = dem_simulation_energy(s)};
+    return struct_size_write(&state_kind, state, &seen);
 }
 
 dem_energy dem_simulation_energy(const dem_simulation *s)

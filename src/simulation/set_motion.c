@@ -48,10 +48,10 @@ static void put(const dem_simulation *s, const double *x, const double *v, doubl
 
 dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const double *v)
 {
-    dem_state seen;
+    dem_state seen = {.struct_size = sizeof seen};
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
     CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
-    dem_simulation_state(s, &seen); /* with contacts and ledger of that time */
+    TRY(dem_simulation_state(s, &seen)); /* with contacts and ledger of that time */
     TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
     TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
     if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));

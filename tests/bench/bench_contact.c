@@ -135,7 +135,7 @@ typedef struct tally {
 static dem_status after_step(void *context, const dem_simulation *simulation)
 {
     tally *t = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     const dem_counts counts = dem_simulation_counts(simulation);
     dem_simulation_state(simulation, &state);
     const bool quiet = counts.events == t->events;

@@ -65,7 +65,7 @@ static run take(const char *inputs, const char *name, double spacing, double eta
     deck d;
     dem_model *model;
     dem_simulation *simulation;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     run r = {.rtol = rtol, .spacing = spacing};
     const dem_observer observer = {.event = note, .context = &r.last};
     read_deck(&d, inputs, name, spacing);

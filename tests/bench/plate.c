@@ -130,7 +130,7 @@ void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const 
 
 void plate_write_state(const dem_simulation *simulation, const char *path)
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     FILE *file = fopen(path, "w");
     must(file != NULL, path);

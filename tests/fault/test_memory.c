@@ -315,7 +315,7 @@ static dem_status fall(double **now, dem_index *n, long failing_one)
     dem_lattice lattice;
     dem_model *model;
     dem_simulation *simulation;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     options.fixed_step = 4e-6;
     assert_int_equal(build(&lattice), DEM_OK);
     assert_int_equal(dem_model_create(&model, &lattice, &obstacle, 1), DEM_OK);

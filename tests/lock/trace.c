@@ -53,7 +53,7 @@ static void add_contact(trace *t, const dem_contact *c)
 static void add_motion(trace *t, const dem_simulation *simulation)
 {
     const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     add_reals(t, (const double[]){s.t, s.step}, 2);
     add_reals(t, s.x, 2 * n);
@@ -121,7 +121,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     add_reals(context, (const double[]){s.t, s.step}, 2);
     return DEM_OK;

@@ -28,7 +28,7 @@ static picture take_picture(const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     picture p = {0};
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     const dem_counts counts = dem_simulation_counts(simulation);
     put(&p, &s.t, sizeof s.t);
@@ -63,7 +63,7 @@ static dem_status ask(void *context, const dem_simulation *simulation)
 /* What an impact has done has been done to what is shown then. */
 static dem_status ask_at_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     assert_close(s.t, event->t, 0.0);
     return ask(context, simulation);

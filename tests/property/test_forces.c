@@ -66,7 +66,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     watch *w = context;
     const dem_energy e = dem_simulation_energy(simulation);
     const double ledger = dem_energy_ledger(e);
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     if (s.t == 0.0) w->start = ledger;
     w->scale = fmax(w->scale, dem_energy_motion(e) + e.impact + e.friction + e.damping);
@@ -78,7 +78,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
 
 static void hear(watch *w, const dem_simulation *simulation, double t)
 {
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     assert_close(s.t, t, 0.0);
     assert_true(t >= w->last);
@@ -88,7 +88,7 @@ static void hear(watch *w, const dem_simulation *simulation, double t)
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     watch *w = context;
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     hear(w, simulation, s.t);
     assert_close(s.t, 1e-4 * (double)w->n_frames, 1e-15);
@@ -154,7 +154,7 @@ static void the_ledger_stays_closed(void **state)
 static int kick(stage *s, gsl_rng *rng)
 {
     const dem_index n = 2 * s->scene.body.n_nodes;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     double *x = malloc((size_t)n * sizeof *x), *v = malloc((size_t)n * sizeof *v);
     assert_true(x != NULL && v != NULL);
     dem_simulation_state(s->simulation, &now);
@@ -207,7 +207,7 @@ static void kicks_enter_the_ledger(void **state)
 static void compare(const stage *a, const stage *b, unsigned long seed, const char *what)
 {
     const size_t size = 2 * (size_t)a->scene.body.n_nodes * sizeof(double);
-    dem_state one, other;
+    dem_state one = {.struct_size = sizeof one}, other = {.struct_size = sizeof other};
     dem_simulation_state(a->simulation, &one);
     dem_simulation_state(b->simulation, &other);
     if (one.n_contacts != other.n_contacts || memcmp(one.x, other.x, size) != 0 || memcmp(one.v, other.v, size) != 0)
@@ -283,7 +283,7 @@ static uint64_t hash_of(const dem_simulation *simulation, const dem_state *s)
 static dem_status enter(void *context, const dem_simulation *simulation)
 {
     diary *d = context;
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     assert_true(d->n < 4096);
     d->page[d->n].t = s.t;
@@ -307,7 +307,7 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
 {
     stage s;
     watch w;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_index page = 0;
     open_stage(&s, seed, how, NULL);
     watch_stage(&w, &s);

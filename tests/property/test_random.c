@@ -56,7 +56,7 @@ static void fault(unsigned long seed, const char *format, ...)
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     verdict *v = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     v->round |= dem_simulation_counts(simulation).behind > 0;
     v->node_depth = fmax(v->node_depth, judge_nodes(v->scene, state.x));

@@ -31,7 +31,7 @@ static void enter_all(diary *d, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_counts counts = dem_simulation_counts(simulation);
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     enter(d, &s.t, sizeof s.t);
     enter(d, &s.step, sizeof s.step);

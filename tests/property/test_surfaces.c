@@ -37,7 +37,7 @@ static dem_status hear(void *context, const dem_simulation *simulation, const de
 /* Contacts that last have no events. */
 static void mark_closed(const dem_simulation *simulation, unsigned char *flags)
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     for (dem_index k = 0; k < state.n_contacts; k++)
         for (int p = 0; p < state.contacts[k].n_nodes; p++) flags[state.contacts[k].nodes[p]] = 1;
@@ -115,7 +115,7 @@ static void check_same(const dem_simulation *a, dem_simulation *b, unsigned long
 {
     const dem_counts counts_a = dem_simulation_counts(a), counts_b = dem_simulation_counts(b);
     const size_t size = 2 * (size_t)a->model->lattice.n_nodes * sizeof(double);
-    dem_state end_a, end_b;
+    dem_state end_a = {.struct_size = sizeof end_a}, end_b = {.struct_size = sizeof end_b};
     dem_simulation_state(a, &end_a);
     dem_simulation_state(b, &end_b);
     if (memcmp(end_a.x, end_b.x, size) != 0 || memcmp(end_a.v, end_b.v, size) != 0 ||

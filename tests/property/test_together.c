@@ -62,7 +62,7 @@ static dem_status read_again(job *j)
 static void keep(job *j, const dem_simulation *simulation)
 {
     const size_t n = 2 * (size_t)j->scene.body.n_nodes;
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     j->energy = s.energy;
     if (j->state == NULL) return;

@@ -99,7 +99,7 @@ void support_close(support_run *run)
 
 dem_state support_at(support_run *run, double t)
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     assert_ok(dem_simulation_advance(run->simulation, t));
     dem_simulation_state(run->simulation, &state);
     return state;

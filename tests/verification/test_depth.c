@@ -31,7 +31,7 @@ static double depth_below(const dem_obstacle *graph, const double x[2])
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     watch *w = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     w->looks++;

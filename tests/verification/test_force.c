@@ -305,7 +305,7 @@ static void compare_with_boundaries(const dem_index *order)
     dem_options options = support_options();
     dem_lattice block, again;
     support_run by_boundary, by_force;
-    dem_state a, b;
+    dem_state a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
     support_block(&block);
     support_block(&again);
     for (dem_index i = 0; i < block.n_nodes; i++) {

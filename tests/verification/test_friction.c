@@ -46,7 +46,7 @@ static void look(slide *s, const dem_simulation *simulation, const dem_state *st
 static dem_status note_step(void *context, const dem_simulation *simulation)
 {
     slide *s = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     if (state.t == 0.0) s->ledger = dem_energy_ledger(state.energy);
     const double place = dot(state.x, s->tangent), step = fabs(place - s->last);

@@ -45,7 +45,7 @@ static dem_status keep(void *context, const dem_simulation *simulation)
 {
     record *r = context;
     const size_t size = 2 * (size_t)r->n * sizeof(double);
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     assert_true(r->n_steps < most_steps);
     r->t[r->n_steps] = state.t;
@@ -166,7 +166,7 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     double *start = malloc(8 * (size_t)p->n * sizeof *start), *off = start + 4 * p->n;
     dem_model *model;
     dem_simulation *simulation;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     assert_non_null(start);
     memcpy(start, y, 4 * (size_t)p->n * sizeof *start);
     lattice.position = start;

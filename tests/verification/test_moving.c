@@ -296,7 +296,7 @@ static void a_run_goes_on_from_its_record_to_the_same_bits(void **state)
         assert_non_null(record);
         assert_ok(dem_simulation_resume(&resumed, run.model, &options, record));
         const dem_state a = support_at(&run, v->t_end);
-        dem_state b;
+        dem_state b = {.struct_size = sizeof b};
         assert_ok(dem_simulation_advance(resumed, v->t_end));
         dem_simulation_state(resumed, &b);
         const size_t size = 2 * (size_t)dem_model_sizes(run.model).n_nodes * sizeof *a.x;

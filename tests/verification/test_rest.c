@@ -31,7 +31,7 @@ static const double flat[4] = {-9.0, 0.0, 9.0, 0.0}, groove[6] = {-2.0, 2.0, 0.0
 static dem_status note(void *context, const dem_simulation *simulation)
 {
     block *b = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     const double ledger = dem_energy_ledger(state.energy);
     if (state.t == 0.0) b->ledger = ledger;
@@ -80,7 +80,7 @@ static void close_block(block *b)
 
 static dem_state advance(block *b, double t)
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     assert_ok(dem_simulation_advance(b->simulation, t));
     dem_simulation_state(b->simulation, &state);
     return state;

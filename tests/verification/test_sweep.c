@@ -82,7 +82,7 @@ static double depth_below(const ground *g, const double x[2])
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     tally *t = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     for (dem_index i = 0; i < l->n_nodes; i++)
@@ -119,7 +119,7 @@ static void make_block(dem_lattice *l, const ground *g)
 /* Whether the block flies away from the ground. */
 static int has_left(const support_run *run)
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     double gap = INFINITY;
     dem_simulation_state(run->simulation, &state);
     for (dem_index i = 0; i < dem_model_sizes(run->model).n_nodes; i++)

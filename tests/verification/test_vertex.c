@@ -35,7 +35,7 @@ typedef struct outcome {
 static dem_status first_impact(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     outcome *o = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     if (event->kind != DEM_EVENT_IMPACT || o->n++ > 0) return DEM_OK;
     dem_simulation_state(simulation, &state);
     o->event = *event;
@@ -191,7 +191,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     watch *w = context;
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     const double tip[2] = {w->at, 0.0};
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     w->deepest_apex = fmax(w->deepest_apex, outline_depth(&w->body, state.x, tip));
     for (dem_index i = 0; i < l->n_nodes; i++) {
@@ -204,7 +204,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
 /* Momentum less what the obstacle and weight have given, over the initial one. */
 static double imbalance(const watch *w, const dem_simulation *simulation, const double impulse[2])
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     const dem_body_motion m = dem_simulation_body(simulation, 0);
     const double scale = hypot(w->start[0], w->start[1]);

@@ -175,7 +175,7 @@ static double turning(const dem_state *s, dem_index p, dem_index q)
 static passage begin_passage(const dem_simulation *simulation, const dem_event *e)
 {
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     const dem_index node = e->weight > 0.5 ? e->other : e->node, from = e->weight > 0.5 ? e->node : e->other;
     passage p = {.under_way = true, .node = node, .from = from, .to = other_side(l, node, from)};
@@ -216,7 +216,7 @@ static dem_status follow_passages(void *context, const dem_simulation *simulatio
 static dem_status watch_slide(void *context, const dem_simulation *simulation)
 {
     slide *w = context;
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     const dem_body_motion m = dem_simulation_body(simulation, 0);
     const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
@@ -300,7 +300,7 @@ static dem_status look_at_drop(void *context, const dem_simulation *simulation)
 {
     drop *w = context;
     const double origin[2] = {0.0, 0.0};
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(simulation, &s);
     w->deepest_apex = fmax(w->deepest_apex, outline_depth(&w->body, s.x, origin));
     for (dem_index i = 0; i < dem_model_lattice(dem_simulation_model(simulation))->n_nodes; i++) {

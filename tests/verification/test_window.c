@@ -116,7 +116,7 @@ static double depth_below(const double *points, const double x[2])
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     audit *a = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     const dem_body_motion body = dem_simulation_body(simulation, 0);
     const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);

@@ -3,6 +3,7 @@
  * size it says, so that a memory checker sees any access beyond it. */
 #include "unit/close.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,6 +88,23 @@ static void sizes_of_no_version_are_refused(void **state)
     assert_string_equal(dem_status_message(), "thing: struct_size is 0, at least 16 expected");
 }
 
+/* All bytes are 0xff where nothing has been written: a member of which not all bytes lie within is left alone. */
+static void what_is_written_ends_where_the_callers_struct_ends(void **state)
+{
+    const double written[3] = {1.0, 2.0, 3.0};
+    (void)state;
+    for (size_t size = sizeof(size_t); size <= sizeof(thing) + 16; size++) {
+        unsigned char *theirs = make_theirs(size, 0xff), *expected = make_theirs(size, 0xff);
+        const size_t whole = size < sizeof(thing) ? size - size % sizeof(double) : sizeof(thing);
+        const bool fits = size >= kind.first;
+        if (fits) memcpy(expected + sizeof size, written, whole - sizeof size);
+        assert_int_equal(struct_size_write(&kind, theirs, &ours), fits ? DEM_OK : DEM_ERROR_ARGUMENT);
+        assert_memory_equal(theirs, expected, size);
+        free(expected);
+        free(theirs);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -94,6 +112,7 @@ int main(void)
         cmocka_unit_test(a_caller_of_the_same_version_sets_all),
         cmocka_unit_test(a_newer_caller_may_leave_what_is_unknown_here_at_zero),
         cmocka_unit_test(a_newer_caller_may_not_set_what_is_unknown_here),
+        cmocka_unit_test(what_is_written_ends_where_the_callers_struct_ends),
         cmocka_unit_test(sizes_of_no_version_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

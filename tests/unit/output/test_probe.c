@@ -26,7 +26,7 @@ typedef struct journal {
 static dem_status note(void *context, const dem_simulation *simulation)
 {
     journal *j = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     double strains[64], stress[3 * 64];
     assert_true(j->n < most_steps);
     dem_simulation_state(simulation, &state);

@@ -88,7 +88,7 @@ typedef struct snapshot {
 static inline snapshot snap(const dem_simulation *simulation)
 {
     snapshot s = {.n = 2 * dem_model_sizes(dem_simulation_model(simulation)).n_nodes};
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     assert_true(s.n <= 80);
     s.t = state.t;

@@ -18,7 +18,7 @@ typedef struct witness {
 static dem_status watch(void *context, const dem_simulation *simulation)
 {
     witness *w = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     double stress[3 * most_nodes], strain[most_springs];
     if (w->calls++ % w->every != 0) return DEM_OK;
     dem_simulation_state(simulation, &state);

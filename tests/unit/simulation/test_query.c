@@ -2,11 +2,13 @@
 /* query.c: what is seen of a simulation, and when. */
 #include "runs.h"
 
+#include <stdlib.h>
+
 static void a_new_simulation_shows_the_initial_state(void **state)
 {
     const double v[2] = {3.0, 4.0};
     const dem_options options = point_options();
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     dem_model *model = make_point(v, 0.5);
     dem_simulation *simulation = simulate(model, &options);
@@ -21,12 +23,55 @@ static void a_new_simulation_shows_the_initial_state(void **state)
     end_run(simulation, model);
 }
 
+/* A caller of an older header has a shorter struct, allocated here with its size so that a memory checker sees what is
+ * written beyond. */
+static void a_state_is_written_as_far_as_the_callers_struct_goes(void **state)
+{
+    const dem_options options = point_options();
+    dem_state now = {.struct_size = sizeof now};
+    (void)state;
+    dem_model *model = make_point(NULL, 0.5);
+    dem_simulation *simulation = simulate(model, &options);
+    assert_ok(dem_simulation_advance(simulation, 0.1));
+    assert_ok(dem_simulation_state(simulation, &now));
+    for (size_t size = 2 * sizeof(double); size < sizeof now; size += sizeof(double)) {
+        dem_state *shorter = malloc(size);
+        assert_non_null(shorter);
+        memcpy(shorter, &size, sizeof size);
+        assert_ok(dem_simulation_state(simulation, shorter));
+        assert_memory_equal(shorter, &size, sizeof size);
+        assert_memory_equal((char *)shorter + sizeof size, (char *)&now + sizeof size, size - sizeof size);
+        free(shorter);
+    }
+    end_run(simulation, model);
+}
+
+static void a_state_without_a_size_is_refused_and_left_alone(void **state)
+{
+    const dem_options options = point_options();
+    dem_state now = {.struct_size = 15, .t = 7.0};
+    (void)state;
+    dem_model *model = make_point(NULL, 0.5);
+    dem_simulation *simulation = simulate(model, &options);
+    assert_int_equal(dem_simulation_state(simulation, &now), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "dem_state: struct_size is 15, at least 16 expected");
+    now.struct_size = 0;
+    assert_int_equal(dem_simulation_state(simulation, &now), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "dem_state: struct_size is 0, at least 16 expected");
+    assert_close(now.t, 7.0, 0.0);
+    assert_int_equal(dem_simulation_state(simulation, NULL), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "dem_simulation_state: state is NULL");
+    assert_int_equal(dem_simulation_state(NULL, &now), DEM_ERROR_ARGUMENT);
+    assert_string_equal(dem_status_message(), "dem_simulation_state: simulation is NULL");
+    end_run(simulation, model);
+}
+
 /* At rest on the floor after the plastic impact: m g, and m g t of impulse from the beginning on, up to the step in
  * hand. */
 static void an_obstacle_feels_the_weight_that_rests_on_it(void **state)
 {
     const dem_options options = point_options();
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     dem_model *model = make_point(NULL, 0.0);
     dem_simulation *simulation = simulate(model, &options);
@@ -54,7 +99,7 @@ typedef struct look {
 static dem_status see(void *context, const dem_simulation *simulation)
 {
     look *seen = context;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     dem_simulation_state(simulation, &now);
     assert_true(seen->n < 2);
     seen->t[seen->n] = now.t;
@@ -91,6 +136,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_new_simulation_shows_the_initial_state),
+        cmocka_unit_test(a_state_is_written_as_far_as_the_callers_struct_goes),
+        cmocka_unit_test(a_state_without_a_size_is_refused_and_left_alone),
         cmocka_unit_test(an_obstacle_feels_the_weight_that_rests_on_it),
         cmocka_unit_test(what_is_seen_within_a_step_is_without_later_events),
     };

@@ -189,7 +189,7 @@ static void nodes_that_coincide_end_the_run_with_the_node_named(void **state)
     const dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 10.0, NULL);
     support_start(&lattice, start, NULL);

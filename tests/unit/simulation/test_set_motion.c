@@ -33,7 +33,7 @@ static void a_node_goes_on_from_where_it_is_put(void **state)
     const dem_state before = support_at(&run, 0.3);
     const double had = 0.5 * mass * before.v[1] * before.v[1] + mass * g * before.x[1];
     assert_ok(dem_simulation_set_motion(run.simulation, x, v));
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     dem_simulation_state(run.simulation, &s);
     assert_memory_equal(s.x, x, sizeof x);
     assert_memory_equal(s.v, v, sizeof v);
@@ -183,7 +183,7 @@ static dem_simulation *resumed(const support_run *run, const dem_record *record)
 static void same(const dem_simulation *a, const dem_simulation *b)
 {
     const size_t size = 2 * (size_t)dem_model_sizes(dem_simulation_model(a)).n_nodes * sizeof(double);
-    dem_state one, other;
+    dem_state one = {.struct_size = sizeof one}, other = {.struct_size = sizeof other};
     dem_simulation_state(a, &one);
     dem_simulation_state(b, &other);
     assert_close(one.t, other.t, 0.0);
@@ -202,7 +202,7 @@ static void a_record_is_of_one_motion(void **state)
     dem_lattice block;
     dem_record *before, *after;
     support_run run;
-    dem_state s;
+    dem_state s = {.struct_size = sizeof s};
     (void)state;
     (void)scratch_file("a.record.prev");
     support_block(&block);

@@ -89,7 +89,7 @@ static void enter(diary *d, char kind, double t)
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     diary *d = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     enter(d, 'f', state.t);
     assert_true(d->n_frames < 64);
@@ -101,7 +101,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     diary *d = context;
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     enter(d, 's', state.t);
     return ++d->n_steps == d->stop_at_step ? DEM_STOPPED : DEM_OK;
@@ -220,7 +220,7 @@ static void an_impact_at_the_start_comes_before_everything_else(void **state)
     const double v[2] = {1.0, -2.0};
     const dem_options options = point_options();
     diary d;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     dem_model *model = make_point_at(0.0, v, 0.5);
     dem_simulation *simulation = observed(model, &options, &d, 0.1);
@@ -294,7 +294,7 @@ static void time_does_not_run_backwards(void **state)
     assert_int_equal(dem_simulation_advance(simulation, 0.125), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "t_end = 0.125 s is before the present time 0.25 s");
     assert_int_equal(dem_simulation_advance(simulation, (double)INFINITY), DEM_ERROR_ARGUMENT);
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     dem_simulation_state(simulation, &now);
     assert_close(now.t, 0.25, 0.0);
     assert_int_equal(now.struct_size, sizeof now);
@@ -309,7 +309,7 @@ static void a_body_without_forces_drifts_in_a_straight_line(void **state)
     dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     options.gravity[1] = 0.0;
     make_rectangle(&lattice, 0.0);
@@ -334,7 +334,7 @@ static void a_single_node_without_forces_drifts_exactly(void **state)
 {
     const double v[2] = {0.75, 0.5};
     dem_options options = point_options();
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     options.gravity[1] = 0.0;
     dem_model *model = make_point(v, 0.5);
@@ -354,7 +354,7 @@ static void fixed_nodes_do_not_move(void **state)
     const dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     dem_index n_fixed = 0, n_moved = 0;
     (void)state;
     make_rectangle(&lattice, 0.0);
@@ -389,7 +389,7 @@ static void a_storm_of_impacts_ends_the_run(void **state)
 {
     const double v[2] = {0.0, -100.0};
     dem_options options = point_options();
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     options.max_step = 0.3;
     options.max_impacts = 1;
@@ -412,7 +412,7 @@ static void a_run_that_a_storm_has_ended_does_not_go_on_without_contacts(void **
     (void)state;
     for (int k = 0; k < 4; k++) {
         dem_options options = point_options();
-        dem_state now;
+        dem_state now = {.struct_size = sizeof now};
         options.method = methods[k / 2];
         options.max_step = 0.3;
         options.fixed_step = k == 0 ? 0.0 : (k == 1 ? 0.3 : 0.05);
@@ -442,7 +442,7 @@ static void a_contact_event_after_which_the_motion_overflows_ends_the_run(void *
     dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model;
-    dem_state now;
+    dem_state now = {.struct_size = sizeof now};
     (void)state;
     options.gravity[1] = 0.0;
     options.fixed_step = 4.0;

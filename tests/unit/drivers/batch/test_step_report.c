@@ -117,7 +117,7 @@ static void without_springs_nothing_bounds_the_step(void **state)
 
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
-    dem_state state;
+    dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
     step_report_follow(context, simulation, &state);
     return DEM_OK;
