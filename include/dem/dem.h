@@ -184,8 +184,9 @@ typedef struct dem_force_query {
 /** A force from outside, by which other programs act on the nodes. It may depend on t, the node's number, its x and its
  *  v, and on nothing that changes during an advance: the same query has the same answer, whatever else is asked about
  *  beside it. It is asked for states that are then thrown away, and not in the order of time. What varies in x, v or t
- *  faster than the bodies themselves wants a `max_step` of its own. Called in the thread that calls
- *  dem_simulation_advance(), dem_simulation_resume() or dem_simulation_boundary(), never from several at once.
+ *  faster than the bodies themselves wants a `max_step` of its own. Called by
+ *  dem_simulation_advance() and dem_simulation_resume(), in their thread and never from several at once; by nothing
+ *  that only looks at a simulation.
  *  \param[out] force  [n][2] N, zero at entry
  *  \return other than DEM_OK to end the advance, which returns it */
 typedef dem_status (*dem_force)(void *context, const dem_force_query *query, double *force);
@@ -365,7 +366,8 @@ typedef struct dem_obstacle_load {
 
 /** What a boundary does to its nodes. */
 typedef struct dem_boundary_load {
-    double force[2];        /**< N, on its nodes now: given, or what the prescribed motion takes */
+    double force[2];        /**< N, on its nodes now: given, or what the prescribed motion takes; where an external
+                                 force adds to that, NaN before the first advance, and from set_motion() to the next */
     double displacement[2]; /**< m, mean way of its nodes from where they started */
 } dem_boundary_load;
 

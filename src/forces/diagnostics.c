@@ -213,15 +213,23 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
     return load;
 }
 
-/* Force that the prescribed components of a node's motion take, N. */
-static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i, const double *x, const double *v)
+/* Force that the prescribed components of a node's motion take, N, where it would have the acceleration `free`. */
+static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i, vec2 free, double t)
 {
-    const vec2 wanted = boundary_condition_acceleration(b, v[f->clock]);
-    const vec2 force = vec2_scale(f->model->lattice.mass[i], vec2_sub(wanted, forces_acceleration(f, i, x, v)));
+    const vec2 wanted = boundary_condition_acceleration(b, t);
+    const vec2 force = vec2_scale(f->model->lattice.mass[i], vec2_sub(wanted, free));
     return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
 }
 
-dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *x, const double *v)
+/* Acceleration of a node if its motion were not prescribed. */
+static vec2 free_acceleration(const forces *f, dem_index i, const double *external, const double *x, const double *v)
+{
+    const vec2 own = forces_own_acceleration(f, i, x, v);
+    return external != NULL ? forces_with_external(f, i, own, vec2_at(external, i)) : own;
+}
+
+dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *external,
+                                       const double *x, const double *v)
 {
     dem_boundary_load out;
     exact_sum resultant[2] = {0}, ways[2] = {0};
@@ -230,7 +238,7 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
         add(ways, vec2_sub(vec2_at(x, i), vec2_at(f->model->lattice.position, i)));
         add(resultant, b->kind == DEM_BOUNDARY_FORCE
                            ? vec2_scale(b->share[k] * boundary_condition_ramp(b, v[f->clock]), b->value)
-                           : held_force(f, b, i, x, v));
+                           : held_force(f, b, i, free_acceleration(f, i, external, x, v), v[f->clock]));
     }
     vec2_put(out.force, 0, sum_of(resultant));
     vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(b->n_nodes), sum_of(ways)));

@@ -15,8 +15,10 @@ dem_strain diagnostics_strain(const forces *f, const double *x);
 /** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle);
 
-/** What a boundary does to its nodes in a state. */
-dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *x, const double *v);
+/** What a boundary does to its nodes in a state.
+ *  \param external  [n_nodes][2] N, of which those on its nodes are read if it prescribes a motion; NULL: none */
+dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *external,
+                                       const double *x, const double *v);
 
 /** Largest force without drag on a node that may move, from accelerations a and velocities v at positions x, over the
  *  largest force of a spring. */

@@ -48,7 +48,7 @@ static void check(external_force *c, const dem_force_query *query, const double 
         if (!isfinite(force[k])) fail(c, query, DEM_ERROR_INTEGRATOR, query->nodes[k / c->dim]);
 }
 
-static void ask(external_force *c, const dem_force_query *query, double *force)
+void external_force_ask(external_force *c, const dem_force_query *query, double *force)
 {
     const size_t size = (size_t)c->dim * (size_t)query->n * sizeof *force;
     memset(force, 0, size);
@@ -63,13 +63,13 @@ static void ask(external_force *c, const dem_force_query *query, double *force)
 
 void external_force_evaluate(external_force *c, const dem_force_query *query)
 {
-    ask(c, query, c->value);
+    external_force_ask(c, query, c->value);
 }
 
 void external_force_of_node(external_force *c, double t, dem_index node, const double *x, const double *v,
                             double *force)
 {
-    ask(c, &(dem_force_query){.t = t, .n = 1, .nodes = &node, .x = x, .v = v}, force);
+    external_force_ask(c, &(dem_force_query){.t = t, .n = 1, .nodes = &node, .x = x, .v = v}, force);
 }
 
 double external_force_power(const external_force *c, const double *v)

@@ -24,6 +24,9 @@ typedef struct external_force {
 dem_status external_force_create(external_force **out, const dem_options *options, int dim, dem_index n_nodes);
 void external_force_destroy(external_force *c);
 
+/** Evaluates the forces on the nodes of a query, into `force`; leaves `value` alone. */
+void external_force_ask(external_force *c, const dem_force_query *query, double *force);
+
 /** Evaluates the forces on the nodes of a query, into `value`. */
 void external_force_evaluate(external_force *c, const dem_force_query *query);
 

@@ -8,6 +8,7 @@
 #include "base/state.h"
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
+#include "forces/held_forces.h"
 #include "forces/kernel.h"
 #include "forces/local_springs.h"
 #include "model/overlap.h"
@@ -16,7 +17,7 @@
 
 /* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
-    bool has_events, has_state, has_contacts, has_energy, has_strain, has_body;
+    bool has_events, has_state, has_contacts, has_held_forces, has_energy, has_strain, has_body;
     dem_index n_contacts;
     const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;
@@ -31,6 +32,7 @@ struct dem_simulation {
     state_layout layout; /* of y */
     boundary_conditions boundaries;
     external_force *external; /* NULL: none */
+    held_forces held_forces;  /* external ones, in the state as seen, if `measures` has them */
     forces forces;            /* on nodes, without those of contacts */
     kernel kernel;
     overlap overlap;

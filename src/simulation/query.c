@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A state is interpolated, and what follows from it computed, when it is first asked for. */
+/* A state is interpolated, and what follows from it computed, when it is first asked for. What asks the external force
+ * is not left until then: query_ask_force() does it during the advance, which reports a failure. */
 #include "simulation/query.h"
 
 #include "base/reduce.h"
@@ -21,7 +22,7 @@ void query_inside(dem_simulation *s, double t)
 }
 
 /* The contacts and ledger at the time seen: the queue takes back later events, and resolves them again when the run
- * goes on, with the same result. */
+ * goes on, with the same result. With an external force query_ask_force() has done so already. */
 static const automaton *contact_of(const dem_simulation *s)
 {
     dem_simulation *self = (dem_simulation *)s;
@@ -37,6 +38,16 @@ static const double *seen_of(const dem_simulation *s)
     if (!s->measures->has_state) dense_output_state(&s->path, s->seen_t, s->frame);
     s->measures->has_state = true;
     return s->seen;
+}
+
+dem_status query_ask_force(dem_simulation *s)
+{
+    if (s->external == NULL) return DEM_OK;
+    if (!s->measures->has_events) TRY(event_queue_show(&s->queue, s->seen_t));
+    s->measures->has_events = true;
+    held_forces_ask(&s->held_forces, s->external, &s->layout, seen_of(s));
+    s->measures->has_held_forces = true;
+    return run_force_failed(s) ? DEM_STOPPED : DEM_OK;
 }
 
 static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
@@ -166,7 +177,12 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 
 dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
 {
-    return diagnostics_boundary(&s->forces, &s->boundaries.list[k], seen_of(s), s->seen + state_velocities(&s->layout));
+    const boundary_condition *b = &s->boundaries.list[k];
+    const double *y = seen_of(s), *external = s->held_forces.force;
+    dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));
+    const bool known = b->kind == DEM_BOUNDARY_FORCE || external == NULL || s->measures->has_held_forces;
+    if (!known) load.force[0] = load.force[1] = (double)NAN;
+    return load;
 }
 
 double dem_simulation_residual(const dem_simulation *s)

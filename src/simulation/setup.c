@@ -84,6 +84,7 @@ static dem_status set_up(dem_simulation *s)
                                     model->obstacles.n));
     s->options.boundaries = NULL;
     TRY(external_force_create(&s->external, o, s->layout.dim, model->lattice.n_nodes));
+    TRY(held_forces_create(&s->held_forces, &s->boundaries, s->external, &s->layout));
     TRY(options_fill(&s->options, model, &s->boundaries));
     s->forces = forces_of(s);
     TRY(allocate(s));
@@ -112,9 +113,11 @@ static dem_status set_up(dem_simulation *s)
 static dem_status resume(dem_simulation *s, const dem_record *record)
 {
     TRY(checkpoint_restore(s, record));
-    if (run_force_failed(s)) return reduce_status(external_force_failure(s->external), 0.0);
-    s->started = s->has_record = true;
     query_at(s, s->t, s->y);
+    const dem_status status = query_ask_force(s);
+    if (run_force_failed(s)) return reduce_status(external_force_failure(s->external), 0.0);
+    TRY(status);
+    s->started = s->has_record = true;
     return record_copy(s->record, record);
 }
 
@@ -163,6 +166,7 @@ void dem_simulation_destroy(dem_simulation *s)
     automaton_destroy(&s->automaton);
     boundary_conditions_free(&s->boundaries);
     external_force_destroy(s->external);
+    held_forces_destroy(&s->held_forces);
     overlap_destroy(&s->overlap);
     free(s->initial);
     free(s->frame);

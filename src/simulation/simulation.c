@@ -23,6 +23,7 @@ static dem_status hear_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
     query_at(s, s->t, s->y);
+    TRY(query_ask_force(s));
     return observers_event(&s->observers, s, event);
 }
 
@@ -34,6 +35,7 @@ static dem_status tell_events(dem_simulation *s, double t)
     while (s->n_reported < s->n_inside && s->queue.events[s->n_reported].t <= t) {
         const dem_event event = s->queue.events[s->n_reported++];
         query_inside(s, event.t);
+        TRY(query_ask_force(s));
         status = status_first(status, observers_event(&s->observers, s, &event));
     }
     return reduce_status(status, 0.0);
@@ -42,6 +44,7 @@ static dem_status tell_events(dem_simulation *s, double t)
 static dem_status tell_step(dem_simulation *s)
 {
     query_at(s, s->t, s->y);
+    TRY(query_ask_force(s));
     return observers_step(&s->observers, s);
 }
 
@@ -51,6 +54,7 @@ static dem_status tell_frames(dem_simulation *s, double t_end)
     for (int k = 0; (k = observers_due(&s->observers, s->path.end, t_end, &t)) >= 0;) {
         TRY(tell_events(s, t));
         query_inside(s, t);
+        TRY(query_ask_force(s));
         TRY(observers_frame(&s->observers, k, s));
     }
     return DEM_OK;
@@ -224,6 +228,7 @@ static dem_status take_record(dem_simulation *s)
     TRY(checkpoint_restore(s, s->record));
     s->has_record = true;
     query_at(s, s->t, s->y);
+    TRY(query_ask_force(s));
     return observers_record(&s->observers, s, s->record);
 }
 
@@ -239,7 +244,7 @@ static dem_status advance(dem_simulation *s, double t_end)
     }
     TRY(tell_events(s, t_end));
     query_inside(s, t_end);
-    return DEM_OK;
+    return query_ask_force(s);
 }
 
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)

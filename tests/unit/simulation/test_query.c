@@ -2,6 +2,7 @@
 /* query.c: what is seen of a simulation, and when. */
 #include "runs.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 static void a_new_simulation_shows_the_initial_state(void **state)
@@ -132,6 +133,149 @@ static void what_is_seen_within_a_step_is_without_later_events(void **state)
     end_run(simulation, model);
 }
 
+/* ---- what only looks does not call the program's function ---- */
+
+typedef struct pusher {
+    long calls, fails_at; /* fails_at: the number of the call, from 1; 0: none */
+} pusher;
+
+static dem_status push(void *context, const dem_force_query *query, double *force)
+{
+    pusher *p = context;
+    for (dem_index k = 0; k < 2 * query->n; k++) force[k] = 0.5 * query->x[k] - 0.3 * query->v[k];
+    return ++p->calls == p->fails_at ? DEM_ERROR_IO : DEM_OK;
+}
+
+/* Two nodes, one above the other and joined by a spring, fall on a floor; the upper one goes straight down. */
+static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, const dem_observer *observer, pusher *p)
+{
+    const double x[4] = {0.0, 0.1, 0.0, 1.1}, mass[2] = {1.0, 2.0}, v[4] = {0.0, -3.0, 0.0, -3.0};
+    const dem_index ends[2] = {0, 1}, upper = 1;
+    const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = 0.5};
+    const dem_boundary rail = {.components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &upper};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1000.0, NULL);
+    support_start(&lattice, NULL, v);
+    lattice.flags[upper] = 0;
+    assert_ok(dem_model_create(model, &lattice, &obstacle, 1));
+    dem_lattice_free(&lattice);
+    options.contact = contact;
+    options.record_steps = 5;
+    options.n_boundaries = 1;
+    options.boundaries = &rail;
+    options.force = push;
+    options.force_context = p;
+    dem_simulation *simulation = NULL;
+    assert_ok(dem_simulation_create(&simulation, *model, &options));
+    assert_ok(dem_simulation_observe(simulation, observer));
+    return simulation;
+}
+
+/* Calls every function that takes a simulation and changes nothing. */
+static void look_at_all(const dem_simulation *s)
+{
+    dem_state now = {.struct_size = sizeof now};
+    double strain, force, stress[6];
+    assert_ok(dem_simulation_state(s, &now));
+    (void)dem_simulation_energy(s);
+    (void)dem_simulation_strain(s);
+    dem_simulation_strains(s, &strain);
+    dem_simulation_forces(s, &force);
+    dem_simulation_stress(s, stress);
+    dem_simulation_stress_at(s, 1, stress);
+    (void)dem_simulation_overlap(s);
+    (void)dem_simulation_counts(s);
+    (void)dem_simulation_body(s, 0);
+    (void)dem_simulation_obstacle(s, 0);
+    (void)dem_simulation_boundary(s, 0);
+    (void)dem_simulation_residual(s);
+    (void)dem_simulation_record(s);
+    (void)dem_simulation_model(s);
+    (void)dem_simulation_options(s);
+}
+
+static dem_status only_look(void *context, const dem_simulation *simulation)
+{
+    const pusher *p = context;
+    const long before = p->calls;
+    look_at_all(simulation);
+    assert_int_equal(p->calls, before);
+    assert_true(isfinite(dem_simulation_boundary(simulation, 0).force[0]) || before == 0);
+    return DEM_OK;
+}
+
+static dem_status only_look_at_event(void *context, const dem_simulation *simulation, const dem_event *event)
+{
+    (void)event;
+    return only_look(context, simulation);
+}
+
+static dem_status only_look_at_record(void *context, const dem_simulation *simulation, dem_record *record)
+{
+    (void)record;
+    return only_look(context, simulation);
+}
+
+static dem_observer looker(pusher *p)
+{
+    return (dem_observer){.interval = 0.007,
+                          .frame = only_look,
+                          .step = only_look,
+                          .event = only_look_at_event,
+                          .record = only_look_at_record,
+                          .context = p};
+}
+
+enum { n_advances = 12 }; /* of 0.01 s each, with the impact after some 0.03 s */
+
+static void no_getter_asks_the_external_force(void **state)
+{
+    (void)state;
+    for (int contact = DEM_CONTACT_LOCAL; contact <= DEM_CONTACT_EXACT; contact++) {
+        pusher p = {0};
+        const dem_observer observer = looker(&p);
+        dem_model *model;
+        dem_simulation *simulation = drop_pair(&model, (dem_contact_method)contact, &observer, &p);
+        only_look(&p, simulation);
+        for (int k = 1; k <= n_advances; k++) {
+            assert_ok(dem_simulation_advance(simulation, 0.01 * k));
+            only_look(&p, simulation);
+        }
+        assert_true(dem_simulation_counts(simulation).impacts > 0);
+        assert_ok(dem_simulation_set_motion(simulation, NULL, NULL));
+        const long before = p.calls;
+        look_at_all(simulation);
+        assert_int_equal(p.calls, before);
+        assert_true(isnan(dem_simulation_boundary(simulation, 0).force[0]));
+        end_run(simulation, model);
+    }
+}
+
+/* Whichever call fails, the advance that makes it returns its status. */
+static void a_force_that_fails_is_reported_by_the_advance_that_asked(void **state)
+{
+    (void)state;
+    for (int contact = DEM_CONTACT_LOCAL; contact <= DEM_CONTACT_EXACT; contact++) {
+        bool failed = true;
+        for (long call = 1; failed; call++) {
+            pusher p = {.fails_at = call};
+            const dem_observer observer = looker(&p);
+            dem_model *model;
+            dem_simulation *simulation = drop_pair(&model, (dem_contact_method)contact, &observer, &p);
+            failed = false;
+            for (int k = 1; k <= n_advances && !failed; k++) {
+                const dem_status status = dem_simulation_advance(simulation, 0.01 * k);
+                failed = p.calls >= call;
+                assert_int_equal(status, failed ? DEM_ERROR_IO : DEM_OK);
+            }
+            look_at_all(simulation);
+            if (failed) assert_ok(dem_simulation_advance(simulation, 0.01 * n_advances));
+            end_run(simulation, model);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -140,6 +284,8 @@ int main(void)
         cmocka_unit_test(a_state_without_a_size_is_refused_and_left_alone),
         cmocka_unit_test(an_obstacle_feels_the_weight_that_rests_on_it),
         cmocka_unit_test(what_is_seen_within_a_step_is_without_later_events),
+        cmocka_unit_test(no_getter_asks_the_external_force),
+        cmocka_unit_test(a_force_that_fails_is_reported_by_the_advance_that_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Gathers the nodes with prescribed components and asks for the external force on them. */
+#include "forces/held_forces.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+
+static dem_index count(const boundary_conditions *b, dem_index n_nodes)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; b->held != NULL && i < n_nodes; i++) n += b->held[i] != 0;
+    return n;
+}
+
+static dem_status allocate(held_forces *h, const state_layout *layout)
+{
+    const size_t n = (size_t)h->n, row = (size_t)layout->dim * sizeof(double);
+    h->nodes = malloc(n * sizeof *h->nodes);
+    h->x = malloc(n * row);
+    h->v = malloc(n * row);
+    h->asked = malloc(n * row);
+    h->force = calloc((size_t)layout->n_nodes, row);
+    CHECK(h->nodes && h->x && h->v && h->asked && h->force, DEM_ERROR_MEMORY,
+          "out of memory for the external force on %lld nodes", (long long)h->n);
+    return DEM_OK;
+}
+
+dem_status held_forces_create(held_forces *out, const boundary_conditions *b, const external_force *external,
+                              const state_layout *layout)
+{
+    *out = (held_forces){.n = external != NULL ? count(b, layout->n_nodes) : 0};
+    if (out->n == 0) return DEM_OK;
+    const dem_status status = allocate(out, layout);
+    if (status != DEM_OK) {
+        held_forces_destroy(out);
+        return status;
+    }
+    dem_index *next = out->nodes;
+    for (dem_index i = 0; i < layout->n_nodes; i++)
+        if (b->held[i] != 0) *next++ = i;
+    return DEM_OK;
+}
+
+void held_forces_destroy(held_forces *h)
+{
+    free(h->nodes);
+    free(h->x);
+    free(h->v);
+    free(h->asked);
+    free(h->force);
+    *h = (held_forces){0};
+}
+
+void held_forces_ask(held_forces *h, external_force *external, const state_layout *layout, const double *y)
+{
+    if (h->n == 0) return;
+    for (dem_index k = 0; k < h->n; k++) {
+        state_copy_row(layout, h->x + state_row(layout, k), state_x(layout, y, h->nodes[k]));
+        state_copy_row(layout, h->v + state_row(layout, k), state_v(layout, y, h->nodes[k]));
+    }
+    external_force_ask(external, &(dem_force_query){state_time(layout, y), h->n, h->nodes, h->x, h->v}, h->asked);
+    for (dem_index k = 0; k < h->n; k++)
+        state_copy_row(layout, h->force + state_row(layout, h->nodes[k]), h->asked + state_row(layout, k));
+}
