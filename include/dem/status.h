@@ -28,6 +28,9 @@ typedef enum dem_status {
     DEM_ERROR_IO = -6          /**< a file cannot be read or written */
 } dem_status;
 
+/** "DEM_OK", "DEM_STOPPED" ...; NULL for a number that is none of them. */
+DEM_API const char *dem_status_name(dem_status status);
+
 /** Text of the last failure in this thread; valid until the next failing call. Never NULL. */
 DEM_API const char *dem_status_message(void);
 

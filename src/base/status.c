@@ -17,6 +17,29 @@ const char *dem_status_message(void)
     return last_message;
 }
 
+const char *dem_status_name(dem_status status)
+{
+    switch (status) {
+    case DEM_OK:
+        return "DEM_OK";
+    case DEM_STOPPED:
+        return "DEM_STOPPED";
+    case DEM_ERROR_MEMORY:
+        return "DEM_ERROR_MEMORY";
+    case DEM_ERROR_ARGUMENT:
+        return "DEM_ERROR_ARGUMENT";
+    case DEM_ERROR_MODEL:
+        return "DEM_ERROR_MODEL";
+    case DEM_ERROR_INTEGRATOR:
+        return "DEM_ERROR_INTEGRATOR";
+    case DEM_ERROR_CONTACT:
+        return "DEM_ERROR_CONTACT";
+    case DEM_ERROR_IO:
+        return "DEM_ERROR_IO";
+    }
+    return NULL; /* a callback may return any number */
+}
+
 dem_status status_fail(dem_status status, const char *format, ...)
 {
     va_list arguments;

@@ -5,7 +5,7 @@ module dem
   use dem_c
   implicit none
   public
-  private :: c_status_message, c_kernel_name, c_version, c_version_sundials, c_version_hdf5
+  private :: c_status_message, c_status_name, c_kernel_name, c_version, c_version_sundials, c_version_hdf5
 
 contains
 
@@ -36,6 +36,13 @@ contains
   function dem_status_message() result(text)
     character(:), allocatable :: text
     text = dem_string(c_status_message())
+  end function
+
+  !> '' if there is no such status.
+  function dem_status_name(status) result(text)
+    integer(dem_status), intent(in) :: status
+    character(:), allocatable :: text
+    text = dem_string(c_status_name(status))
   end function
 
   !> '' if there is no such kernel.

@@ -18,6 +18,11 @@ module dem_c
 
   interface
 
+    type(c_ptr) function c_status_name(status) bind(c, name='dem_status_name')
+      import
+      integer(dem_status), value :: status
+    end function
+
     type(c_ptr) function c_status_message() bind(c, name='dem_status_message')
       import
     end function

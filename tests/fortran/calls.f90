@@ -74,6 +74,7 @@ contains
     call expect(dem_kernel_find(kernel, 'none'//c_null_char) == DEM_ERROR_ARGUMENT, 'no such kernel')
     call expect(index(dem_status_message(), '''none''') > 0, 'the message names it')
     call expect(dem_kernel_name(DEM_KERNEL_AVX2) == 'avx2', 'a kernel''s name')
+    call expect(dem_status_name(DEM_ERROR_IO) == 'DEM_ERROR_IO' .and. dem_status_name(99) == '', 'names of statuses')
     call expect(dem_kernel_name(99) == '', 'no name')
     call succeed(dem_method_find(method, 'verlet'//c_null_char))
     call succeed(dem_method_describe(traits, method))

@@ -92,6 +92,18 @@ static void check_fails_with_its_message_unless_the_condition_holds(void **state
     assert_string_equal(dem_status_message(), "out of memory");
 }
 
+static void every_status_has_the_name_of_its_constant(void **state)
+{
+    static const char *const errors[] = {"DEM_ERROR_MEMORY",     "DEM_ERROR_ARGUMENT", "DEM_ERROR_MODEL",
+                                         "DEM_ERROR_INTEGRATOR", "DEM_ERROR_CONTACT",  "DEM_ERROR_IO"};
+    (void)state;
+    assert_string_equal(dem_status_name(DEM_OK), "DEM_OK");
+    assert_string_equal(dem_status_name(DEM_STOPPED), "DEM_STOPPED");
+    for (int k = 0; k < 6; k++) assert_string_equal(dem_status_name((dem_status)(DEM_ERROR_MEMORY - k)), errors[k]);
+    assert_null(dem_status_name((dem_status)2));
+    assert_null(dem_status_name((dem_status)(DEM_ERROR_IO - 1)));
+}
+
 static void the_version_is_the_one_of_the_build(void **state)
 {
     (void)state;
@@ -106,6 +118,7 @@ int main(void)
         cmocka_unit_test(each_thread_has_a_message_of_its_own_that_starts_empty),
         cmocka_unit_test(try_returns_what_is_not_ok_and_goes_on_otherwise),
         cmocka_unit_test(check_fails_with_its_message_unless_the_condition_holds),
+        cmocka_unit_test(every_status_has_the_name_of_its_constant),
         cmocka_unit_test(the_version_is_the_one_of_the_build),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
