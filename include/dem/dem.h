@@ -461,20 +461,20 @@ DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *for
  *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
 DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
 
-/** The same of one node.  \param node  0 <= node < n_nodes */
+/** The same of one node.  \param node  0 <= node < n_nodes; NaN, and a dem_status_message(), for any other */
 DEM_API void dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double stress[3]);
 
 DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
 
 DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
 
-/** \param body  0 <= body < n_bodies */
+/** \param body  0 <= body < n_bodies; NaN, and a dem_status_message(), for any other */
 DEM_API dem_body_motion dem_simulation_body(const dem_simulation *simulation, dem_index body);
 
-/** \param obstacle  0 <= obstacle < n_obstacles */
+/** \param obstacle  0 <= obstacle < n_obstacles; NaN, and a dem_status_message(), for any other */
 DEM_API dem_obstacle_load dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle);
 
-/** \param boundary  0 <= boundary < n_boundaries */
+/** \param boundary  0 <= boundary < n_boundaries; NaN, and a dem_status_message(), for any other */
 DEM_API dem_boundary_load dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary);
 
 /** How far from equilibrium: the largest force on a node that may move, without drag and with what contacts give, over

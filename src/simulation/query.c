@@ -59,6 +59,17 @@ static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
     return m->contacts;
 }
 
+/* What returns no status says in numbers that are NaN, and in the message, that there is nothing of this number. */
+static bool is_there(const char *what, dem_index number, dem_index n)
+{
+    if (number >= 0 && number < n) return true;
+    (void)status_fail(DEM_ERROR_ARGUMENT, "there is no %s %lld: there are %lld, from 0 on", what, (long long)number,
+                      (long long)n);
+    return false;
+}
+
+static const double none = (double)NAN;
+
 /* ---- public ---- */
 
 /* A caller may ask for the time alone. */
@@ -120,6 +131,10 @@ void dem_simulation_stress(const dem_simulation *s, double *stress)
 void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
 {
     const dem_model *m = s->model;
+    if (!is_there("node", node, m->lattice.n_nodes)) {
+        stress[0] = stress[1] = stress[2] = none;
+        return;
+    }
     stress_of_node(&m->stress, &m->lattice, &m->triangles, node, seen_of(s), stress);
 }
 
@@ -151,6 +166,7 @@ dem_counts dem_simulation_counts(const dem_simulation *s)
 
 dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 {
+    if (!is_there("body", body, s->model->n_bodies)) return (dem_body_motion){none, {none, none}, {none, none}, none};
     run_measures *m = s->measures;
     if (!m->has_body || m->body != body)
         m->motion = diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
@@ -161,6 +177,8 @@ dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
 
 dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
 {
+    if (!is_there("obstacle", obstacle, s->model->obstacles.n))
+        return (dem_obstacle_load){{none, none}, {none, none}, {none, none}, {none, none}, 0};
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
     dem_index n_closed;
@@ -177,6 +195,7 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
 
 dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
 {
+    if (!is_there("boundary", k, s->boundaries.n)) return (dem_boundary_load){{none, none}, {none, none}};
     const boundary_condition *b = &s->boundaries.list[k];
     const double *y = seen_of(s), *external = s->held_forces.force;
     dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));

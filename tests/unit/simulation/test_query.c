@@ -133,6 +133,29 @@ static void what_is_seen_within_a_step_is_without_later_events(void **state)
     end_run(simulation, model);
 }
 
+/* Numbers from -1 to 1 of a model that has one of each, and no boundary. */
+static void what_is_not_there_has_no_numbers_but_a_message(void **state)
+{
+    const dem_options options = point_options();
+    (void)state;
+    dem_model *model = make_point(NULL, 0.5);
+    dem_simulation *simulation = simulate(model, &options);
+    for (dem_index k = -1; k <= 1; k++) {
+        double stress[3];
+        dem_simulation_stress_at(simulation, k, stress);
+        const dem_body_motion body = dem_simulation_body(simulation, k);
+        const dem_obstacle_load load = dem_simulation_obstacle(simulation, k);
+        assert_int_equal(isnan(stress[0]) && isnan(stress[1]) && isnan(stress[2]), k != 0);
+        assert_int_equal(isnan(body.mass) && isnan(body.centre[1]) && isnan(body.angular_momentum), k != 0);
+        assert_int_equal(isnan(load.reaction[0]) && isnan(load.impulse[1]) && isnan(load.point[0]), k != 0);
+        assert_true(isnan(dem_simulation_boundary(simulation, k).force[0]));
+    }
+    assert_string_equal(dem_status_message(), "there is no boundary 1: there are 0, from 0 on");
+    (void)dem_simulation_obstacle(simulation, -1);
+    assert_string_equal(dem_status_message(), "there is no obstacle -1: there are 1, from 0 on");
+    end_run(simulation, model);
+}
+
 /* ---- what only looks does not call the program's function ---- */
 
 typedef struct pusher {
@@ -284,6 +307,7 @@ int main(void)
         cmocka_unit_test(a_state_without_a_size_is_refused_and_left_alone),
         cmocka_unit_test(an_obstacle_feels_the_weight_that_rests_on_it),
         cmocka_unit_test(what_is_seen_within_a_step_is_without_later_events),
+        cmocka_unit_test(what_is_not_there_has_no_numbers_but_a_message),
         cmocka_unit_test(no_getter_asks_the_external_force),
         cmocka_unit_test(a_force_that_fails_is_reported_by_the_advance_that_asked),
     };
