@@ -36,7 +36,7 @@ void exact_sum_add_special(exact_sum *s, double term)
 /* ---- many terms ---- */
 
 /* Usual terms are split once or twice, those as far apart as doubles can be some twenty times. */
-int exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
+void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
 {
     const array_ops *ops = array_ops_fastest();
     while (n % ARRAY_OPS_LANES != 0) terms[n++] = 0.0;
@@ -47,7 +47,6 @@ int exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
         exact_sum_add(s, parts[1]);
     }
     for (int k = 0; k < n && size != 0.0; k++) exact_sum_add(s, terms[k]);
-    return 0;
 }
 
 void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
@@ -56,7 +55,7 @@ void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
     for (int64_t k = 0; k < n; k += EXACT_SUM_BLOCK) {
         const int here = exact_sum_block(k, n);
         memcpy(block, terms + k, (size_t)here * sizeof *block);
-        (void)exact_sum_take(s, block, here);
+        exact_sum_take(s, block, here);
     }
 }
 

@@ -50,8 +50,8 @@ static inline void exact_sum_add(exact_sum *s, double term)
  *  exponents are not far apart. */
 void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n);
 
-/** The same of a block, or of n terms that one has room for, which are lost.  \return 0, the number that is left */
-int exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
+/** The same of a block, or of n terms that one has room for, which are lost. */
+void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
 
 /** How many terms the block from term `first` of n on has. */
 static inline int exact_sum_block(int64_t first, int64_t n)

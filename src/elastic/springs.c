@@ -143,7 +143,7 @@ double springs_energy(const dem_lattice *lattice, const unsigned char *broken, c
         for (int q = 0; q < n; q++) terms[q] = energy(stiffness[first + q], rest_length[first + q], terms[q]);
         for (int q = 0; q < n && broken != NULL; q++)
             if (broken[first + q]) terms[q] = 0.0;
-        (void)exact_sum_take(&sum, terms, n);
+        exact_sum_take(&sum, terms, n);
     }
     return reduce_sum(&sum);
 }

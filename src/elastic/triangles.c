@@ -127,10 +127,12 @@ void triangles_energy(const triangles *t, const unsigned char *broken, const dou
             if (t->next[p] < i || t->last[p] < i || triangles_broken(t, broken, p)) continue;
             const double J = area_at(t, i, p, x) / t->rest_area[p];
             if (t->area_stiffness != NULL) terms[n++] = area_energy(t, p, J);
-            if (n == EXACT_SUM_BLOCK) n = exact_sum_take(&areas, terms, n);
             if (!(J >= TRIANGLES_GUARD_ONSET)) exact_sum_add(&guards, guard_energy(t, p, J));
+            if (n < EXACT_SUM_BLOCK) continue;
+            exact_sum_take(&areas, terms, n);
+            n = 0;
         }
-    (void)exact_sum_take(&areas, terms, n);
+    exact_sum_take(&areas, terms, n);
     *area = reduce_sum(&areas);
     *guard = reduce_sum(&guards);
 }

@@ -15,13 +15,14 @@ static vec2 sum_of(const exact_sum sum[2])
     return (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])};
 }
 
-/* Kinetic energies of the n nodes from `first` on, and energies of their weights. */
+/* Kinetic energies of the n nodes from `first` on. */
 static void fill_kinetic(const dem_lattice *l, const double *v, dem_index first, int n, double *out)
 {
     for (dem_index i = first; i < first + n; i++)
         out[i - first] = 0.5 * l->mass[i] * vec2_dot(vec2_at(v, i), vec2_at(v, i));
 }
 
+/* Energies of their weights. */
 static void fill_weight(const forces *f, const double *x, dem_index first, int n, double *out)
 {
     const vec2 g = {f->gravity[0], f->gravity[1]};
@@ -39,9 +40,9 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     for (dem_index first = 0; first < model->lattice.n_nodes; first += EXACT_SUM_BLOCK) {
         const int n = exact_sum_block(first, model->lattice.n_nodes);
         fill_kinetic(&model->lattice, v, first, n, terms);
-        (void)exact_sum_take(&kinetic, terms, n);
+        exact_sum_take(&kinetic, terms, n);
         fill_weight(f, x, first, n, terms);
-        (void)exact_sum_take(&weight, terms, n);
+        exact_sum_take(&weight, terms, n);
     }
     energy.kinetic = reduce_sum(&kinetic);
     energy.gravity = reduce_sum(&weight);
@@ -50,10 +51,9 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 
 enum { n_moments = 5 }; /* mass, mass times place, momentum */
 
-static int take_moments(exact_sum sum[n_moments], double terms[n_moments][EXACT_SUM_BLOCK], int n)
+static void take_moments(exact_sum sum[n_moments], double terms[n_moments][EXACT_SUM_BLOCK], int n)
 {
-    for (int k = 0; k < n_moments; k++) (void)exact_sum_take(&sum[k], terms[k], n);
-    return 0;
+    for (int k = 0; k < n_moments; k++) exact_sum_take(&sum[k], terms[k], n);
 }
 
 static void add_moments(const dem_lattice *l, dem_index body, const double *x, const double *v,
@@ -64,14 +64,17 @@ static void add_moments(const dem_lattice *l, dem_index body, const double *x, c
     for (dem_index i = 0; i < l->n_nodes; i++) {
         if (l->body[i] != body) continue;
         const double m = l->mass[i];
+        const vec2 place = vec2_scale(m, vec2_at(x, i)), momentum = vec2_scale(m, vec2_at(v, i));
         terms[0][n] = m;
-        terms[1][n] = m * x[2 * i];
-        terms[2][n] = m * x[2 * i + 1];
-        terms[3][n] = m * v[2 * i];
-        terms[4][n++] = m * v[2 * i + 1];
-        if (n == EXACT_SUM_BLOCK) n = take_moments(sum, terms, n);
+        terms[1][n] = place.x;
+        terms[2][n] = place.y;
+        terms[3][n] = momentum.x;
+        terms[4][n++] = momentum.y;
+        if (n < EXACT_SUM_BLOCK) continue;
+        take_moments(sum, terms, n);
+        n = 0;
     }
-    (void)take_moments(sum, terms, n);
+    take_moments(sum, terms, n);
 }
 
 /* Angular momentum of a body about its centre, which moves with it. */
@@ -84,9 +87,11 @@ static double spin_of(const dem_lattice *l, dem_index body, const double *x, con
         if (l->body[i] != body) continue;
         const vec2 r = vec2_sub(vec2_at(x, i), mean[0]), u = vec2_sub(vec2_at(v, i), mean[1]);
         terms[n++] = l->mass[i] * vec2_cross(r, u);
-        if (n == EXACT_SUM_BLOCK) n = exact_sum_take(&sum, terms, n);
+        if (n < EXACT_SUM_BLOCK) continue;
+        exact_sum_take(&sum, terms, n);
+        n = 0;
     }
-    (void)exact_sum_take(&sum, terms, n);
+    exact_sum_take(&sum, terms, n);
     return reduce_sum(&sum);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is measured on a state: energies, powers, mean motions, strains. Sums run in the order of the model. */
+/* What is measured on a state: energies, powers, mean motions, strains. Sums are exact, so that no order shows in
+ * them. */
 #ifndef DEM_FORCES_DIAGNOSTICS_H
 #define DEM_FORCES_DIAGNOSTICS_H
 
