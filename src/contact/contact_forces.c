@@ -233,6 +233,15 @@ static double sliding_friction(const contact_forces *r, const contact_candidate 
     return candidate->closed[q].slide * contact_point_friction(r->scene, candidate, candidate->closed[q].feature);
 }
 
+/* Acceleration with which a node stays on a segment that moves. */
+static vec2 kept_acceleration(const contact_scene *scene, const contact_candidate *candidate, const surface_line *line,
+                              scene_state state)
+{
+    const surface_query at = {state.t, vec2_at(state.x, candidate->node)};
+    const obstacle_motion wall = surface_motion(scene, candidate->closed[0].feature, at);
+    return contact_point_keep(scene, candidate->node, line, &wall, state);
+}
+
 /* A node on one segment, a_w the acceleration with which it would stay on it (0 if that is at rest):
  * N = -m (a - a_w).n; T = -m (a - a_w).t if it sticks, -sign mu N if it slides. */
 static inline void hold_node(contact_forces *r, dem_index k, const scene_state *state, double *a)
@@ -241,7 +250,7 @@ static inline void hold_node(contact_forces *r, dem_index k, const scene_state *
     const dem_index feature = candidate->closed[0].feature;
     const surface_line line = surface_line_at(r->scene, feature, state->t);
     const bool moves = surface_moves(r->scene, feature);
-    const vec2 carried = moves ? contact_point_keep(r->scene, candidate, feature, &line, *state) : (vec2){0.0, 0.0};
+    const vec2 carried = moves ? kept_acceleration(r->scene, candidate, &line, *state) : (vec2){0.0, 0.0};
     const double m = r->scene->model->lattice.mass[candidate->node];
     const vec2 free_a = vec2_sub(vec2_at(a, candidate->node), carried);
     contact_force *f = &r->force[k][0];

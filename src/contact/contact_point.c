@@ -64,15 +64,13 @@ static inline contact_frame edge_frame(const contact_scene *scene, const contact
     return f;
 }
 
-vec2 contact_point_keep(const contact_scene *scene, const contact_candidate *candidate, dem_index id,
-                        const surface_line *line, scene_state state)
+vec2 contact_point_keep(const contact_scene *scene, dem_index node, const surface_line *line,
+                        const obstacle_motion *wall, scene_state state)
 {
-    const vec2 x = vec2_at(state.x, candidate->node), v = vec2_at(state.v, candidate->node);
-    const obstacle_motion wall = surface_motion(scene, id, (surface_query){state.t, x});
-    const vec2 carried = obstacle_motion_sliding(&wall, v);
+    const vec2 x = vec2_at(state.x, node), v = vec2_at(state.v, node), carried = obstacle_motion_sliding(wall, v);
     if (surface_acceleration(scene) == 0.0) return carried;
     const double beta = draw_back / scene->rule.max_step;
-    const vec2 back = vec2_along(vec2_scale(-2.0 * beta, obstacle_motion_relative(&wall, v)),
+    const vec2 back = vec2_along(vec2_scale(-2.0 * beta, obstacle_motion_relative(wall, v)),
                                  -beta * beta * surface_height(line, x), line->normal);
     return vec2_add(carried, back);
 }
@@ -92,7 +90,7 @@ contact_frame contact_frame_moving(const contact_scene *scene, const contact_can
     const obstacle_motion wall = surface_motion(scene, id, (surface_query){state.t, vec2_at(state.x, candidate->node)});
     contact_frame f = node_frame(scene, candidate, &line, state);
     const vec2 carried = obstacle_motion_sliding(&wall, f.velocity),
-               keep = contact_point_keep(scene, candidate, id, &line, state);
+               keep = contact_point_keep(scene, candidate->node, &line, &wall, state);
     f.wall = wall.velocity;
     f.velocity = obstacle_motion_relative(&wall, f.velocity);
     f.turning = vec2_dot(carried, f.normal);

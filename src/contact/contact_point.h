@@ -112,10 +112,10 @@ contact_frame contact_frame_at(const contact_scene *scene, const contact_candida
 contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
                                    scene_state state);
 
-/** Acceleration of the node of a candidate that stays on segment `id`, which moves, and slides along it as it does,
- *  m/s^2; where obstacles accelerate, with the terms that draw back what the integrator's error has opened. */
-vec2 contact_point_keep(const contact_scene *scene, const contact_candidate *candidate, dem_index id,
-                        const surface_line *line, scene_state state);
+/** Acceleration of a node that stays on a segment with this line, which moves as `wall`, and slides along it as it
+ *  does, m/s^2; where obstacles accelerate, with the terms that draw back what the integrator's error has opened. */
+vec2 contact_point_keep(const contact_scene *scene, dem_index node, const surface_line *line,
+                        const obstacle_motion *wall, scene_state state);
 
 /** Bound of the error of a contact's force by rounding of the coordinates, N. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
