@@ -111,9 +111,9 @@ static const base *base_of(dem_contact_method contact)
 
 /* ---- records ---- */
 
-static const char *const names[] = {"sizes",       "numbers",       "counts",     "impulses",
-                                    "overlap",     "contacts",      "state",      "peaks.left",
-                                    "peaks.nodes", "peaks.springs", "trajectory", "trajectory.probes"};
+static const char *const names[] = {
+    "sizes",      "numbers",     "counts",        "impulses",   "overlap",           "contacts", "state",
+    "peaks.left", "peaks.nodes", "peaks.springs", "trajectory", "trajectory.probes", "motions"};
 enum { N_NAMES = sizeof names / sizeof *names, MOST_BYTES = 1 << 16 };
 
 static void change(bytes *from, unsigned char *data, size_t n)
