@@ -76,7 +76,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
 {
     const contact_ledger *ledger = &s->automaton.set.ledger;
     const record_way way = {.into = record};
-    const dem_counts of_engine = integrator_counts(&s->integrator);
+    const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = ledger->counts;
     sizes size = sizes_of(s);
     numbers n = {s->t,
@@ -89,10 +89,10 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
                  s->events,
                  s->unlooked,
                  s->automaton.idle};
-    counts.steps = of_engine.steps;
-    counts.rejected = of_engine.rejected;
-    counts.evaluations = of_engine.evaluations;
-    counts.retries = of_engine.retries;
+    counts.steps = of_integrator.steps;
+    counts.rejected = of_integrator.rejected;
+    counts.evaluations = of_integrator.evaluations;
+    counts.retries = of_integrator.retries;
     TRY(record_pass(&way, "sizes", &size, sizeof size));
     TRY(put_motion(s->model, record));
     TRY(pass(s, &way, &n, &counts));

@@ -46,9 +46,9 @@ struct dem_simulation {
     integrator integrator;
     double t;           /* s, of y */
     double step;        /* s, length of the last committed step */
-    double *y;          /* [4 n] state (x, v) after the last committed step, the integrator's */
-    double *initial;    /* [4 n] state before there is an integrator */
-    double *frame;      /* [4 n] state interpolated to a frame or to t_end */
+    double *y;          /* [2 dim n_rows] state (x, v) after the last committed step, the integrator's */
+    double *initial;    /* [2 dim n_rows] state before there is an integrator */
+    double *frame;      /* [2 dim n_rows] state interpolated to a frame or to t_end */
     dense_output path;  /* the step in hand */
     bool in_hand;       /* whether there is one */
     bool at_event;      /* whether it ends with one */

@@ -23,12 +23,16 @@ void query_inside(dem_simulation *s, double t)
 
 /* The contacts and ledger at the time seen: the queue takes back later events, and resolves them again when the run
  * goes on, with the same result. With an external force query_ask_force() has done so already. */
+static dem_status show_events(dem_simulation *s)
+{
+    if (s->measures->has_events) return DEM_OK;
+    s->measures->has_events = true;
+    return event_queue_show(&s->queue, s->seen_t);
+}
+
 static const automaton *contact_of(const dem_simulation *s)
 {
-    dem_simulation *self = (dem_simulation *)s;
-    if (!s->measures->has_events)
-        (void)event_queue_show(&self->queue, s->seen_t); /* cannot fail: these events were resolved before */
-    s->measures->has_events = true;
+    (void)show_events((dem_simulation *)s); /* cannot fail: these events were resolved before */
     return &s->automaton;
 }
 
@@ -43,8 +47,7 @@ static const double *seen_of(const dem_simulation *s)
 dem_status query_ask_force(dem_simulation *s)
 {
     if (s->external == NULL) return DEM_OK;
-    if (!s->measures->has_events) TRY(event_queue_show(&s->queue, s->seen_t));
-    s->measures->has_events = true;
+    TRY(show_events(s));
     held_forces_ask(&s->held_forces, s->external, &s->layout, seen_of(s));
     s->measures->has_held_forces = true;
     return run_force_failed(s) ? DEM_STOPPED : DEM_OK;
@@ -154,12 +157,12 @@ static dem_counts contact_counts(const dem_simulation *s)
 
 dem_counts dem_simulation_counts(const dem_simulation *s)
 {
-    const dem_counts of_engine = integrator_counts(&s->integrator);
+    const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = contact_counts(s);
-    counts.steps = of_engine.steps;
-    counts.rejected = of_engine.rejected;
-    counts.evaluations = of_engine.evaluations;
-    counts.retries = of_engine.retries;
+    counts.steps = of_integrator.steps;
+    counts.rejected = of_integrator.rejected;
+    counts.evaluations = of_integrator.evaluations;
+    counts.retries = of_integrator.retries;
     counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_stops) : 0);
     return counts;
 }
@@ -200,7 +203,7 @@ dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
     const double *y = seen_of(s), *external = s->held_forces.force;
     dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));
     const bool known = b->kind == DEM_BOUNDARY_FORCE || external == NULL || s->measures->has_held_forces;
-    if (!known) load.force[0] = load.force[1] = (double)NAN;
+    if (!known) load.force[0] = load.force[1] = none;
     return load;
 }
 

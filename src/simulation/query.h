@@ -5,7 +5,7 @@
 
 #include "simulation/private.h"
 
-/** Makes y, [4 n], at t the state that is seen. */
+/** Makes y, [2 dim n_rows], at t the state that is seen. */
 void query_at(dem_simulation *s, double t, const double *y);
 
 /** Makes the state at a time within the step in hand the one that is seen. */

@@ -18,43 +18,53 @@ static const double safety = 0.9, least_factor = 0.1; /* of the next step after 
 
 /* ---- calls of the observers ---- */
 
+/* Makes the state after the last committed step the one that is seen. */
+static dem_status show_state(dem_simulation *s)
+{
+    query_at(s, s->t, s->y);
+    return query_ask_force(s);
+}
+
+/* The same of the state at a time within the step in hand. */
+static dem_status show_inside(dem_simulation *s, double t)
+{
+    query_inside(s, t);
+    return query_ask_force(s);
+}
+
 /* An event at which the whole body has stopped. */
-static dem_status hear_event(void *context, const dem_event *event)
+static dem_status report_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
-    query_at(s, s->t, s->y);
-    TRY(query_ask_force(s));
+    TRY(show_state(s));
     return observers_event(&s->observers, s, event);
 }
 
 /* Events inside the step in hand, up to t. */
-static dem_status tell_events(dem_simulation *s, double t)
+static dem_status report_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
     if (!observers_want_events(&s->observers)) return DEM_OK;
     while (s->n_reported < s->n_inside && s->queue.events[s->n_reported].t <= t) {
         const dem_event event = s->queue.events[s->n_reported++];
-        query_inside(s, event.t);
-        TRY(query_ask_force(s));
+        TRY(show_inside(s, event.t));
         status = status_first(status, observers_event(&s->observers, s, &event));
     }
     return reduce_status(status, 0.0);
 }
 
-static dem_status tell_step(dem_simulation *s)
+static dem_status report_step(dem_simulation *s)
 {
-    query_at(s, s->t, s->y);
-    TRY(query_ask_force(s));
+    TRY(show_state(s));
     return observers_step(&s->observers, s);
 }
 
-static dem_status tell_frames(dem_simulation *s, double t_end)
+static dem_status report_frames(dem_simulation *s, double t_end)
 {
     double t;
     for (int k = 0; (k = observers_due(&s->observers, s->path.end, t_end, &t)) >= 0;) {
-        TRY(tell_events(s, t));
-        query_inside(s, t);
-        TRY(query_ask_force(s));
+        TRY(report_events(s, t));
+        TRY(show_inside(s, t));
         TRY(observers_frame(&s->observers, k, s));
     }
     return DEM_OK;
@@ -150,7 +160,7 @@ static dem_status go_on(dem_simulation *s, dem_status status)
     TRY(stop_if_force_failed(s, DEM_OK));
     s->has_rollback = false;
     status = status_first(status, integrator_restart(&s->integrator, s->t, s->y));
-    return status == DEM_ERROR_CONTACT ? status : status_first(status, tell_step(s));
+    return status == DEM_ERROR_CONTACT ? status : status_first(status, report_step(s));
 }
 
 static void look_for_overlaps(dem_simulation *s)
@@ -178,7 +188,7 @@ static bool settle_step(dem_simulation *s)
 /* The end of the step is an event: the contacts change, and the velocities jump. */
 static dem_status resolve_event(dem_simulation *s)
 {
-    const event_listener listener = {hear_event, s};
+    const event_listener listener = {report_event, s};
     s->events++;
     return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
@@ -194,20 +204,20 @@ static dem_status go_on_changed(dem_simulation *s, bool moved)
 
 static dem_status commit_step(dem_simulation *s)
 {
-    TRY(tell_events(s, s->path.t1));
+    TRY(report_events(s, s->path.t1));
     if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     if (s->at_event) TRY(take_rollback(s));
     const bool moved = settle_step(s);
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops);
     TRY(go_on_changed(s, moved));
-    return tell_step(s);
+    return report_step(s);
 }
 
 /* Closes the contacts of the initial state before the first step, when the observers are there to be called. */
 static dem_status start(dem_simulation *s)
 {
-    const event_listener listener = {hear_event, s};
+    const event_listener listener = {report_event, s};
     TRY(take_rollback(s));
     const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
     s->started = !run_force_failed(s);
@@ -227,8 +237,7 @@ static dem_status take_record(dem_simulation *s)
     TRY(checkpoint_take(s, s->record));
     TRY(checkpoint_restore(s, s->record));
     s->has_record = true;
-    query_at(s, s->t, s->y);
-    TRY(query_ask_force(s));
+    TRY(show_state(s));
     return observers_record(&s->observers, s, s->record);
 }
 
@@ -238,13 +247,12 @@ static dem_status advance(dem_simulation *s, double t_end)
     for (;;) {
         if (!s->in_hand && wants_record(s)) TRY(take_record(s));
         if (!s->in_hand) TRY(take_step(s));
-        TRY(stop_if_force_failed(s, tell_frames(s, t_end)));
+        TRY(stop_if_force_failed(s, report_frames(s, t_end)));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));
     }
-    TRY(tell_events(s, t_end));
-    query_inside(s, t_end);
-    return query_ask_force(s);
+    TRY(report_events(s, t_end));
+    return show_inside(s, t_end);
 }
 
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)
