@@ -8,16 +8,16 @@
 
 #include "base/status.h"
 
-typedef struct touch_entry {
+typedef struct point_entry {
     dem_index feature, slide, held;
     double place, force, friction;
-} touch_entry;
+} point_entry;
 
 /* A candidate that differs from one that has never touched anything. */
 typedef struct candidate_entry {
     dem_index k, n_closed, behind[2], storm;
     double storm_start;
-    touch_entry closed[2];
+    point_entry closed[2];
 } candidate_entry;
 
 static bool remembers(const contact_candidate *candidate)
@@ -36,7 +36,7 @@ static candidate_entry describe(const contact_candidate *candidate, dem_index k)
     for (int q = 0; q < candidate->n_closed; q++) {
         const contact_point *point = &candidate->closed[q];
         e.closed[q] =
-            (touch_entry){point->feature, point->slide, point->held, point->place, point->force, point->friction};
+            (point_entry){point->feature, point->slide, point->held, point->place, point->force, point->friction};
     }
     return e;
 }
@@ -69,7 +69,7 @@ static bool is_possible(const contact_set *c, const candidate_entry *e)
     if (e->storm < 0 || !isfinite(e->storm_start)) return false;
     const dem_index n_features = candidate_is_edge(&c->list[e->k]) ? o->n_vertices : o->n_segments;
     for (dem_index q = 0; q < e->n_closed; q++) {
-        const touch_entry *point = &e->closed[q];
+        const point_entry *point = &e->closed[q];
         if (!is_within(point->feature, 0, n_features - 1) || !is_within(point->slide, -1, 1)) return false;
         if (!is_within(point->held, 0, 1) || !isfinite(point->place)) return false;
         if (!isfinite(point->force) || !isfinite(point->friction)) return false;
@@ -90,7 +90,7 @@ static void restore(contact_candidate *candidate, const candidate_entry *e)
     candidate->storm.start = e->storm_start;
     for (int q = 0; q < 2; q++) candidate->behind[q] = e->behind[q];
     for (int q = 0; q < candidate->n_closed; q++) {
-        const touch_entry *point = &e->closed[q];
+        const point_entry *point = &e->closed[q];
         candidate->closed[q] = (contact_point){.feature = point->feature,
                                                .slide = (int)point->slide,
                                                .held = point->held != 0,

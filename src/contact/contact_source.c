@@ -195,7 +195,7 @@ static void keep_candidate(contact_source *s, const event_place *at, dem_index k
 
 /* Takes away velocities that errors have left in closed contacts near the event, and that these do not allow: they
  * would be taken for sliding or for an approach. */
-static void calm(contact_source *s, const event_place *at)
+static void stop_groups(contact_source *s, const event_place *at)
 {
     contact_set *c = &s->automaton->set;
     contact_instant now = {at->t, at->state, at->state + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
@@ -210,7 +210,7 @@ static void contact_source_prepare(void *self, const event_place *at)
     s->has_ledger = true;
     c->solved = NAN;
     each_candidate(s, at, keep_candidate);
-    calm(s, at);
+    stop_groups(s, at);
 }
 
 static dem_status contact_source_resolve(void *self, dem_index key, const event_place *at,

@@ -204,7 +204,7 @@ static void settle_velocities(contact_set *c, contact_instant *now)
 }
 
 /* Enters in the ledger, and reports, the impulses and changes of a candidate's contacts. */
-static void tell_party(contact_set *c, dem_index k, contact_instant *now)
+static void report_candidate(contact_set *c, dem_index k, contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
     for (int q = 0; q < c->impacts[k].n; q++) {
@@ -267,6 +267,6 @@ dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, co
     TRY(contact_set_regroup_some(c, c->involved, c->n_involved));
     settle_velocities(c, now);
     qsort(c->involved, (size_t)c->n_involved, sizeof *c->involved, by_number);
-    for (dem_index p = 0; p < c->n_involved; p++) tell_party(c, c->involved[p], now);
+    for (dem_index p = 0; p < c->n_involved; p++) report_candidate(c, c->involved[p], now);
     return DEM_OK;
 }

@@ -88,7 +88,7 @@ void event_queue_undo(event_queue *q)
 
 /* ---- events ---- */
 
-static dem_status hear(void *context, const dem_event *event)
+static dem_status note_event(void *context, const dem_event *event)
 {
     event_queue *q = context;
     CHECK(grow_array((void **)&q->events, &q->capacity, q->n_events + 1, sizeof *q->events), DEM_ERROR_MEMORY,
@@ -121,7 +121,7 @@ static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
 /* Resolves an event, after all sources have prepared for it. */
 static dem_status resolve(event_queue *q, const due_event *due, const event_place *at)
 {
-    const event_listener listener = {hear, q};
+    const event_listener listener = {note_event, q};
     for (dem_index k = 0; k < q->sources->n; k++) q->sources->list[k].prepare(q->sources->list[k].self, at);
     return due->source->resolve(due->source->self, due->key, at, &listener);
 }

@@ -17,7 +17,7 @@ typedef struct event_queue {
     changed_motion changed;
     local_nodes renewed;      /* those with another derivative at the end */
     const dense_output *step; /* the accepted one */
-    double *state;            /* [4 n] scratch, the caller's */
+    double *state;            /* [2 dim n_rows] scratch, the caller's */
     double now;               /* s, events until here are resolved */
     bool settled;             /* the end of the step is corrected as well */
     bool quiet;               /* nothing happens in the step */
@@ -47,7 +47,7 @@ void event_queue_destroy(event_queue *q);
 
 /** Begins with an accepted step: finds the first event of every source. The step ends in y1, with derivative f1, which
  *  change with it; it gets the changed motions, and must stay where it is.
- *  \param state  [4 n] scratch */
+ *  \param state  [2 dim n_rows] scratch */
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 
 /** Resolves the events up to t, and takes back those after it, so that sources and motion are those at t; the end of

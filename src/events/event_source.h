@@ -16,7 +16,7 @@ typedef struct event_place {
     const dense_output *step;  /* with the changes of all events before */
     double t;                  /* s */
     const neighbourhood *near; /* whose motion it changes: all rings but the last */
-    double *state;             /* [4 n] at t, of those nodes; scratch after the event */
+    double *state;             /* [2 dim n_rows] at t, of those nodes; scratch after the event */
 } event_place;
 
 /** A source is deterministic: after undo() the same step brings the same events. */
@@ -24,7 +24,7 @@ typedef struct event_source {
     const char *name; /* in messages: "after a NAME event" */
     void *self;
     /** Finds the events of a step, from its start.
-     *  \param state  [4 n] scratch */
+     *  \param state  [2 dim n_rows] scratch */
     void (*begin)(void *self, const dense_output *step, double *state);
     /** When the next event is, infinity if there is none, and its key: the lowest of several at that time. */
     double (*next)(const void *self, dem_index *key);

@@ -23,7 +23,7 @@ dem_status local_correction_create(local_correction *out, const state_layout *l,
 void local_correction_destroy(local_correction *p)
 {
     neighbourhood_destroy(&p->near);
-    free(p->book);
+    free(p->rows);
     free(p->motions);
     free(p->block);
     *p = (local_correction){0};
@@ -86,9 +86,9 @@ static dem_status reserve(local_correction *p, dem_index n, dem_index used)
     p->capacity = 0;
     motion_polynomial *motions = realloc(p->motions, more * sizeof *motions);
     if (motions != NULL) p->motions = motions;
-    dem_index *book = realloc(p->book, more * sizeof *book);
-    if (book != NULL) p->book = book;
-    CHECK(motions != NULL && book != NULL, DEM_ERROR_MEMORY, "out of memory for what is near an event");
+    dem_index *rows = realloc(p->rows, more * sizeof *rows);
+    if (rows != NULL) p->rows = rows;
+    CHECK(motions != NULL && rows != NULL, DEM_ERROR_MEMORY, "out of memory for what is near an event");
     p->capacity = (dem_index)more;
     return DEM_OK;
 }
@@ -101,11 +101,11 @@ static dem_status find_quadrature(local_correction *p, dem_index place, dem_inde
     const dem_index n = p->near.nodes.n;
     for (dem_index b = 0; b < p->n_quadratures; b++) {
         *out = n + b;
-        if (p->book[b] == place) return DEM_OK;
+        if (p->rows[b] == place) return DEM_OK;
     }
     *out = n + p->n_quadratures;
     TRY(reserve(p, *out + 1, *out));
-    p->book[p->n_quadratures++] = place;
+    p->rows[p->n_quadratures++] = place;
     const dem_index first = components(p, *out), last = components(p, *out + 1);
     for (int k = CHANGES; k < ARRAYS; k++)
         for (dem_index c = first; c < last; c++) (*array_of(p, k))[c] = 0.0;
@@ -399,8 +399,8 @@ dem_status local_correction_close(local_correction *p, const dense_output *step,
     for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, list[j], &p->motions[j]));
     for (dem_index b = 0; b < p->n_quadratures; b++) {
         motion_polynomial motion;
-        find_motion(p, step, p->book[b], &motion);
-        TRY(leave(p, tr, p->near.nodes.n + b, p->book[b], &motion));
+        find_motion(p, step, p->rows[b], &motion);
+        TRY(leave(p, tr, p->near.nodes.n + b, p->rows[b], &motion));
     }
     *error = squared_error(p);
     return DEM_OK;

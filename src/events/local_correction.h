@@ -29,7 +29,7 @@ typedef struct local_correction {
     bool parabolic;          /* the step is interpolated by parabolas, and so is the change */
     dem_index n_quadratures; /* rows of the quadratures that change, behind the nodes of the neighbourhood */
     dem_index capacity;
-    dem_index *book;            /* [n_quadratures] their places in a state */
+    dem_index *rows;            /* [n_quadratures] their places in a state */
     motion_polynomial *motions; /* of the nodes after t, without the event */
     double *block;              /* memory of the arrays that follow, [n + n_quadratures][dim] each */
     double *x[LOCAL_CORRECTION_STAGES], *v[LOCAL_CORRECTION_STAGES],
@@ -45,8 +45,8 @@ dem_status local_correction_create(local_correction *out, const state_layout *l,
 void local_correction_destroy(local_correction *p);
 
 /** Called before an event that may change some nodes, the seeds, at once: gathers their neighbourhood, computes its
- *  motion without the event at all stages, and puts its state at t into `state` [4 n]. The constraints are to be solved
- *  for the end of the step. */
+ *  motion without the event at all stages, and puts its state at t into `state` [2 dim n_rows]. The constraints are to
+ *  be solved for the end of the step. */
 dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
                                  dem_index n_seeds, double t, double *state);
 

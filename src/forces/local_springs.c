@@ -19,7 +19,7 @@ void local_springs_destroy(local_springs *b)
     *b = (local_springs){0};
 }
 
-static dem_status springs_add_neighbours(const void *self, local_nodes *nodes, dem_index first, dem_index last)
+static dem_status local_springs_add_neighbours(const void *self, local_nodes *nodes, dem_index first, dem_index last)
 {
     const forces *f = ((const local_springs *)self)->forces;
     for (dem_index p = first; p < last; p++)
@@ -67,7 +67,7 @@ static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
     }
 }
 
-static dem_status springs_gather(void *self, const local_nodes *nodes)
+static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
     const springs *s = &b->forces->model->springs;
@@ -116,7 +116,7 @@ static void accelerate_plain(const local_springs *b, const local_nodes *nodes, i
         vec2_put(a, j, forces_acceleration_by(b->forces, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
 }
 
-static void springs_evaluate_external(void *self, const local_nodes *nodes, int ring, const local_state *s)
+static void local_springs_evaluate_external(void *self, const local_nodes *nodes, int ring, const local_state *s)
 {
     const local_springs *b = self;
     external_force *c = b->forces->external;
@@ -125,7 +125,7 @@ static void springs_evaluate_external(void *self, const local_nodes *nodes, int 
     external_force_evaluate(c, &(dem_force_query){t, nodes->end[ring], nodes->list, s->x, s->v});
 }
 
-static void springs_accelerate(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a)
+static void local_springs_accelerate(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
     const local_springs *b = self;
     const forces *f = b->forces;
@@ -133,18 +133,19 @@ static void springs_accelerate(void *self, const local_nodes *nodes, int ring, c
     if (b->plain) accelerate_plain(b, nodes, ring, s, a);
     for (dem_index j = 0; j < nodes->end[ring] && !b->plain; j++)
         vec2_put(a, j, forces_own_acceleration(f, nodes->list[j], s->y, v));
-    springs_evaluate_external(self, nodes, ring, s);
+    local_springs_evaluate_external(self, nodes, ring, s);
     for (dem_index j = 0; j < nodes->end[ring] && f->external != NULL; j++)
         vec2_put(a, j, forces_with_external(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
 }
 
-static void springs_accelerate_one(const void *self, dem_index node, const double *y, double *a)
+static void local_springs_accelerate_one(const void *self, dem_index node, const double *y, double *a)
 {
     const local_springs *b = self;
     vec2_put(a, 0, forces_acceleration(b->forces, node, y, y + b->velocities));
 }
 
-static void springs_add_power(const void *self, const local_nodes *nodes, int ring, const double *y, double *totals)
+static void local_springs_add_power(const void *self, const local_nodes *nodes, int ring, const double *y,
+                                    double *totals)
 {
     const local_springs *b = self;
     const external_force *c = b->forces->external;
@@ -165,10 +166,10 @@ local_forces local_springs_forces(local_springs *b)
                           .read_state = !b->plain,
                           .have_power = forces_have_power(f),
                           .held = f->boundaries != NULL ? f->boundaries->held : NULL,
-                          .add_neighbours = springs_add_neighbours,
-                          .accelerate_one = springs_accelerate_one,
-                          .gather = springs_gather,
-                          .accelerate = springs_accelerate,
-                          .evaluate_external = springs_evaluate_external,
-                          .add_power = springs_add_power};
+                          .add_neighbours = local_springs_add_neighbours,
+                          .accelerate_one = local_springs_accelerate_one,
+                          .gather = local_springs_gather,
+                          .accelerate = local_springs_accelerate,
+                          .evaluate_external = local_springs_evaluate_external,
+                          .add_power = local_springs_add_power};
 }

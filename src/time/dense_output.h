@@ -12,8 +12,8 @@ typedef struct dense_output {
     state_layout layout;
     double t0, t1;    /* the accepted step, s */
     double end;       /* the motion holds up to here, t0 <= end <= t1: an event cuts it short */
-    const double *y0; /* [4 n] state (x, v) at t0 */
-    const double *f0; /* [4 n] its derivative, of which the second half is read, accelerations */
+    const double *y0; /* [2 dim n_rows] state (x, v) at t0 */
+    const double *f0; /* [2 dim n_rows] its derivative, of which the second half is read, accelerations */
     const double *y1, *f1;
     bool parabolic; /* positions through x0, v0, x1 and velocities through v0, a0, v1: the way of Verlet's method */
     const changed_motion *changed; /* how nodes go on from events inside, up to y1; NULL: there were none */
@@ -43,8 +43,8 @@ static inline void dense_output_velocity(const dense_output *p, double t, dem_in
 /** The motion of a node over the whole step, as if no event inside had changed it. */
 void dense_output_motion(const dense_output *p, dem_index i, motion_polynomial *out);
 
-/** The whole state at t into y [4 n]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at t0 has
- *  changed there. */
+/** The whole state at t into y [2 dim n_rows]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at
+ *  t0 has changed there. */
 void dense_output_state(const dense_output *p, double t, double *y);
 
 #endif

@@ -18,7 +18,8 @@ void integrator_destroy(integrator *e);
  *  and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
 dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 
-/** The end of the step just taken, [4 n], and its derivative, for a caller that changes both before settling. */
+/** The end of the step just taken, [2 dim n_rows], and its derivative, for a caller that changes both before
+ *  settling. */
 void integrator_end(integrator *e, double **y1, double **f1);
 
 /** Takes the step just taken back: the next goes from its start, and is shorter by the factor. Not for fixed steps. */
@@ -28,8 +29,8 @@ dem_status integrator_redo(integrator *e, double factor);
  *  the next step or restart. */
 void integrator_settle(integrator *e, const dense_output *step);
 
-/** The state from which the next step starts, [4 n]. A caller that changes it restarts the integrator there: it is no
- *  copy, and the end of the step that led to it changes with it. */
+/** The state from which the next step starts, [2 dim n_rows]. A caller that changes it restarts the integrator there:
+ *  it is no copy, and the end of the step that led to it changes with it. */
 double *integrator_state(const integrator *e);
 
 /** Bounds the first step after the restart or resumption that follows, s. */

@@ -43,7 +43,7 @@ typedef struct ode_problem {
 /** Where an integrator begins anew. */
 typedef struct integrator_start {
     double t, next_step; /* s */
-    const double *y;     /* [4 n] */
+    const double *y;     /* [2 dim n_rows] */
     dem_counts counts;   /* of which steps, rejections, evaluations and retries are read */
 } integrator_start;
 

@@ -14,7 +14,7 @@
 
 typedef struct verlet_integrator {
     ode_problem problem;
-    double *arrays;                    /* [5][4 n] those that follow */
+    double *arrays;                    /* [5][2 dim n_rows] those that follow */
     double *y0, *f0, *y1, *f1, *state; /* ends of the step with derivatives; a state inside */
     double t, t1;                      /* s, of y0, y1 */
     bool has_f0;                       /* f0 is that of y0 */
