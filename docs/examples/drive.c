@@ -4,8 +4,8 @@
  *
  *     cc drive.c $(pkg-config --cflags --libs dem) -lm -o drive && ./drive
  *
- * The block starts stretched, so it trembles. The springs between its nodes do not move its centre of mass, which swings
- * as x(t) = v/w sin(w t); the stress of the stretch is E e/(1 - nu^2) along it and nu times that across. */
+ * The block starts stretched, so it trembles. The springs between its nodes do not move its centre of mass, which
+ * swings as x(t) = v/w sin(w t); the stress of the stretch is E e/(1 - nu^2) along it and nu times that across. */
 #include <dem/dem.h>
 #include <math.h>
 #include <stdio.h>

@@ -43,13 +43,13 @@ class dem_options(ctypes.Structure):
                 ("spacing", c_double), ("v_scale", c_double), ("max_step", c_double), ("fixed_step", c_double),
                 ("penetration_tolerance", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
                 ("mass_damping", c_double), ("vertices", c_int32), ("contact", c_int), ("kernel", c_int),
-                ("threads", c_int32), ("record_steps", c_int64), ("n_boundaries", c_int64), ("boundaries", c_void_p),
+                ("threads", c_int32), ("checkpoint_steps", c_int64), ("n_boundaries", c_int64), ("boundaries", c_void_p),
                 ("force", dem_force), ("force_context", c_void_p)]
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""
         defaults = dict(struct_size=ctypes.sizeof(dem_options), gravity=(0.0, -9.81), rtol=1e-6, max_impacts=10000,
-                        window=-1.0, vertices=1, threads=1, record_steps=256)
+                        window=-1.0, vertices=1, threads=1, checkpoint_steps=256)
         super().__init__(**{**defaults, **given})
 
 
@@ -72,7 +72,7 @@ class dem_observer(ctypes.Structure):
                 ("record", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p)]
 
 
-dem = ctypes.CDLL("libdem.so.1")
+dem = ctypes.CDLL("libdem.so.2")
 dem.dem_status_message.restype = c_char_p
 dem.dem_model_lattice.restype = POINTER(dem_lattice)
 for function, arguments in {

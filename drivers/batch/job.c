@@ -9,7 +9,7 @@
 
 #include <dem/trajectory.h>
 
-#include "checkpoint.h"
+#include "checkpoint_file.h"
 #include "decimal.h"
 #include "deck.h"
 #include "estimate.h"
@@ -36,7 +36,7 @@ typedef struct job {
     relaxation rest;
     dem_options options;
     checkpoint_source source; /* from which the run goes on */
-    checkpoint checkpoint;
+    checkpoint_file checkpoint;
     lock lock;
     time_t start;
     double wall_start; /* s */
@@ -113,16 +113,16 @@ static dem_status begin(job *j)
 /* The counterpart of begin() and of the simulation's creation. */
 static dem_status resume(job *j)
 {
-    const dem_record *record = j->source.record;
+    const dem_checkpoint *checkpoint = j->source.checkpoint;
     dem_simulation_destroy(j->simulation);
     j->simulation = NULL;
-    dem_status status = dem_simulation_resume(&j->simulation, j->model, &j->options, record);
+    dem_status status = dem_simulation_resume(&j->simulation, j->model, &j->options, checkpoint);
     if (status == DEM_OK && j->deck.peak_every > 0)
-        status = dem_peaks_resume(&j->peaks, j->model, j->deck.peak_every, record);
+        status = dem_peaks_resume(&j->peaks, j->model, j->deck.peak_every, checkpoint);
     const dem_trajectory_options options = frames_of(j);
-    if (status == DEM_OK) status = dem_trajectory_resume(&j->trajectory, j->path, j->simulation, &options, record);
-    if (status == DEM_OK) status = report_resume(&j->log, record, j->simulation);
-    return status == DEM_OK && j->deck.residual > 0.0 ? relaxation_resume(&j->rest, record) : status;
+    if (status == DEM_OK) status = dem_trajectory_resume(&j->trajectory, j->path, j->simulation, &options, checkpoint);
+    if (status == DEM_OK) status = report_resume(&j->log, checkpoint, j->simulation);
+    return status == DEM_OK && j->deck.residual > 0.0 ? relaxation_resume(&j->rest, checkpoint) : status;
 }
 
 static dem_status observe(job *j)
@@ -135,7 +135,7 @@ static dem_status observe(job *j)
                {true, report_observer(&j->log)},
                {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
                {j->deck.stop_at_overlap != 0, {.step = stop_at_overlap}},
-               {true, checkpoint_observer(&j->checkpoint)}};
+               {true, checkpoint_file_observer(&j->checkpoint)}};
     dem_status status = DEM_OK;
     for (size_t k = 0; k < sizeof all / sizeof *all && status == DEM_OK; k++)
         if (all[k].wanted) status = dem_simulation_observe(j->simulation, &all[k].observer);
@@ -178,15 +178,16 @@ static void check_success(job *j)
 static void finish(job *j)
 {
     const bool good = j->outcome.code == EXIT_DONE;
-    dem_status status = good ? dem_trajectory_finish(j->trajectory) : checkpoint_save(&j->checkpoint, j->simulation);
-    if (good && status == DEM_OK) status = checkpoint_close(&j->checkpoint, j->simulation);
+    dem_status status =
+        good ? dem_trajectory_finish(j->trajectory) : checkpoint_file_save(&j->checkpoint, j->simulation);
+    if (good && status == DEM_OK) status = checkpoint_file_close(&j->checkpoint, j->simulation);
     (void)passes(j, status, j->deck.path);
 }
 
 static void stop(job *j)
 {
     dem_state state = {.struct_size = sizeof state};
-    const checkpoint *c = &j->checkpoint;
+    const checkpoint_file *c = &j->checkpoint;
     (void)dem_simulation_state(j->simulation, &state);
     report_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
                 c->t_written >= 0.0 ? c->path : "the beginning");
@@ -199,9 +200,10 @@ static void run(job *j)
     j->checkpoint.log = &j->log;
     j->log.peaks = j->peaks;
     preview_print(stdout, &j->deck, j->simulation, j->path);
-    if (j->source.record != NULL) report_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
-    dem_record_destroy(j->source.record);
-    j->source.record = NULL;
+    if (j->source.checkpoint != NULL)
+        report_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
+    dem_checkpoint_destroy(j->source.checkpoint);
+    j->source.checkpoint = NULL;
     const dem_status status = advance(j);
     if (j->checkpoint.ended != NULL && status == DEM_STOPPED) {
         stop(j);
@@ -367,7 +369,7 @@ static bool make_way(job *j, exit_code code, const char *where, const char *reas
         outcome_fail(&j->outcome, EXIT_IO, j->path, "%s", why);
     } else {
         (void)printf("%s: set aside as %s\n", j->path, why);
-        checkpoint_source_free(&j->source);
+        checkpoint_file_source_free(&j->source);
         return true;
     }
     return false;
@@ -381,7 +383,7 @@ static bool claim(job *j)
     if (found == OUTPUT_DONE && is_done(j, reason)) return false;
     if (found == OUTPUT_TAKEN) return make_way(j, EXIT_TAKEN, j->path, reason);
     output_beside(file, j->path, ".checkpoint");
-    switch (checkpoint_find(&j->source, j->path, &j->deck, j->command->resume_anyway, saved)) {
+    switch (checkpoint_file_find(&j->source, j->path, &j->deck, j->command->resume_anyway, saved)) {
     case CHECKPOINT_FOUND:
         return true;
     case CHECKPOINT_NONE:
@@ -401,7 +403,7 @@ static void start_log(job *j)
 {
     report_start(&j->log, stdout, isatty(STDOUT_FILENO) == 1, &j->deck);
     j->rest = relaxation_start(j->deck.residual, &j->deck.options);
-    j->checkpoint = checkpoint_start(j->command, j->path, &j->deck, &j->source);
+    j->checkpoint = checkpoint_file_start(j->command, j->path, &j->deck, &j->source);
 }
 
 static bool begin_anew(job *j)
@@ -420,7 +422,7 @@ static bool begin_or_resume(job *j)
 {
     char reason[OUTPUT_REASON];
     start_log(j);
-    if (j->source.record == NULL) return passes(j, begin(j), j->path);
+    if (j->source.checkpoint == NULL) return passes(j, begin(j), j->path);
     const dem_status status = resume(j);
     if (status != DEM_ERROR_IO) return passes(j, status, j->path);
     (void)snprintf(reason, sizeof reason, "%s; --overwrite sets the output aside and begins anew",
@@ -477,7 +479,7 @@ static void dismiss(job *j)
     dem_peaks_destroy(j->peaks);
     dem_simulation_destroy(j->simulation);
     dem_model_destroy(j->model);
-    checkpoint_source_free(&j->source);
+    checkpoint_file_source_free(&j->source);
     deck_free(&j->deck);
     lock_release(&j->lock);
 }

@@ -6,7 +6,7 @@
 
 enum { between_looks = 16 }; /* steps: a look costs as much as half an evaluation */
 
-static const char entry[] = "relaxation"; /* of a record */
+static const char entry[] = "relaxation"; /* of a checkpoint */
 static const double pi = 3.14159265358979323846;
 
 /* The diagonal of all nodes' box, m: no body is longer. */
@@ -68,18 +68,18 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return r->done ? DEM_STOPPED : DEM_OK;
 }
 
-static dem_status save(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status save(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const relaxation *r = context;
     const double memory[] = {(double)r->steps, r->reached, r->t};
     (void)simulation;
-    return dem_record_put(record, entry, memory, sizeof memory);
+    return dem_checkpoint_put(checkpoint, entry, memory, sizeof memory);
 }
 
-dem_status relaxation_resume(relaxation *r, const dem_record *record)
+dem_status relaxation_resume(relaxation *r, const dem_checkpoint *checkpoint)
 {
     double memory[3];
-    const dem_status status = dem_record_get(record, entry, memory, sizeof memory);
+    const dem_status status = dem_checkpoint_get(checkpoint, entry, memory, sizeof memory);
     if (status != DEM_OK) return status;
     r->steps = (long)memory[0];
     r->reached = memory[1];
@@ -89,5 +89,5 @@ dem_status relaxation_resume(relaxation *r, const dem_record *record)
 
 dem_observer relaxation_observer(relaxation *r)
 {
-    return (dem_observer){.step = look, .record = save, .context = r};
+    return (dem_observer){.step = look, .checkpoint = save, .context = r};
 }

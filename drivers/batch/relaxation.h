@@ -26,8 +26,8 @@ double relaxation_settled(const dem_options *options);
 /* A run that is to end at this residual. */
 relaxation relaxation_start(double residual, const dem_options *options);
 
-/* Goes on from a record of such a run.  DEM_ERROR_IO if it is not of one. */
-dem_status relaxation_resume(relaxation *r, const dem_record *record);
+/* Goes on from a checkpoint of such a run.  DEM_ERROR_IO if it is not of one. */
+dem_status relaxation_resume(relaxation *r, const dem_checkpoint *checkpoint);
 
 /* To be handed to the simulation, behind all others: stops it when all ramps are over and the residual is small. */
 dem_observer relaxation_observer(relaxation *r);

@@ -15,7 +15,7 @@
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
 
-static const char entry[] = "report"; /* of a record */
+static const char entry[] = "report"; /* of a checkpoint */
 
 double report_rising_speed(const dem_simulation *simulation)
 {
@@ -160,7 +160,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 void report_start(report *r, FILE *out, bool terminal, const deck *d)
 {
-    memset(r, 0, sizeof *r); /* gaps too: they get into records */
+    memset(r, 0, sizeof *r); /* gaps too: they get into checkpoints */
     r->out = out;
     r->terminal = terminal;
     r->t_end = d->t_end;
@@ -172,25 +172,25 @@ void report_start(report *r, FILE *out, bool terminal, const deck *d)
     r->wall_start = r->wall_shown = wall_clock();
 }
 
-dem_status report_resume(report *r, const dem_record *record, const dem_simulation *simulation)
+dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
     r->t_start = r->t_shown = state.t;
     r->steps_start = dem_simulation_counts(simulation).steps;
-    return dem_record_get(record, entry, &r->so_far, sizeof r->so_far);
+    return dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
 }
 
-static dem_status save(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status save(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const report *r = context;
     (void)simulation;
-    return dem_record_put(record, entry, &r->so_far, sizeof r->so_far);
+    return dem_checkpoint_put(checkpoint, entry, &r->so_far, sizeof r->so_far);
 }
 
 dem_observer report_observer(report *r)
 {
-    return (dem_observer){.step = follow, .event = note_event, .record = save, .context = r};
+    return (dem_observer){.step = follow, .event = note_event, .checkpoint = save, .context = r};
 }
 
 static void print_contact(const report *r, const dem_simulation *simulation)

@@ -9,7 +9,7 @@
 #include "deck.h"
 #include "step_report.h"
 
-/** What the report of a run needs, and its records keep. */
+/** What the report of a run needs, and its checkpoints keep. */
 typedef struct report_progress {
     double energy_start; /* J, total at t = 0 */
     double energy_max;   /* J, largest kinetic + elastic + area + guard so far: what is compared */
@@ -42,8 +42,8 @@ typedef struct report {
 /** Starts the log of a run. */
 void report_start(report *r, FILE *out, bool terminal, const deck *d);
 
-/** Goes on from the record of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
-dem_status report_resume(report *r, const dem_record *record, const dem_simulation *simulation);
+/** Goes on from the checkpoint of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
+dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation);
 
 /** A line of the log, printf-like, with its end. */
 void report_tell(report *r, const char *format, ...) __attribute__((format(printf, 2, 3)));

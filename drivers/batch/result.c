@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <dem/record.h>
+#include <dem/checkpoint.h>
 
 #include "file.h"
 #include "json.h"

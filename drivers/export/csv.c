@@ -39,7 +39,7 @@ static void write_still_head(sheet *s, const still *frame, int of_springs)
 {
     sheet_print(s, "%s", of_frames[of_springs].head);
     for (dem_index a = 0; a < frame->n_arrays; a++) {
-        const dem_film_array *what = frame->arrays[a].what;
+        const dem_reader_array *what = frame->arrays[a].what;
         for (int c = 0; c < what->components; c++) {
             sheet_print(s, ",");
             write_name(s, what->name, label_component(what->name, c, what->components), what->unit);
@@ -50,13 +50,13 @@ static void write_still_head(sheet *s, const still *frame, int of_springs)
 
 static void write_still_row(sheet *s, const still *frame, int of_springs, dem_index row)
 {
-    const dem_index *ends = dem_film_lattice(frame->task->film)->ends;
+    const dem_index *ends = dem_reader_lattice(frame->task->reader)->ends;
     if (of_springs)
         sheet_print(s, "%lld,%lld,%lld", (long long)row, (long long)ends[2 * row], (long long)ends[2 * row + 1]);
     else
         sheet_print(s, "%lld,%.17g,%.17g", (long long)row, frame->x[2 * row], frame->x[2 * row + 1]);
     for (dem_index a = 0; a < frame->n_arrays; a++) {
-        const dem_film_array *what = frame->arrays[a].what;
+        const dem_reader_array *what = frame->arrays[a].what;
         for (int c = 0; c < what->components; c++) {
             sheet_print(s, ",");
             sheet_number(s, frame->arrays[a].values[row * what->components + c], what->type);
@@ -69,7 +69,7 @@ static bool write_stills(sheet *s, still *frame, int of_springs)
 {
     const frame_list *frames = &frame->task->frames;
     dem_index n = 0;
-    const double *times = dem_film_times(frame->task->film, &n);
+    const double *times = dem_reader_times(frame->task->reader, &n);
     const dem_index rows = of_springs ? frame->n_springs : frame->n_nodes;
     write_still_head(s, frame, of_springs);
     for (size_t k = 0; k < frames->n; k++) {
@@ -98,12 +98,12 @@ static bool export_frames(const task *t, int of_springs)
 
 /* The columns of one table, which follow each other. */
 typedef struct table {
-    const dem_film_column *columns; /* [n] */
-    dem_index n, width;             /* numbers in a row */
+    const dem_reader_column *columns; /* [n] */
+    dem_index n, width;               /* numbers in a row */
 } table;
 
 /* The table that begins with a column. */
-static table find_table(const dem_film_column *columns, dem_index n)
+static table find_table(const dem_reader_column *columns, dem_index n)
 {
     table found = {columns, 0, 0};
     while (found.n < n && strcmp(columns[found.n].table, columns->table) == 0) found.width += columns[found.n++].width;
@@ -119,7 +119,7 @@ static void name_table(char ending[ENDING], const table *t)
 }
 
 /* Items have numbers: body_centre_0_x. */
-static void write_column_names(sheet *s, const dem_film_column *c, bool numbered)
+static void write_column_names(sheet *s, const dem_reader_column *c, bool numbered)
 {
     for (dem_index k = 0; k < c->width; k++) {
         const char *component = label_component(c->name, k % c->components, c->components);
@@ -131,7 +131,7 @@ static void write_column_names(sheet *s, const dem_film_column *c, bool numbered
 }
 
 /* Those of bodies, obstacles and boundaries, of however few. */
-static bool has_items(const dem_film_column *c)
+static bool has_items(const dem_reader_column *c)
 {
     static const char *const items[] = {"body_", "obstacle_", "boundary_"};
     for (size_t k = 0; k < sizeof items / sizeof *items; k++)
@@ -168,7 +168,7 @@ static void write_rows(sheet *s, const table *t, dem_index count, const double *
 static bool read_rows(const task *t, const table *of, dem_index first, dem_index count, double *values)
 {
     for (dem_index c = 0; c < of->n; c++) {
-        if (!task_holds(t, dem_film_read_rows(t->film, &of->columns[c], first, count, values))) return false;
+        if (!task_holds(t, dem_reader_read_rows(t->reader, &of->columns[c], first, count, values))) return false;
         values += count * of->columns[c].width;
     }
     return true;
@@ -203,7 +203,7 @@ static bool export_table(const task *t, const table *of)
 static bool each_table(const task *t, bool (*act)(const task *t, const table *of))
 {
     dem_index n = 0;
-    const dem_film_column *columns = dem_film_columns(t->film, &n);
+    const dem_reader_column *columns = dem_reader_columns(t->reader, &n);
     for (dem_index k = 0; k < n;) {
         const table found = find_table(columns + k, n - k);
         if (!act(t, &found)) return false;

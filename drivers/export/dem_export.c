@@ -57,7 +57,7 @@ static bool choose_frames(task *t, const export *e)
 {
     const char *fault = NULL;
     dem_index n = 0;
-    (void)dem_film_times(t->film, &n);
+    (void)dem_reader_times(t->reader, &n);
     if (e->frames == NULL) {
         if (frame_list_all(&t->frames, n)) return true;
         outcome_fail(t->outcome, EXIT_MEMORY, "dem_export", "out of memory");
@@ -75,18 +75,18 @@ static bool choose_frames(task *t, const export *e)
 static void write_files(const export *e, outcome *o)
 {
     target where;
-    dem_film *film = NULL;
+    dem_reader *reader = NULL;
     find_target(&where, e);
-    const dem_status status = dem_film_open(&film, e->input);
+    const dem_status status = dem_reader_open(&reader, e->input);
     task t = {.input = e->input,
-              .film = film,
+              .reader = reader,
               .folder = where.folder,
               .name = where.name,
               .overwrite = e->overwrite,
               .outcome = o};
     if (task_holds(&t, status) && choose_frames(&t, e)) (void)e->write(&t);
     frame_list_free(&t.frames);
-    dem_film_close(film);
+    dem_reader_close(reader);
 }
 
 int main(int argc, char **argv)

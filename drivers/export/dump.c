@@ -23,7 +23,7 @@ static void write_head(sheet *s, const molecule *m, const still *frame, dem_inde
 static void write_names(sheet *s, const still *frame)
 {
     for (dem_index a = 0; a < frame->n_arrays; a++) {
-        const dem_film_array *what = frame->arrays[a].what;
+        const dem_reader_array *what = frame->arrays[a].what;
         for (int c = 0; c < what->components && !what->constant && strcmp(what->name, broken) != 0; c++) {
             const char *component = label_component(what->name, c, what->components);
             if (strcmp(what->name, "velocity") == 0)
@@ -39,7 +39,7 @@ static void write_values(sheet *s, const still *frame, dem_index row)
 {
     for (dem_index a = 0; a < frame->n_arrays; a++) {
         const still_array *array = &frame->arrays[a];
-        const dem_film_array *what = array->what;
+        const dem_reader_array *what = array->what;
         for (int c = 0; c < what->components && !what->constant && strcmp(what->name, broken) != 0; c++) {
             sheet_print(s, " ");
             sheet_number(s, array->values[row * what->components + c], what->type);

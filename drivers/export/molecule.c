@@ -53,12 +53,12 @@ static bool starts_so(const dem_lattice *l, const double *v)
 }
 
 /* Three components become two. */
-static bool read_velocities(molecule *m, const dem_film_array *what, double *v)
+static bool read_velocities(molecule *m, const dem_reader_array *what, double *v)
 {
     const dem_index n = m->lattice->n_nodes;
     double *three = task_allocate(m->task, what->components * n, sizeof *three);
     const bool read =
-        three != NULL && task_holds(m->task, dem_film_read(m->task->film, what, m->task->frames.frame[0], three));
+        three != NULL && task_holds(m->task, dem_reader_read(m->task->reader, what, m->task->frames.frame[0], three));
     for (dem_index k = 0; read && k < 2 * n; k++) v[k] = three[k / 2 * what->components + k % 2];
     free(three);
     return read;
@@ -67,14 +67,14 @@ static bool read_velocities(molecule *m, const dem_film_array *what, double *v)
 static bool read_state(molecule *m)
 {
     const dem_lattice *l = m->lattice;
-    const dem_film_array *velocity = dem_film_array_find(m->task->film, "velocity");
+    const dem_reader_array *velocity = dem_reader_array_find(m->task->reader, "velocity");
     for (int k = 0; k < 2; k++) m->own[k] = task_allocate(m->task, 2 * l->n_nodes, sizeof *m->own[k]);
     if (m->own[0] == NULL || m->own[1] == NULL) return false;
     m->x = m->own[0], m->v = m->own[1];
-    if (!task_holds(m->task, dem_film_positions(m->task->film, m->task->frames.frame[0], m->own[0]))) return false;
+    if (!task_holds(m->task, dem_reader_positions(m->task->reader, m->task->frames.frame[0], m->own[0]))) return false;
     const bool known = velocity != NULL && velocity->components >= 2;
     if (known && !read_velocities(m, velocity, m->own[1])) return false;
-    const bool rounded = known && velocity->type == DEM_FILM_F32;
+    const bool rounded = known && velocity->type == DEM_READER_F32;
     if (m->t == 0.0 && l->velocity != NULL && (!known || (rounded && starts_so(l, m->v)))) m->v = l->velocity;
     if (!known && m->t > 0.0) task_warn(m->task, "has no velocities: in the data file they are 0");
     return true;
@@ -84,7 +84,7 @@ static bool find_state(molecule *m)
 {
     const dem_lattice *l = m->lattice;
     dem_index n = 0;
-    const double *times = dem_film_times(m->task->film, &n);
+    const double *times = dem_reader_times(m->task->reader, &n);
     if (m->task->frames.n > 0) {
         m->t = times[m->task->frames.frame[0]];
         return read_state(m);
@@ -141,8 +141,8 @@ static void find_omissions(molecule *m)
 {
     const dem_lattice *l = m->lattice;
     dem_index obstacles = 0;
-    (void)dem_film_obstacles(m->task->film, &obstacles);
-    const dem_film_column *boundaries = dem_film_column_find(m->task->film, "history", "boundary_force");
+    (void)dem_reader_obstacles(m->task->reader, &obstacles);
+    const dem_reader_column *boundaries = dem_reader_column_find(m->task->reader, "history", "boundary_force");
     const dem_index area = count(l->area_stiffness, l->n_triangles), guard = count(l->guard, l->n_triangles);
     const dem_index held = boundaries != NULL ? boundaries->items : 0;
     const dem_index damped = count(l->viscosity, l->n_springs);
@@ -157,7 +157,7 @@ static void find_omissions(molecule *m)
 
 bool molecule_make(molecule *out, const task *t)
 {
-    *out = (molecule){.task = t, .lattice = dem_film_lattice(t->film)};
+    *out = (molecule){.task = t, .lattice = dem_reader_lattice(t->reader)};
     if (!find_atoms(out) || !find_bonds(out) || !find_state(out) || !loads_find(&out->loads, t)) return false;
     find_omissions(out);
     return true;

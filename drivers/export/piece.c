@@ -13,8 +13,8 @@ static const char *const sections[] = {[PIECE_FIELD] = "FieldData",
 static const struct form {
     const char *name;
     size_t size;
-} forms[] = {[DEM_FILM_F64] = {"Float64", 8}, [DEM_FILM_F32] = {"Float32", 4}, [DEM_FILM_I64] = {"Int64", 8},
-             [DEM_FILM_I32] = {"Int32", 4},   [DEM_FILM_I8] = {"Int8", 1},     [DEM_FILM_U8] = {"UInt8", 1}};
+} forms[] = {[DEM_READER_F64] = {"Float64", 8}, [DEM_READER_F32] = {"Float32", 4}, [DEM_READER_I64] = {"Int64", 8},
+             [DEM_READER_I32] = {"Int32", 4},   [DEM_READER_I8] = {"Int8", 1},     [DEM_READER_U8] = {"UInt8", 1}};
 
 void piece_print_text(sheet *s, const char *text)
 {
@@ -68,15 +68,15 @@ static void write_head(sheet *s, const piece *p)
 
 /* ---- its numbers ---- */
 
-static void write_number(sheet *s, double value, dem_film_type type)
+static void write_number(sheet *s, double value, dem_reader_type type)
 {
     const float single = (float)value;
-    const int64_t large = type == DEM_FILM_I64 ? (int64_t)value : 0;
-    const int32_t whole = type == DEM_FILM_I32 ? (int32_t)value : 0;
-    const int8_t small = type == DEM_FILM_I8 ? (int8_t)value : 0;
-    const uint8_t byte = type == DEM_FILM_U8 ? (uint8_t)value : 0;
-    const void *forms_of_it[] = {[DEM_FILM_F64] = &value, [DEM_FILM_F32] = &single, [DEM_FILM_I64] = &large,
-                                 [DEM_FILM_I32] = &whole, [DEM_FILM_I8] = &small,   [DEM_FILM_U8] = &byte};
+    const int64_t large = type == DEM_READER_I64 ? (int64_t)value : 0;
+    const int32_t whole = type == DEM_READER_I32 ? (int32_t)value : 0;
+    const int8_t small = type == DEM_READER_I8 ? (int8_t)value : 0;
+    const uint8_t byte = type == DEM_READER_U8 ? (uint8_t)value : 0;
+    const void *forms_of_it[] = {[DEM_READER_F64] = &value, [DEM_READER_F32] = &single, [DEM_READER_I64] = &large,
+                                 [DEM_READER_I32] = &whole, [DEM_READER_I8] = &small,   [DEM_READER_U8] = &byte};
     sheet_write(s, forms_of_it[type], forms[type].size);
 }
 
@@ -84,7 +84,7 @@ static bool write_array(sheet *s, const task *t, const piece *p, const piece_arr
 {
     const uint64_t bytes = bytes_of(a);
     const double *values = a->values != NULL ? a->values : p->scratch;
-    if (a->values == NULL && !task_holds(t, dem_film_read(t->film, a->what, p->frame, p->scratch))) return false;
+    if (a->values == NULL && !task_holds(t, dem_reader_read(t->reader, a->what, p->frame, p->scratch))) return false;
     sheet_write(s, &bytes, sizeof bytes);
     for (dem_index k = 0; k < a->n * a->components; k++) write_number(s, values[k], a->type);
     return true;

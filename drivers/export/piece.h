@@ -17,11 +17,11 @@ typedef enum piece_section {
 typedef struct piece_array {
     piece_section section;
     const char *name;
-    dem_film_type type;
+    dem_reader_type type;
     int components;
-    dem_index n;                /* tuples */
-    const double *values;       /* [n][components] */
-    const dem_film_array *what; /* where `values` is NULL: to be read when it is written */
+    dem_index n;                  /* tuples */
+    const double *values;         /* [n][components] */
+    const dem_reader_array *what; /* where `values` is NULL: to be read when it is written */
 } piece_array;
 
 typedef struct piece {

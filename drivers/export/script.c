@@ -29,7 +29,7 @@ static bool plan(const molecule *m, course *out)
 {
     dem_index n = 0;
     double omega = 0.0, end = m->t;
-    const double *times = dem_film_times(m->task->film, &n);
+    const double *times = dem_reader_times(m->task->reader, &n);
     for (size_t k = 0; k < m->task->frames.n; k++) end = fmax(end, times[m->task->frames.frame[k]]);
     if (!find_omega(m, &omega)) return false;
     const double step = omega > 0.0 ? usual_step / omega : end > m->t ? 1e-3 * (end - m->t) : 1.0;

@@ -59,9 +59,9 @@ void sheet_write(sheet *s, const void *bytes, size_t n)
     if (n > 0) (void)fwrite(bytes, n, 1, s->file);
 }
 
-void sheet_number(sheet *s, double value, dem_film_type type)
+void sheet_number(sheet *s, double value, dem_reader_type type)
 {
-    (void)fprintf(s->file, "%.*g", type == DEM_FILM_F32 ? 9 : 17, value);
+    (void)fprintf(s->file, "%.*g", type == DEM_READER_F32 ? 9 : 17, value);
 }
 
 bool sheet_close(sheet *s, bool good)

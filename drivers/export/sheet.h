@@ -26,7 +26,7 @@ void sheet_print(sheet *s, const char *format, ...) __attribute__((format(printf
 void sheet_write(sheet *s, const void *bytes, size_t n);
 
 /** A number with the digits that read back to what is in the file of the run. */
-void sheet_number(sheet *s, double value, dem_film_type type);
+void sheet_number(sheet *s, double value, dem_reader_type type);
 
 /** Gives the file its name if all is good so far, else removes it. False, and the outcome, if it could not be written;
  *  false also if it was not good. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool add(still *s, const dem_film_array *what)
+static bool add(still *s, const dem_reader_array *what)
 {
     const dem_index n = what->of_springs ? s->n_springs : s->n_nodes;
     still_array *a = &s->arrays[s->n_arrays];
@@ -16,7 +16,7 @@ static bool add(still *s, const dem_film_array *what)
 static bool add_named(still *s, const still_choice *choice)
 {
     for (dem_index k = 0; k < choice->n_names; k++) {
-        const dem_film_array *what = dem_film_array_find(s->task->film, choice->names[k]);
+        const dem_reader_array *what = dem_reader_array_find(s->task->reader, choice->names[k]);
         if (what != NULL && what->of_springs == choice->of_springs && !add(s, what)) return false;
     }
     return true;
@@ -25,8 +25,8 @@ static bool add_named(still *s, const still_choice *choice)
 bool still_open(still *out, const task *t, const still_choice *choice)
 {
     dem_index n = 0;
-    const dem_lattice *l = dem_film_lattice(t->film);
-    const dem_film_array *all = dem_film_arrays(t->film, &n);
+    const dem_lattice *l = dem_reader_lattice(t->reader);
+    const dem_reader_array *all = dem_reader_arrays(t->reader, &n);
     *out = (still){.task = t, .n_nodes = l->n_nodes, .n_springs = l->n_springs};
     out->x = task_allocate(t, 2 * l->n_nodes, sizeof *out->x);
     out->arrays = task_allocate(t, choice->names != NULL ? choice->n_names : n, sizeof *out->arrays);
@@ -47,10 +47,10 @@ void still_free(still *s)
 
 bool still_read(still *s, dem_index frame)
 {
-    const dem_film *film = s->task->film;
-    if (!task_holds(s->task, dem_film_positions(film, frame, s->x))) return false;
+    const dem_reader *reader = s->task->reader;
+    if (!task_holds(s->task, dem_reader_positions(reader, frame, s->x))) return false;
     for (dem_index k = 0; k < s->n_arrays; k++)
-        if (!task_holds(s->task, dem_film_read(film, s->arrays[k].what, frame, s->arrays[k].values))) return false;
+        if (!task_holds(s->task, dem_reader_read(reader, s->arrays[k].what, frame, s->arrays[k].values))) return false;
     return true;
 }
 

@@ -6,7 +6,7 @@
 #include "task.h"
 
 typedef struct still_array {
-    const dem_film_array *what;
+    const dem_reader_array *what;
     double *values; /* [n_nodes or n_springs][components] of the frame */
 } still_array;
 

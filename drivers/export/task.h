@@ -5,14 +5,14 @@
 
 #include <stdbool.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 
 #include "frame_list.h"
 #include "outcome.h"
 
 typedef struct task {
     const char *input; /* path of the run */
-    const dem_film *film;
+    const dem_reader *reader;
     frame_list frames;  /* in the order asked for */
     const char *folder; /* "", or ends in / */
     const char *name;   /* what the names of files are made of */

@@ -45,9 +45,9 @@ static bool make_lines(lines *out, const task *t, dem_index n)
 
 static piece_array *put_lines(piece_array *at, const lines *l)
 {
-    *at++ = (piece_array){PIECE_CELLS, "connectivity", DEM_FILM_I64, 1, 2 * l->n, l->ends, NULL};
-    *at++ = (piece_array){PIECE_CELLS, "offsets", DEM_FILM_I64, 1, l->n, l->offsets, NULL};
-    *at++ = (piece_array){PIECE_CELLS, "types", DEM_FILM_U8, 1, l->n, l->types, NULL};
+    *at++ = (piece_array){PIECE_CELLS, "connectivity", DEM_READER_I64, 1, 2 * l->n, l->ends, NULL};
+    *at++ = (piece_array){PIECE_CELLS, "offsets", DEM_READER_I64, 1, l->n, l->offsets, NULL};
+    *at++ = (piece_array){PIECE_CELLS, "types", DEM_READER_U8, 1, l->n, l->types, NULL};
     return at;
 }
 
@@ -77,8 +77,8 @@ static void free_frame_writer(frame_writer *r)
 static piece_array *put_fields(piece_array *at, const frame_writer *r)
 {
     dem_index n = 0, k = 0;
-    const dem_film_column *columns = dem_film_columns(r->task->film, &n);
-    *at++ = (piece_array){PIECE_FIELD, "TimeValue", DEM_FILM_F64, 1, 1, r->energies, NULL};
+    const dem_reader_column *columns = dem_reader_columns(r->task->reader, &n);
+    *at++ = (piece_array){PIECE_FIELD, "TimeValue", DEM_READER_F64, 1, 1, r->energies, NULL};
     for (dem_index c = 0; c < n; c++)
         if (strcmp(columns[c].table, "frames") == 0 && columns[c].width == 1)
             *at++ = (piece_array){PIECE_FIELD, columns[c].name, columns[c].type, 1, 1, &r->energies[++k], NULL};
@@ -88,21 +88,21 @@ static piece_array *put_fields(piece_array *at, const frame_writer *r)
 static bool read_fields(const frame_writer *r, dem_index frame)
 {
     dem_index n_frames = 0, n = 0, k = 0;
-    const dem_film_column *columns = dem_film_columns(r->task->film, &n);
-    r->energies[0] = dem_film_times(r->task->film, &n_frames)[frame];
+    const dem_reader_column *columns = dem_reader_columns(r->task->reader, &n);
+    r->energies[0] = dem_reader_times(r->task->reader, &n_frames)[frame];
     for (dem_index c = 0; c < n; c++)
         if (strcmp(columns[c].table, "frames") == 0 && columns[c].width == 1 &&
-            !task_holds(r->task, dem_film_read_rows(r->task->film, &columns[c], frame, 1, &r->energies[++k])))
+            !task_holds(r->task, dem_reader_read_rows(r->task->reader, &columns[c], frame, 1, &r->energies[++k])))
             return false;
     return true;
 }
 
 static bool allocate(frame_writer *r)
 {
-    const dem_lattice *l = dem_film_lattice(r->task->film);
+    const dem_lattice *l = dem_reader_lattice(r->task->reader);
     dem_index n_arrays = 0, n_columns = 0, largest = 0;
-    const dem_film_array *arrays = dem_film_arrays(r->task->film, &n_arrays);
-    (void)dem_film_columns(r->task->film, &n_columns);
+    const dem_reader_array *arrays = dem_reader_arrays(r->task->reader, &n_arrays);
+    (void)dem_reader_columns(r->task->reader, &n_columns);
     for (dem_index k = 0; k < n_arrays; k++) {
         const dem_index size = (arrays[k].of_springs ? l->n_springs : l->n_nodes) * arrays[k].components;
         largest = size > largest ? size : largest;
@@ -117,14 +117,14 @@ static bool allocate(frame_writer *r)
 
 static bool make_frame_writer(frame_writer *r, const task *t)
 {
-    const dem_lattice *l = dem_film_lattice(t->film);
+    const dem_lattice *l = dem_reader_lattice(t->reader);
     dem_index n = 0;
-    const dem_film_array *arrays = dem_film_arrays(t->film, &n);
+    const dem_reader_array *arrays = dem_reader_arrays(t->reader, &n);
     *r = (frame_writer){.task = t};
     if (!make_lines(&r->springs, t, l->n_springs) || !allocate(r)) return false;
     for (dem_index k = 0; k < 2 * l->n_springs; k++) r->springs.ends[k] = (double)l->ends[k];
     piece_array *at = put_lines(put_fields(r->arrays, r), &r->springs);
-    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_FILM_F64, 3, l->n_nodes, r->points, NULL};
+    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_READER_F64, 3, l->n_nodes, r->points, NULL};
     for (dem_index k = 0; k < n; k++)
         *at++ = (piece_array){arrays[k].of_springs ? PIECE_CELL_DATA : PIECE_POINT_DATA,
                               arrays[k].name,
@@ -140,10 +140,11 @@ static bool make_frame_writer(frame_writer *r, const task *t)
 static bool write_frame(const frame_writer *r, dem_index frame)
 {
     char ending[ENDING];
-    const dem_lattice *l = dem_film_lattice(r->task->film);
+    const dem_lattice *l = dem_reader_lattice(r->task->reader);
     const piece p = {l->n_nodes, l->n_springs, r->n_arrays, r->arrays, frame, r->scratch};
     name_frame(ending, "", frame);
-    if (!read_fields(r, frame) || !task_holds(r->task, dem_film_positions(r->task->film, frame, r->x))) return false;
+    if (!read_fields(r, frame) || !task_holds(r->task, dem_reader_positions(r->task->reader, frame, r->x)))
+        return false;
     for (dem_index i = 0; i < l->n_nodes; i++) memcpy(r->points + 3 * i, r->x + 2 * i, 2 * sizeof *r->x);
     return piece_write(r->task, ending, &p);
 }
@@ -163,7 +164,7 @@ static bool write_series(const task *t, const char *name, const char *of)
     sheet s;
     char ending[ENDING];
     dem_index n = 0;
-    const double *times = dem_film_times(t->film, &n);
+    const double *times = dem_reader_times(t->reader, &n);
     if (!sheet_open(&s, t, "", name)) return false;
     sheet_print(&s, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
     for (size_t k = 0; k < t->frames.n; k++) {
@@ -199,7 +200,7 @@ static void free_outlines(outlines *o)
 static bool make_outlines(outlines *o, const task *t)
 {
     *o = (outlines){.task = t};
-    o->obstacles = dem_film_obstacles(t->film, &o->n);
+    o->obstacles = dem_reader_obstacles(t->reader, &o->n);
     for (dem_index k = 0; k < o->n; k++) o->n_points += o->obstacles[k].n_points;
     o->flat = task_allocate(t, 2 * o->n_points, sizeof *o->flat);
     o->points = task_allocate(t, 3 * o->n_points, sizeof *o->points);
@@ -221,8 +222,8 @@ static bool write_outlines(const outlines *o, const char *ending, double time)
     for (dem_index k = 0, first = 0; k < o->n; first += o->obstacles[k++].n_points)
         dem_obstacle_points(&o->obstacles[k], time, o->flat + 2 * first);
     for (dem_index i = 0; i < o->n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
-    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_FILM_F64, 3, o->n_points, o->points, NULL};
-    *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_FILM_I32, 1, o->segments.n, o->owner, NULL};
+    *at++ = (piece_array){PIECE_POINTS, "Points", DEM_READER_F64, 3, o->n_points, o->points, NULL};
+    *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_READER_I32, 1, o->segments.n, o->owner, NULL};
     const piece p = {o->n_points, o->segments.n, at - arrays, arrays, 0, NULL};
     return piece_write(o->task, ending, &p);
 }
@@ -231,7 +232,7 @@ static bool some_move(const task *t)
 {
     dem_index n = 0;
     bool any = false;
-    const dem_obstacle *obstacles = dem_film_obstacles(t->film, &n);
+    const dem_obstacle *obstacles = dem_reader_obstacles(t->reader, &n);
     for (dem_index k = 0; k < n; k++) any = any || dem_obstacle_moves(&obstacles[k], NULL);
     return any;
 }
@@ -241,7 +242,7 @@ static bool write_obstacles(const task *t)
 {
     outlines o;
     dem_index n_times = 0;
-    const double *times = dem_film_times(t->film, &n_times);
+    const double *times = dem_reader_times(t->reader, &n_times);
     bool good = make_outlines(&o, t);
     if (good && o.n > 0 && !some_move(t)) good = write_outlines(&o, obstacles_file, 0.0);
     for (size_t k = 0; good && some_move(t) && k < t->frames.n; k++) {
@@ -269,7 +270,7 @@ static bool frames_are_free(const task *t, const char *of)
 static bool is_free(const task *t)
 {
     dem_index n = 0;
-    (void)dem_film_obstacles(t->film, &n);
+    (void)dem_reader_obstacles(t->reader, &n);
     if (!sheet_is_free(t, "", series) || !frames_are_free(t, "")) return false;
     if (some_move(t)) return sheet_is_free(t, "", obstacles_series) && frames_are_free(t, ".obstacle");
     return n == 0 || sheet_is_free(t, "", obstacles_file);

@@ -112,7 +112,7 @@ static void check_group_names(resolver *r)
 /* Names that keys had in earlier releases: a deck of that time is refused, and the error gives the new name. */
 static const struct renamed_key {
     const char *group, *before, *now;
-} renamed_keys[] = {{"contact", "skin", "penetration_tolerance"}};
+} renamed_keys[] = {{"contact", "skin", "penetration_tolerance"}, {"solver", "record_steps", "checkpoint_steps"}};
 
 /* As suggest(), but first for the new name of a renamed key. */
 static bool suggest_key(char out[MAX_NAME + 32], const schema_group *group, const char *name, size_t *nearest)

@@ -238,8 +238,8 @@ static const schema_key solver_keys[] = {
      "Instructions that forces are evaluated with; 'auto': the last that the machine has. Same bits with all.", NULL},
     {"threads", SCHEMA_INTEGER, 1, 1, "-", "1", "[1, 1024]", NULL, false,
      "Threads that work at once. Results are the same to the bit for any number.", NULL},
-    {"record_steps", SCHEMA_INTEGER, 1, 1, "-", "256", "[0, 1e9]", NULL, true,
-     "Steps between records, from which a run that was stopped goes on to the same bits; 0: none.", NULL},
+    {"checkpoint_steps", SCHEMA_INTEGER, 1, 1, "-", "256", "[0, 1e9]", NULL, true,
+     "Steps between checkpoints, from which a run that was stopped goes on to the same bits; 0: none.", NULL},
 };
 
 static const schema_key output_keys[] = {

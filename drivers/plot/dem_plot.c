@@ -2,7 +2,7 @@
 /* Pictures of runs. Exit codes: README.md. */
 #include <stdio.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 
 #include "commit.h"
 #include "request.h"
@@ -12,17 +12,17 @@
 
 static void draw(const request *asked, outcome *o)
 {
-    dem_film *film = NULL;
-    const dem_status status = dem_film_open(&film, asked->input);
+    dem_reader *reader = NULL;
+    const dem_status status = dem_reader_open(&reader, asked->input);
     if (status != DEM_OK)
         outcome_fail_status(o, status, "dem_plot");
     else if (asked->action == REQUEST_HISTORY)
-        (void)timeline_draw(film, asked, stdout, o);
+        (void)timeline_draw(reader, asked, stdout, o);
     else if (asked->action == REQUEST_ANIMATION)
-        (void)show_animation(film, asked, stdout, o);
+        (void)show_animation(reader, asked, stdout, o);
     else
-        (void)show_strip(film, asked, stdout, o);
-    dem_film_close(film);
+        (void)show_strip(reader, asked, stdout, o);
+    dem_reader_close(reader);
 }
 
 int main(int argc, char **argv)

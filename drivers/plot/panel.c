@@ -147,7 +147,7 @@ static bool fill_moved(const dem_obstacle *obstacle, double t, box view, obstacl
 static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
 {
     dem_index n;
-    const dem_obstacle *obstacles = dem_film_obstacles(s->film, &n);
+    const dem_obstacle *obstacles = dem_reader_obstacles(s->reader, &n);
     for (dem_index k = 0; k < n; k++) {
         obstacle_fill solid;
         if (!fill_moved(&obstacles[k], s->t, p->view, &solid)) return false;

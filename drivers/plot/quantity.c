@@ -6,7 +6,7 @@
 
 enum { LENGTH = -1 };
 
-/* The first that a film has is the default. */
+/* The first that a trajectory has is the default. */
 static const struct {
     const char *name, *array;
     int part;
@@ -46,13 +46,13 @@ void quantity_list(FILE *out)
     (void)fputs(none, out);
 }
 
-bool quantity_find(quantity *q, const dem_film *film, const char *name, outcome *o)
+bool quantity_find(quantity *q, const dem_reader *reader, const char *name, outcome *o)
 {
     *q = (quantity){.name = none, .label = ""};
     if (name != NULL && strcmp(name, none) == 0) return true;
     for (size_t k = 0; k < KNOWN; k++) {
         if (name != NULL && strcmp(name, known[k].name) != 0) continue;
-        const dem_film_array *source = dem_film_array_find(film, known[k].array);
+        const dem_reader_array *source = dem_reader_array_find(reader, known[k].array);
         if (source != NULL) {
             *q = (quantity){known[k].name, known[k].label, source, known[k].part, known[k].scale};
             return true;
@@ -79,10 +79,10 @@ static double reduce(const double *row, int components, int part)
     return sqrt(sum);
 }
 
-dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value, double *rows)
+dem_status quantity_read(const quantity *q, const dem_reader *reader, dem_index frame, double *value, double *rows)
 {
-    const size_t n = quantity_count(q, dem_film_lattice(film)), components = (size_t)q->source->components;
-    const dem_status status = dem_film_read(film, q->source, frame, rows);
+    const size_t n = quantity_count(q, dem_reader_lattice(reader)), components = (size_t)q->source->components;
+    const dem_status status = dem_reader_read(reader, q->source, frame, rows);
     for (size_t k = 0; k < n && status == DEM_OK; k++)
         value[k] = reduce(rows + components * k, q->source->components, q->part);
     return status;

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What colours stand for: a number of each spring or of each node, from the arrays of a film. */
+/* What colours stand for: a number of each spring or of each node, from the arrays of a trajectory. */
 #ifndef DEM_QUANTITY_H
 #define DEM_QUANTITY_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 
 #include "outcome.h"
 #include "palette.h"
 
 typedef struct quantity {
-    const char *name, *label;     /* as after --color, and beside the colours */
-    const dem_film_array *source; /* NULL: there is none, all springs have one colour */
-    int part;                     /* component, or -1: the length of the vector */
+    const char *name, *label;       /* as after --color, and beside the colours */
+    const dem_reader_array *source; /* NULL: there is none, all springs have one colour */
+    int part;                       /* component, or -1: the length of the vector */
     palette_kind scale;
 } quantity;
 
-/** By its name; NULL: the first of strain, force, von_mises and speed that the film has, or none. False after a fault,
- *  which is reported. */
-bool quantity_find(quantity *q, const dem_film *film, const char *name, outcome *o);
+/** By its name; NULL: the first of strain, force, von_mises and speed that the trajectory has, or none. False after a
+ *  fault, which is reported. */
+bool quantity_find(quantity *q, const dem_reader *reader, const char *name, outcome *o);
 
 /** Whether there is such a name. */
 bool quantity_is_known(const char *name);
@@ -34,6 +34,6 @@ size_t quantity_count(const quantity *q, const dem_lattice *lattice);
 /** Those of a frame.
  *  \param[out] value  [quantity_count()]
  *  \param rows        [quantity_count()] times the components of the source, to work in */
-dem_status quantity_read(const quantity *q, const dem_film *film, dem_index frame, double *value, double *rows);
+dem_status quantity_read(const quantity *q, const dem_reader *reader, dem_index frame, double *value, double *rows);
 
 #endif

@@ -16,7 +16,7 @@
 
 /* Two passes over the frames: what all of them have in common is known before the first is drawn. */
 typedef struct show {
-    const dem_film *film;
+    const dem_reader *reader;
     const request *asked;
     quantity shown;
     frame_list chosen;
@@ -37,22 +37,22 @@ static bool fail_memory(outcome *o)
 
 /* ---- which frames ---- */
 
-static bool read_column(const dem_film *film, const char *name, dem_index n, double *value)
+static bool read_column(const dem_reader *reader, const char *name, dem_index n, double *value)
 {
-    const dem_film_column *column = dem_film_column_find(film, "history", name);
+    const dem_reader_column *column = dem_reader_column_find(reader, "history", name);
     return column != NULL && column->n_rows == n && column->width == 1 &&
-           dem_film_read_column(film, column, value) == DEM_OK;
+           dem_reader_read_column(reader, column, value) == DEM_OK;
 }
 
 /* The frame nearest to the largest elastic energy, -1 if that is not known or never is any. */
-static dem_index most_compressed(const dem_film *film, dem_index n_frames, const double *times)
+static dem_index most_compressed(const dem_reader *reader, dem_index n_frames, const double *times)
 {
-    const dem_film_column *column = dem_film_column_find(film, "history", "t");
+    const dem_reader_column *column = dem_reader_column_find(reader, "history", "t");
     const dem_index n = column != NULL ? column->n_rows : 0;
     double *t = malloc(((size_t)n + 1) * sizeof *t), *energy = malloc(((size_t)n + 1) * sizeof *energy);
     dem_index found = -1, most = 0;
-    if (t != NULL && energy != NULL && n > 0 && read_column(film, "t", n, t) &&
-        read_column(film, "elastic", n, energy)) {
+    if (t != NULL && energy != NULL && n > 0 && read_column(reader, "t", n, t) &&
+        read_column(reader, "elastic", n, energy)) {
         for (dem_index k = 1; k < n; k++)
             if (energy[k] > energy[most]) most = k;
         if (energy[most] > 0.0) found = frame_list_nearest(n_frames, times, t[most]);
@@ -67,7 +67,7 @@ static bool choose(show *s, outcome *o)
     dem_index n;
     const char *fault = NULL;
     const request *asked = s->asked;
-    const double *t = dem_film_times(s->film, &n);
+    const double *t = dem_reader_times(s->reader, &n);
     if (n == 0) return outcome_fail(o, EXIT_INVALID, "dem_plot", "%s: has no frames", asked->input), false;
     if (asked->frames != NULL && !frame_list_parse(&s->chosen, asked->frames, n, &fault))
         return outcome_fail(o, EXIT_INVALID, "dem_plot", "%s: '--frames %s' %s: there are 0 to %lld", asked->input,
@@ -77,14 +77,14 @@ static bool choose(show *s, outcome *o)
         return outcome_fail(o, EXIT_INVALID, "dem_plot", "'--times %s' %s", asked->times, fault), false;
     if (s->chosen.n > 0) return true;
     const bool all = asked->action == REQUEST_ANIMATION;
-    return (all ? frame_list_all(&s->chosen, n) : frame_list_usual(&s->chosen, n, most_compressed(s->film, n, t))) ||
+    return (all ? frame_list_all(&s->chosen, n) : frame_list_usual(&s->chosen, n, most_compressed(s->reader, n, t))) ||
            fail_memory(o);
 }
 
 static bool set_times(show *s, outcome *o)
 {
     dem_index n;
-    const double *all = dem_film_times(s->film, &n);
+    const double *all = dem_reader_times(s->reader, &n);
     double *t = malloc(s->chosen.n * sizeof *t);
     if (t == NULL) return fail_memory(o);
     for (size_t k = 0; k < s->chosen.n; k++) t[k] = all[s->chosen.frame[k]];
@@ -118,11 +118,11 @@ static bool survey(show *s, outcome *o)
     return true;
 }
 
-static bool open_show(show *s, const dem_film *film, const request *asked, outcome *o)
+static bool open_show(show *s, const dem_reader *reader, const request *asked, outcome *o)
 {
-    *s = (show){.film = film, .asked = asked, .hash = DIGEST_BEGIN};
-    if (!quantity_find(&s->shown, film, asked->color, o) || !choose(s, o) || !set_times(s, o)) return false;
-    if (!snapshot_create(&s->now, film, &s->shown, o) || !survey(s, o)) return false;
+    *s = (show){.reader = reader, .asked = asked, .hash = DIGEST_BEGIN};
+    if (!quantity_find(&s->shown, reader, asked->color, o) || !choose(s, o) || !set_times(s, o)) return false;
+    if (!snapshot_create(&s->now, reader, &s->shown, o) || !survey(s, o)) return false;
     s->colours = s->shown.source != NULL ? palette_make(s->shown.scale) : palette_plain(canvas_grey);
     s->look.colours = &s->colours;
     s->look.is_binned = s->now.lattice->n_springs > PANEL_BINNED_FROM;
@@ -139,7 +139,7 @@ static void close_show(show *s)
 static double letters_for(const show *s, double room)
 {
     dem_index n;
-    const double *t = dem_film_times(s->film, &n);
+    const double *t = dem_reader_times(s->reader, &n);
     double longest = 0.0;
     for (size_t k = 0; k < s->chosen.n; k++) {
         char text[TIME_LABEL_TEXT];
@@ -162,7 +162,7 @@ static uint64_t add_motion(uint64_t hash, const dem_obstacle *obstacle)
 static strip plan(show *s, size_t n)
 {
     dem_index n_obstacles;
-    const dem_obstacle *obstacles = dem_film_obstacles(s->film, &n_obstacles);
+    const dem_obstacle *obstacles = dem_reader_obstacles(s->reader, &n_obstacles);
     const box view = s->asked->has_zoom ? s->asked->zoom : strip_view(s->bodies, obstacles, n_obstacles);
     const strip planned = strip_plan(n, view, s->asked->width, s->asked->columns);
     const panel first = strip_panel(&planned, 0);
@@ -227,10 +227,10 @@ static void report(const show *s, const char *path, const strip *planned, FILE *
     (void)fprintf(log, "%s\n", s->look.is_binned ? ", binned to pixels" : "");
 }
 
-bool show_strip(const dem_film *film, const request *asked, FILE *log, outcome *o)
+bool show_strip(const dem_reader *reader, const request *asked, FILE *log, outcome *o)
 {
     show s;
-    bool done = open_show(&s, film, asked, o);
+    bool done = open_show(&s, reader, asked, o);
     if (done) {
         const strip planned = plan(&s, s.chosen.n);
         done = draw_file(&s, &planned, 0, asked->output, o);
@@ -262,10 +262,10 @@ static bool draw_all(show *s, const strip *planned, outcome *o)
     return done;
 }
 
-bool show_animation(const dem_film *film, const request *asked, FILE *log, outcome *o)
+bool show_animation(const dem_reader *reader, const request *asked, FILE *log, outcome *o)
 {
     show s;
-    bool done = open_show(&s, film, asked, o);
+    bool done = open_show(&s, reader, asked, o);
     if (done) {
         const strip planned = plan(&s, 1);
         done = draw_all(&s, &planned, o);

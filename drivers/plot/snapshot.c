@@ -13,18 +13,18 @@ static void find_bare(snapshot *s)
     for (dem_index k = 0; k < 2 * l->n_springs; k++) s->is_bare[l->ends[k]] = 0;
 }
 
-bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o)
+bool snapshot_create(snapshot *s, const dem_reader *reader, const quantity *shown, outcome *o)
 {
-    const dem_lattice *l = dem_film_lattice(film);
+    const dem_lattice *l = dem_reader_lattice(reader);
     const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, n = quantity_count(shown, l);
     const size_t components = shown->source != NULL ? (size_t)shown->source->components : 0;
-    *s = (snapshot){.film = film, .shown = shown, .lattice = l, .n_values = n, .reach = colour_range_extent_none()};
+    *s = (snapshot){.reader = reader, .shown = shown, .lattice = l, .n_values = n, .reach = colour_range_extent_none()};
     s->x = malloc(2 * nodes * sizeof *s->x);
     s->value = malloc((n + 1) * sizeof *s->value);
     s->work = malloc((n * components + 1) * sizeof *s->work);
     s->is_bare = malloc(nodes);
     s->broken = calloc(springs + 1, sizeof *s->broken);
-    s->breaks = dem_film_array_find(film, "broken");
+    s->breaks = dem_reader_array_find(reader, "broken");
     if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && s->broken != NULL)
         return find_bare(s), true;
     outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory");
@@ -51,17 +51,17 @@ static bool is_finite(size_t n, const double *x)
 bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
 {
     dem_index n;
-    dem_status status = dem_film_positions(s->film, frame, s->x);
-    if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->film, frame, s->value, s->work);
+    dem_status status = dem_reader_positions(s->reader, frame, s->x);
+    if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->reader, frame, s->value, s->work);
     if (status == DEM_OK && s->breaks != NULL && s->lattice->n_springs > 0)
-        status = dem_film_read(s->film, s->breaks, frame, s->broken);
+        status = dem_reader_read(s->reader, s->breaks, frame, s->broken);
     if (status != DEM_OK) return outcome_fail_status(o, status, "dem_plot"), false;
     if (!is_finite(2 * (size_t)s->lattice->n_nodes, s->x)) {
         outcome_fail(o, EXIT_INVALID, "dem_plot", "frame %lld has places that are not finite", (long long)frame);
         return false;
     }
     s->frame = frame;
-    s->t = dem_film_times(s->film, &n)[frame];
+    s->t = dem_reader_times(s->reader, &n)[frame];
     s->bounds = box_around(s->lattice->n_nodes, s->x);
     s->reach = colour_range_extent_of(s->n_values, s->value, s->work);
     return true;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A frame of a film as it is drawn: where the nodes are, and the number that gives each its colour. */
+/* A frame of a trajectory as it is drawn: where the nodes are, and the number that gives each its colour. */
 #ifndef DEM_SNAPSHOT_H
 #define DEM_SNAPSHOT_H
 
 #include <stdint.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 
 #include "box.h"
 #include "outcome.h"
@@ -13,24 +13,25 @@
 #include "colour_range.h"
 
 typedef struct snapshot {
-    const dem_film *film;
+    const dem_reader *reader;
     const quantity *shown;
     const dem_lattice *lattice;
     size_t n_values;
-    double *x;                    /* [n_nodes][2] m */
-    double *value;                /* [n_values] of springs or nodes */
-    double *work;                 /* [n_values][components of the source] */
-    const dem_film_array *breaks; /* NULL: springs never break */
-    double *broken;               /* [n_springs] not 0 where a spring is no more */
-    unsigned char *is_bare;       /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
+    double *x;                      /* [n_nodes][2] m */
+    double *value;                  /* [n_values] of springs or nodes */
+    double *work;                   /* [n_values][components of the source] */
+    const dem_reader_array *breaks; /* NULL: springs never break */
+    double *broken;                 /* [n_springs] not 0 where a spring is no more */
+    unsigned char *is_bare;         /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
     dem_index frame;
     double t;                  /* s */
     box bounds;                /* of the nodes, m */
     colour_range_extent reach; /* of the values */
 } snapshot;
 
-/** Without a frame yet; borrows film and quantity. False after a fault, which is reported. To be freed in any case. */
-bool snapshot_create(snapshot *s, const dem_film *film, const quantity *shown, outcome *o);
+/** Without a frame yet; borrows trajectory and quantity. False after a fault, which is reported. To be freed in any
+ *  case. */
+bool snapshot_create(snapshot *s, const dem_reader *reader, const quantity *shown, outcome *o);
 void snapshot_free(snapshot *s);
 
 /** False after a fault, which is reported. */

@@ -12,7 +12,7 @@
 enum { CHARTS = 5, ARRAYS = 64, VECTORS = 4, NAME = 32 };
 
 typedef struct timeline {
-    const dem_film *film;
+    const dem_reader *reader;
     outcome *o;
     size_t n; /* rows */
     double *t;
@@ -36,12 +36,12 @@ static double *keep(timeline *of, size_t numbers)
 /* A column of the history, NULL if it is not there or after a fault. */
 static double *read_column(timeline *of, const char *name, size_t *width)
 {
-    const dem_film_column *column = dem_film_column_find(of->film, "history", name);
+    const dem_reader_column *column = dem_reader_column_find(of->reader, "history", name);
     if (column == NULL || of->o->code != EXIT_DONE) return NULL;
     *width = (size_t)column->width;
     double *value = keep(of, of->n * *width);
     if (value == NULL) return NULL;
-    const dem_status status = dem_film_read_column(of->film, column, value);
+    const dem_status status = dem_reader_read_column(of->reader, column, value);
     if (status != DEM_OK) return outcome_fail_status(of->o, status, "dem_plot"), NULL;
     of->hash = digest_add(of->hash, value, of->n * *width * sizeof *value);
     return value;
@@ -51,7 +51,7 @@ static double *read_column(timeline *of, const char *name, size_t *width)
 static double end_of(const timeline *of)
 {
     dem_index n;
-    const double *frames = dem_film_times(of->film, &n);
+    const double *frames = dem_reader_times(of->reader, &n);
     return fmax(of->t[of->n - 1], n > 0 ? frames[n - 1] : 0.0);
 }
 
@@ -165,7 +165,7 @@ static void add_steps(timeline *of)
 static bool collect(timeline *of, const request *asked)
 {
     size_t width;
-    const dem_film_column *column = dem_film_column_find(of->film, "history", "t");
+    const dem_reader_column *column = dem_reader_column_find(of->reader, "history", "t");
     of->n = column != NULL ? (size_t)column->n_rows : 0;
     if (of->n == 0) return outcome_fail(of->o, EXIT_INVALID, "dem_plot", "%s: has no history", asked->input), false;
     of->t = read_column(of, "t", &width);
@@ -213,11 +213,11 @@ static bool draw(timeline *of, const request *asked, FILE *log)
     return true;
 }
 
-bool timeline_draw(const dem_film *film, const request *asked, FILE *log, outcome *o)
+bool timeline_draw(const dem_reader *reader, const request *asked, FILE *log, outcome *o)
 {
     timeline *of = calloc(1, sizeof *of);
     if (of == NULL) return outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory"), false;
-    *of = (timeline){.film = film, .o = o, .hash = DIGEST_BEGIN};
+    *of = (timeline){.reader = reader, .o = o, .hash = DIGEST_BEGIN};
     const bool done = collect(of, asked) && draw(of, asked, log);
     for (int k = 0; k < of->n_arrays; k++) free(of->array[k]);
     free(of);

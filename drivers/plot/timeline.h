@@ -3,13 +3,13 @@
 #ifndef DEM_TIMELINE_H
 #define DEM_TIMELINE_H
 
-#include <dem/film.h>
+#include <dem/reader.h>
 
 #include "outcome.h"
 #include "request.h"
 
-/** Energies, reactions of obstacles, forces of boundaries, contacts and steps, of those that the film has; what
+/** Energies, reactions of obstacles, forces of boundaries, contacts and steps, of those that the trajectory has; what
  *  was drawn is written to `log`. False after a fault, which is reported. */
-bool timeline_draw(const dem_film *film, const request *asked, FILE *log, outcome *o);
+bool timeline_draw(const dem_reader *reader, const request *asked, FILE *log, outcome *o);
 
 #endif

@@ -21,7 +21,7 @@
 
 #include <dem/lattice.h>
 #include <dem/method.h>
-#include <dem/record.h>
+#include <dem/checkpoint.h>
 #include <dem/status.h>
 
 #ifdef __cplusplus
@@ -242,8 +242,9 @@ typedef struct dem_options {
     int32_t
         threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit. A library
                           built without OpenMP does the work of all in one */
-    dem_index record_steps; /**< default 256: accepted steps between records, of which the bits of a run depend as
-                                         on a tolerance; 0: no records */
+    dem_index
+        checkpoint_steps;   /**< default 256: accepted steps between checkpoints, of which the bits of a run depend as
+                                         on a tolerance; 0: no checkpoints */
     dem_index n_boundaries; /**< default 0 */
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
     dem_force force;                /**< default NULL: no external force */
@@ -261,7 +262,7 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
     options.window = -1.0;
     options.vertices = 1;
     options.threads = 1;
-    options.record_steps = 256;
+    options.checkpoint_steps = 256;
     return options;
 }
 
@@ -413,10 +414,11 @@ typedef struct dem_simulation dem_simulation;
  *  simulation. */
 DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
 
-/** Goes on from a record of a simulation of the same model and options, whose further motion is repeated to the bit.
- *  \return DEM_ERROR_IO if the record is of another model, or damaged */
+/** Goes on from a checkpoint of a simulation of the same model and options, whose further motion is repeated to the
+ *  bit.
+ *  \return DEM_ERROR_IO if the checkpoint is of another model, or damaged */
 DEM_API dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
-                                         const dem_record *record);
+                                         const dem_checkpoint *checkpoint);
 
 /** Accepts NULL. */
 DEM_API void dem_simulation_destroy(dem_simulation *simulation);
@@ -430,16 +432,16 @@ DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_e
 
 /** Puts nodes elsewhere, or gives them other velocities, where the last advance has ended: not from an observer.
  *  Contacts are looked for at the next advance, as at the start, and until then there are none; then observers are
- *  shown the step, and a record is taken: an older one is of the motion that was. What it changes of the energy counts
- *  as put in from outside (`boundary`). Copies both.
+ *  shown the step, and a checkpoint is taken: an older one is of the motion that was. What it changes of the energy
+ *  counts as put in from outside (`boundary`). Copies both.
  *  \param x  [n_nodes][2] m, no deeper in obstacles than the penetration tolerance; NULL: as it is
  *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
  *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */
 DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);
 
-/** The last record, valid and unchanged until the next advance; NULL before the first, and after
+/** The last checkpoint, valid and unchanged until the next advance; NULL before the first, and after
  *  dem_simulation_set_motion(). */
-DEM_API const dem_record *dem_simulation_record(const dem_simulation *simulation);
+DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *simulation);
 
 /** What is seen of the motion now.
  *  \param state  its struct_size is read, and kept; what lies within it is written, and nothing beyond
@@ -507,13 +509,13 @@ typedef struct dem_observer {
     dem_status (*step)(void *context, const dem_simulation *simulation);  /**< after every accepted step and at t = 0 */
     dem_status (*event)(void *context, const dem_simulation *simulation, const dem_event *event);
     /**< after every contact event; the simulation shows the state of that instant */
-    dem_status (*record)(void *context, const dem_simulation *simulation, dem_record *record);
-    /**< at every record, which has the simulation's entries already: puts in what the observer has to remember */
+    dem_status (*checkpoint)(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint);
+    /**< at every checkpoint, which has the simulation's entries already: puts in what the observer has to remember */
     void *context;
 } dem_observer;
 
 /** Copies `observer`. At most 8; to be called before the first advance. One of a resumed simulation is shown the frames
- *  later than its record. */
+ *  later than its checkpoint. */
 DEM_API dem_status dem_simulation_observe(dem_simulation *simulation, const dem_observer *observer);
 
 /* ---- peaks: the most stressed places of a run ------------------------------------------------------------------- */
@@ -538,9 +540,10 @@ typedef struct dem_peaks dem_peaks;
  *                 fastest wave of a lattice passes a third of its period. */
 DEM_API dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index every);
 
-/** Peaks as they were when the record was taken; `every` is the record's.
- *  \return DEM_ERROR_IO if the record has none of such a model */
-DEM_API dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_record *record);
+/** Peaks as they were when the checkpoint was taken; `every` is the checkpoint's.
+ *  \return DEM_ERROR_IO if the checkpoint has none of such a model */
+DEM_API dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every,
+                                    const dem_checkpoint *checkpoint);
 
 /** Accepts NULL. */
 DEM_API void dem_peaks_destroy(dem_peaks *peaks);

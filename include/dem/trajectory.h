@@ -2,8 +2,8 @@
 /** dem/trajectory.h -- a run as one HDF5 file that ParaView opens (VTKHDF), and lattices from such files.
  *
  *  A trajectory is an observer: create it, hand dem_trajectory_observer() to the simulation, advance, finish. A run
- *  that is to survive being killed calls dem_trajectory_segment() before it writes a record to disk; the next one
- *  begins with dem_trajectory_resume() from that record, and what it finishes is, dataset by dataset, what one run
+ *  that is to survive being killed calls dem_trajectory_segment() before it writes a checkpoint to disk; the next one
+ *  begins with dem_trajectory_resume() from that checkpoint, and what it finishes is, dataset by dataset, what one run
  *  would have made.
  *  Threads may write and read files of their own at the same time: they take turns, call by call.
  *  docs/output.md lists every dataset. HDF5 is confined to the source files behind this header. */
@@ -11,7 +11,7 @@
 #define DEM_TRAJECTORY_H
 
 #include <dem/dem.h>
-#include <dem/record.h>
+#include <dem/checkpoint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -80,27 +80,28 @@ DEM_API dem_status dem_trajectory_create(dem_trajectory **out, const char *path,
 
 /** Goes on with the trajectory of a run that was killed or stopped, or that is to be continued: the counterpart of
  *  dem_trajectory_create(), with the same path and options (deflate, most_stressed and peaks may be others). The
- *  segments must hold just the rows up to the record: younger ones are removed, as is the part. Where there are no such
- *  segments, but a finished NAME.vtkhdf that has these rows, they become the first segment; NAME.vtkhdf stays.
+ *  segments must hold just the rows up to the checkpoint: younger ones are removed, as is the part. Where there are no
+ *  such segments, but a finished NAME.vtkhdf that has these rows, they become the first segment; NAME.vtkhdf stays.
  *  Notes are not read back.
- *  \param record  one that dem_trajectory_segment() was called with; only read
+ *  \param checkpoint  one that dem_trajectory_segment() was called with; only read
  *  \return DEM_ERROR_IO with the segment that is missing or another run's, DEM_ERROR_ARGUMENT with the option that
  *          differs; then nothing has changed */
 DEM_API dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const dem_simulation *simulation,
-                                         const dem_trajectory_options *options, const dem_record *record);
+                                         const dem_trajectory_options *options, const dem_checkpoint *checkpoint);
 
-/** The observer to hand to dem_simulation_observe(); borrows the trajectory. Its entries in a record are "trajectory"
- *  and "trajectory.probes". */
+/** The observer to hand to dem_simulation_observe(); borrows the trajectory. Its entries in a checkpoint are
+ *  "trajectory" and "trajectory.probes". */
 DEM_API dem_observer dem_trajectory_observer(dem_trajectory *trajectory);
 
 /** Stores a string in /provenance under `name`, in the part and in every file that is made from now on. */
 DEM_API dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text);
 
-/** Publishes what was seen up to the record, and is in no segment yet, as the next segment, a file of its own that is
- *  synced and read back; what is later stays in the part. A record that is written to disk after this loses no row.
- *  \param record  of this run, not older than that of the segment before
+/** Publishes what was seen up to the checkpoint, and is in no segment yet, as the next segment, a file of its own that
+ *  is synced and read back; what is later stays in the part. A checkpoint that is written to disk after this loses no
+ *  row.
+ *  \param checkpoint  of this run, not older than that of the segment before
  *  \return DEM_ERROR_IO, then the files are as they were */
-DEM_API dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record);
+DEM_API dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoint *checkpoint);
 
 /** Writes what is buffered, and the peaks, syncs, and gives the file its final name, replacing a file of that name:
  *  that is the part, or a new file of all segments and the part, which then are removed. */

@@ -3,7 +3,7 @@
 #ifndef DEM_BASE_PUBLISH_H
 #define DEM_BASE_PUBLISH_H
 
-#include <dem/record.h>
+#include <dem/checkpoint.h>
 
 /** Brings a closed file, or a folder, to the disk. */
 dem_status publish_sync(const char *path);

@@ -41,16 +41,16 @@ static candidate_entry describe(const contact_candidate *candidate, dem_index k)
     return e;
 }
 
-dem_status contact_entry_put(const contact_set *c, dem_record *record)
+dem_status contact_entry_put(const contact_set *c, dem_checkpoint *checkpoint)
 {
     dem_index n = 0;
     for (dem_index k = 0; k < c->n; k++) n += remembers(&c->list[k]);
     candidate_entry *list = malloc(((size_t)n + 1) * sizeof *list);
-    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contacts of a record");
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the contacts of a checkpoint");
     n = 0;
     for (dem_index k = 0; k < c->n; k++)
         if (remembers(&c->list[k])) list[n++] = describe(&c->list[k], k);
-    const dem_status status = dem_record_put(record, "contacts", list, (size_t)n * sizeof *list);
+    const dem_status status = dem_checkpoint_put(checkpoint, "contacts", list, (size_t)n * sizeof *list);
     free(list);
     return status;
 }
@@ -100,16 +100,16 @@ static void restore(contact_candidate *candidate, const candidate_entry *e)
     }
 }
 
-dem_status contact_entry_get(contact_set *c, const dem_record *record)
+dem_status contact_entry_get(contact_set *c, const dem_checkpoint *checkpoint)
 {
     size_t size;
     dem_index last = -1;
-    const candidate_entry *list = dem_record_find(record, "contacts", &size);
-    CHECK(list != NULL && size % sizeof *list == 0, DEM_ERROR_IO, "the record has no contacts");
+    const candidate_entry *list = dem_checkpoint_find(checkpoint, "contacts", &size);
+    CHECK(list != NULL && size % sizeof *list == 0, DEM_ERROR_IO, "the checkpoint has no contacts");
     for (dem_index k = 0; k < c->n; k++) forget(&c->list[k]);
     for (size_t k = 0; k < size / sizeof *list; k++) {
         CHECK(is_possible(c, &list[k]) && list[k].k > last, DEM_ERROR_IO,
-              "entry %zu of the contacts in the record is impossible", k);
+              "entry %zu of the contacts in the checkpoint is impossible", k);
         last = list[k].k;
         restore(&c->list[last], &list[k]);
     }

@@ -273,17 +273,17 @@ static void contact_source_undo(void *self)
     forget_saved(s);
 }
 
-/* ---- records ---- */
+/* ---- checkpoints ---- */
 
-static dem_status contact_source_save(const void *self, dem_record *record)
+static dem_status contact_source_save(const void *self, dem_checkpoint *checkpoint)
 {
-    return contact_entry_put(&((const contact_source *)self)->automaton->set, record);
+    return contact_entry_put(&((const contact_source *)self)->automaton->set, checkpoint);
 }
 
-static dem_status contact_source_restore(void *self, const dem_record *record, double t, const double *y)
+static dem_status contact_source_restore(void *self, const dem_checkpoint *checkpoint, double t, const double *y)
 {
     contact_source *s = self;
-    TRY(contact_entry_get(&s->automaton->set, record));
+    TRY(contact_entry_get(&s->automaton->set, checkpoint));
     return automaton_restore(s->automaton, t, y);
 }
 

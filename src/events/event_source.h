@@ -5,7 +5,7 @@
 #ifndef DEM_EVENTS_EVENT_SOURCE_H
 #define DEM_EVENTS_EVENT_SOURCE_H
 
-#include <dem/record.h>
+#include <dem/checkpoint.h>
 
 #include "events/event_listener.h"
 #include "events/neighbourhood.h"
@@ -39,12 +39,12 @@ typedef struct event_source {
     void (*follow)(void *self, const event_place *at);
     /** Takes back all that events of the step have done to the source. */
     void (*undo)(void *self);
-    /** Puts what the source has to know to go on after a step into a record, in entries of its own names.
+    /** Puts what the source has to know to go on after a step into a checkpoint, in entries of its own names.
      *  \return DEM_ERROR_MEMORY */
-    dem_status (*save)(const void *self, dem_record *record);
-    /** Makes the source what it was in the record's state y at t.
+    dem_status (*save)(const void *self, dem_checkpoint *checkpoint);
+    /** Makes the source what it was in the checkpoint's state y at t.
      *  \return DEM_ERROR_IO for entries that are not there or impossible, DEM_ERROR_MEMORY */
-    dem_status (*restore)(void *self, const dem_record *record, double t, const double *y);
+    dem_status (*restore)(void *self, const dem_checkpoint *checkpoint, double t, const double *y);
 } event_source;
 
 #endif

@@ -21,14 +21,14 @@ void source_list_destroy(source_list *s)
     *s = (source_list){0};
 }
 
-dem_status source_list_save(const source_list *s, dem_record *record)
+dem_status source_list_save(const source_list *s, dem_checkpoint *checkpoint)
 {
-    for (dem_index k = 0; k < s->n; k++) TRY(s->list[k].save(s->list[k].self, record));
+    for (dem_index k = 0; k < s->n; k++) TRY(s->list[k].save(s->list[k].self, checkpoint));
     return DEM_OK;
 }
 
-dem_status source_list_restore(const source_list *s, const dem_record *record, double t, const double *y)
+dem_status source_list_restore(const source_list *s, const dem_checkpoint *checkpoint, double t, const double *y)
 {
-    for (dem_index k = 0; k < s->n; k++) TRY(s->list[k].restore(s->list[k].self, record, t, y));
+    for (dem_index k = 0; k < s->n; k++) TRY(s->list[k].restore(s->list[k].self, checkpoint, t, y));
     return DEM_OK;
 }

@@ -16,11 +16,11 @@ typedef struct source_list {
 dem_status source_list_add(source_list *s, event_source source);
 void source_list_destroy(source_list *s);
 
-/** Puts the entries of all sources into a record.  \return DEM_ERROR_MEMORY */
-dem_status source_list_save(const source_list *s, dem_record *record);
+/** Puts the entries of all sources into a checkpoint.  \return DEM_ERROR_MEMORY */
+dem_status source_list_save(const source_list *s, dem_checkpoint *checkpoint);
 
-/** Makes all sources what they were in the record's state y at t.  \return DEM_ERROR_IO for entries that are not there
- *  or impossible, DEM_ERROR_MEMORY */
-dem_status source_list_restore(const source_list *s, const dem_record *record, double t, const double *y);
+/** Makes all sources what they were in the checkpoint's state y at t.  \return DEM_ERROR_IO for entries that are not
+ *  there or impossible, DEM_ERROR_MEMORY */
+dem_status source_list_restore(const source_list *s, const dem_checkpoint *checkpoint, double t, const double *y);
 
 #endif

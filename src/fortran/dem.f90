@@ -75,7 +75,7 @@ contains
     options%window = -1
     options%vertices = 1
     options%threads = 1
-    options%record_steps = 256
+    options%checkpoint_steps = 256
   end function
 
   pure type(dem_trajectory_options) function dem_trajectory_options_default() result(options)

@@ -37,6 +37,62 @@ module dem_c
 
   end interface
 
+  ! ---- dem/checkpoint.h ----------------------------------------------------------------------------------------------
+
+  interface
+
+    integer(dem_status) function dem_checkpoint_create(out) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+    end function
+
+    subroutine dem_checkpoint_destroy(checkpoint) bind(c)
+      import
+      type(c_ptr), value :: checkpoint
+    end subroutine
+
+    integer(dem_status) function dem_checkpoint_put(checkpoint, name, data, size) bind(c)
+      import
+      type(c_ptr), value :: checkpoint
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), value :: data
+      integer(c_size_t), value :: size
+    end function
+
+    integer(dem_status) function dem_checkpoint_get(checkpoint, name, data, size) bind(c)
+      import
+      type(c_ptr), value :: checkpoint
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), value :: data
+      integer(c_size_t), value :: size
+    end function
+
+    type(c_ptr) function dem_checkpoint_find(checkpoint, name, size) bind(c)
+      import
+      type(c_ptr), value :: checkpoint
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_size_t), intent(out) :: size
+    end function
+
+    integer(dem_status) function dem_checkpoint_write(checkpoint, path) bind(c)
+      import
+      type(c_ptr), value :: checkpoint
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(dem_status) function dem_checkpoint_read(out, path) bind(c)
+      import
+      type(c_ptr), intent(out) :: out
+      character(kind=c_char), intent(in) :: path(*)
+    end function
+
+    integer(dem_status) function dem_publish(part, path) bind(c)
+      import
+      character(kind=c_char), intent(in) :: part(*), path(*)
+    end function
+
+  end interface
+
   ! ---- dem/lattice.h -------------------------------------------------------------------------------------------------
 
   integer, parameter :: dem_plane = c_int
@@ -255,62 +311,6 @@ module dem_c
 
   end interface
 
-  ! ---- dem/record.h --------------------------------------------------------------------------------------------------
-
-  interface
-
-    integer(dem_status) function dem_record_create(out) bind(c)
-      import
-      type(c_ptr), intent(out) :: out
-    end function
-
-    subroutine dem_record_destroy(record) bind(c)
-      import
-      type(c_ptr), value :: record
-    end subroutine
-
-    integer(dem_status) function dem_record_put(record, name, data, size) bind(c)
-      import
-      type(c_ptr), value :: record
-      character(kind=c_char), intent(in) :: name(*)
-      type(c_ptr), value :: data
-      integer(c_size_t), value :: size
-    end function
-
-    integer(dem_status) function dem_record_get(record, name, data, size) bind(c)
-      import
-      type(c_ptr), value :: record
-      character(kind=c_char), intent(in) :: name(*)
-      type(c_ptr), value :: data
-      integer(c_size_t), value :: size
-    end function
-
-    type(c_ptr) function dem_record_find(record, name, size) bind(c)
-      import
-      type(c_ptr), value :: record
-      character(kind=c_char), intent(in) :: name(*)
-      integer(c_size_t), intent(out) :: size
-    end function
-
-    integer(dem_status) function dem_record_write(record, path) bind(c)
-      import
-      type(c_ptr), value :: record
-      character(kind=c_char), intent(in) :: path(*)
-    end function
-
-    integer(dem_status) function dem_record_read(out, path) bind(c)
-      import
-      type(c_ptr), intent(out) :: out
-      character(kind=c_char), intent(in) :: path(*)
-    end function
-
-    integer(dem_status) function dem_publish(part, path) bind(c)
-      import
-      character(kind=c_char), intent(in) :: part(*), path(*)
-    end function
-
-  end interface
-
   ! ---- dem/dem.h -----------------------------------------------------------------------------------------------------
 
   integer, parameter :: dem_friction_law = c_int
@@ -403,7 +403,7 @@ module dem_c
     integer(dem_contact_method) :: contact = 0
     integer(dem_kernel) :: kernel = 0
     integer(c_int32_t) :: threads = 0
-    integer(dem_index) :: record_steps = 0, n_boundaries = 0
+    integer(dem_index) :: checkpoint_steps = 0, n_boundaries = 0
     type(c_ptr) :: boundaries = c_null_ptr
     type(c_funptr) :: force = c_null_funptr
     type(c_ptr) :: force_context = c_null_ptr
@@ -477,7 +477,7 @@ module dem_c
 
   type, bind(c) :: dem_observer
     real(c_double) :: interval = 0
-    type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, record = c_null_funptr
+    type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, checkpoint = c_null_funptr
     type(c_ptr) :: context = c_null_ptr
   end type
 
@@ -514,9 +514,9 @@ module dem_c
       type(dem_event), intent(in) :: event
     end function
 
-    integer(dem_status) function dem_observer_record(context, simulation, record) bind(c)
+    integer(dem_status) function dem_observer_checkpoint(context, simulation, checkpoint) bind(c)
       import
-      type(c_ptr), value :: context, simulation, record
+      type(c_ptr), value :: context, simulation, checkpoint
     end function
 
   end interface
@@ -643,12 +643,12 @@ module dem_c
       type(dem_options), intent(in) :: options
     end function
 
-    integer(dem_status) function dem_simulation_resume(out, model, options, record) bind(c)
+    integer(dem_status) function dem_simulation_resume(out, model, options, checkpoint) bind(c)
       import
       type(c_ptr), intent(out) :: out
       type(c_ptr), value :: model
       type(dem_options), intent(in) :: options
-      type(c_ptr), value :: record
+      type(c_ptr), value :: checkpoint
     end function
 
     subroutine dem_simulation_destroy(simulation) bind(c)
@@ -668,7 +668,7 @@ module dem_c
       real(c_double), intent(in), optional :: x(2, *), v(2, *)
     end function
 
-    type(c_ptr) function dem_simulation_record(simulation) bind(c)
+    type(c_ptr) function dem_simulation_checkpoint(simulation) bind(c)
       import
       type(c_ptr), value :: simulation
     end function
@@ -781,12 +781,12 @@ module dem_c
       integer(dem_index), value :: every
     end function
 
-    integer(dem_status) function dem_peaks_resume(out, model, every, record) bind(c)
+    integer(dem_status) function dem_peaks_resume(out, model, every, checkpoint) bind(c)
       import
       type(c_ptr), intent(out) :: out
       type(c_ptr), value :: model
       integer(dem_index), value :: every
-      type(c_ptr), value :: record
+      type(c_ptr), value :: checkpoint
     end function
 
     subroutine dem_peaks_destroy(peaks) bind(c)
@@ -825,106 +825,106 @@ module dem_c
 
   end interface
 
-  ! ---- dem/film.h ----------------------------------------------------------------------------------------------------
+  ! ---- dem/reader.h --------------------------------------------------------------------------------------------------
 
-  integer, parameter :: dem_film_type = c_int
+  integer, parameter :: dem_reader_type = c_int
   enum, bind(c)
-    enumerator :: DEM_FILM_F64 = 0, DEM_FILM_F32 = 1, DEM_FILM_I64 = 2, DEM_FILM_I32 = 3, DEM_FILM_I8 = 4
-    enumerator :: DEM_FILM_U8 = 5
+    enumerator :: DEM_READER_F64 = 0, DEM_READER_F32 = 1, DEM_READER_I64 = 2, DEM_READER_I32 = 3, DEM_READER_I8 = 4
+    enumerator :: DEM_READER_U8 = 5
   end enum
 
-  type, bind(c) :: dem_film_array
+  type, bind(c) :: dem_reader_array
     type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
-    integer(dem_film_type) :: type = 0
+    integer(dem_reader_type) :: type = 0
     integer(c_int) :: of_springs = 0, components = 0, constant = 0
   end type
 
-  type, bind(c) :: dem_film_column
+  type, bind(c) :: dem_reader_column
     type(c_ptr) :: table = c_null_ptr, name = c_null_ptr, unit = c_null_ptr
-    integer(dem_film_type) :: type = 0
+    integer(dem_reader_type) :: type = 0
     integer(dem_index) :: n_rows = 0, items = 0, components = 0, width = 0
   end type
 
   interface
 
-    integer(dem_status) function dem_film_open(out, path) bind(c)
+    integer(dem_status) function dem_reader_open(out, path) bind(c)
       import
       type(c_ptr), intent(out) :: out
       character(kind=c_char), intent(in) :: path(*)
     end function
 
-    subroutine dem_film_close(film) bind(c)
+    subroutine dem_reader_close(reader) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
     end subroutine
 
-    type(c_ptr) function dem_film_lattice(film) bind(c)
+    type(c_ptr) function dem_reader_lattice(reader) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
     end function
 
-    type(c_ptr) function dem_film_obstacles(film, n_obstacles) bind(c)
+    type(c_ptr) function dem_reader_obstacles(reader, n_obstacles) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       integer(dem_index), intent(out) :: n_obstacles
     end function
 
-    type(c_ptr) function dem_film_times(film, n_frames) bind(c)
+    type(c_ptr) function dem_reader_times(reader, n_frames) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       integer(dem_index), intent(out) :: n_frames
     end function
 
-    type(c_ptr) function dem_film_arrays(film, n) bind(c)
+    type(c_ptr) function dem_reader_arrays(reader, n) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       integer(dem_index), intent(out) :: n
     end function
 
-    type(c_ptr) function dem_film_array_find(film, name) bind(c)
+    type(c_ptr) function dem_reader_array_find(reader, name) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       character(kind=c_char), intent(in) :: name(*)
     end function
 
-    integer(dem_status) function dem_film_positions(film, frame, x) bind(c)
+    integer(dem_status) function dem_reader_positions(reader, frame, x) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       integer(dem_index), value :: frame
       real(c_double), intent(out) :: x(2, *)
     end function
 
-    integer(dem_status) function dem_film_read(film, array, frame, values) bind(c)
+    integer(dem_status) function dem_reader_read(reader, array, frame, values) bind(c)
       import
-      type(c_ptr), value :: film
-      type(dem_film_array), intent(in) :: array
+      type(c_ptr), value :: reader
+      type(dem_reader_array), intent(in) :: array
       integer(dem_index), value :: frame
       real(c_double), intent(out) :: values(*)
     end function
 
-    type(c_ptr) function dem_film_columns(film, n) bind(c)
+    type(c_ptr) function dem_reader_columns(reader, n) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       integer(dem_index), intent(out) :: n
     end function
 
-    type(c_ptr) function dem_film_column_find(film, table, name) bind(c)
+    type(c_ptr) function dem_reader_column_find(reader, table, name) bind(c)
       import
-      type(c_ptr), value :: film
+      type(c_ptr), value :: reader
       character(kind=c_char), intent(in) :: table(*), name(*)
     end function
 
-    integer(dem_status) function dem_film_read_column(film, column, values) bind(c)
+    integer(dem_status) function dem_reader_read_column(reader, column, values) bind(c)
       import
-      type(c_ptr), value :: film
-      type(dem_film_column), intent(in) :: column
+      type(c_ptr), value :: reader
+      type(dem_reader_column), intent(in) :: column
       real(c_double), intent(out) :: values(*)
     end function
 
-    integer(dem_status) function dem_film_read_rows(film, column, first, count, values) bind(c)
+    integer(dem_status) function dem_reader_read_rows(reader, column, first, count, values) bind(c)
       import
-      type(c_ptr), value :: film
-      type(dem_film_column), intent(in) :: column
+      type(c_ptr), value :: reader
+      type(dem_reader_column), intent(in) :: column
       integer(dem_index), value :: first, count
       real(c_double), intent(out) :: values(*)
     end function
@@ -969,13 +969,13 @@ module dem_c
       type(dem_trajectory_options), intent(in) :: options
     end function
 
-    integer(dem_status) function dem_trajectory_resume(out, path, simulation, options, record) bind(c)
+    integer(dem_status) function dem_trajectory_resume(out, path, simulation, options, checkpoint) bind(c)
       import
       type(c_ptr), intent(out) :: out
       character(kind=c_char), intent(in) :: path(*)
       type(c_ptr), value :: simulation
       type(dem_trajectory_options), intent(in) :: options
-      type(c_ptr), value :: record
+      type(c_ptr), value :: checkpoint
     end function
 
     type(dem_observer) function dem_trajectory_observer(trajectory) bind(c)
@@ -989,9 +989,9 @@ module dem_c
       character(kind=c_char), intent(in) :: name(*), text(*)
     end function
 
-    integer(dem_status) function dem_trajectory_segment(trajectory, record) bind(c)
+    integer(dem_status) function dem_trajectory_segment(trajectory, checkpoint) bind(c)
       import
-      type(c_ptr), value :: trajectory, record
+      type(c_ptr), value :: trajectory, checkpoint
     end function
 
     integer(dem_status) function dem_trajectory_finish(trajectory) bind(c)

@@ -197,7 +197,7 @@ dem_status probe_restore(probe *p, const probe_progress *memory)
               own.number[0] == memory->number[0] && own.number[1] == memory->number[1] && own.every == memory->every,
           DEM_ERROR_ARGUMENT, "probe %s is none of those of the run that is to go on", own.name);
     CHECK(memory->left >= 0 && memory->left < p->what.every, DEM_ERROR_IO,
-          "probe %s: the record has %lld steps until its next row, of %lld", own.name, (long long)memory->left,
+          "probe %s: the checkpoint has %lld steps until its next row, of %lld", own.name, (long long)memory->left,
           (long long)p->what.every);
     p->left = memory->left;
     p->seen = memory->seen != 0;

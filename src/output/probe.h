@@ -22,7 +22,7 @@ typedef struct probe {
     table table; /**< refers to the columns: a probe must stay where it is */
 } probe;
 
-/** What a record keeps of a probe, in whole words. */
+/** What a checkpoint keeps of a probe, in whole words. */
 typedef struct probe_progress {
     char name[64];
     int64_t kind, number[2], every;

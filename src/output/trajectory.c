@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as VTKHDF files: what is written when, and what a record has to hold of it. docs/output.md lists all
+/* A run as VTKHDF files: what is written when, and what a checkpoint has to hold of it. docs/output.md lists all
  * datasets. */
 #include <dem/trajectory.h>
 
@@ -83,7 +83,7 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
     return DEM_OK;
 }
 
-/* ---- records ---- */
+/* ---- checkpoints ---- */
 
 static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
 
@@ -113,18 +113,18 @@ static progress read_progress(const dem_trajectory *t)
     return m;
 }
 
-static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status on_checkpoint(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const dem_trajectory *t = context;
     const progress m = read_progress(t);
     const size_t n = (size_t)m.n_probes;
     (void)simulation;
-    TRY(dem_record_put(record, entry, &m, sizeof m));
+    TRY(dem_checkpoint_put(checkpoint, entry, &m, sizeof m));
     if (n == 0) return DEM_OK;
     probe_progress *probes = malloc(n * sizeof *probes);
     CHECK_MEMORY(probes);
     for (size_t k = 0; k < n; k++) probes[k] = probe_progress_of(&t->rows.probes[k]);
-    const dem_status status = dem_record_put(record, probes_entry, probes, n * sizeof *probes);
+    const dem_status status = dem_checkpoint_put(checkpoint, probes_entry, probes, n * sizeof *probes);
     free(probes);
     return status;
 }
@@ -144,7 +144,7 @@ static dem_status check_options_then(const progress *now, const progress *then)
     return check_same("frame_interval", now->frame_interval, then->frame_interval);
 }
 
-/* What a record says of this trajectory. */
+/* What a checkpoint says of this trajectory. */
 typedef struct recorded {
     progress progress;
     const probe_progress *probes; /* [n_probes] */
@@ -152,18 +152,18 @@ typedef struct recorded {
 } recorded;
 
 /* Free rows, after a failure too. */
-static dem_status read_record(recorded *out, const dem_trajectory *t, const dem_record *record)
+static dem_status read_checkpoint(recorded *out, const dem_trajectory *t, const dem_checkpoint *checkpoint)
 {
     const progress now = read_progress(t);
     const size_t n = (size_t)now.n_probes;
     size_t size = 0;
     *out = (recorded){.rows = calloc((size_t)t->rows.n_kinds, sizeof *out->rows)};
     CHECK_MEMORY(out->rows);
-    TRY(dem_record_get(record, entry, &out->progress, sizeof out->progress));
+    TRY(dem_checkpoint_get(checkpoint, entry, &out->progress, sizeof out->progress));
     TRY(check_options_then(&now, &out->progress));
-    out->probes = dem_record_find(record, probes_entry, &size);
+    out->probes = dem_checkpoint_find(checkpoint, probes_entry, &size);
     CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
-          "the record has no entry %s of %zu probes", probes_entry, n);
+          "the checkpoint has no entry %s of %zu probes", probes_entry, n);
     for (int k = 0; k < ROWS_PROBES; k++) out->rows[k] = (hsize_t)out->progress.rows[k];
     for (size_t k = 0; k < n; k++) out->rows[ROWS_PROBES + k] = (hsize_t)out->probes[k].rows;
     return DEM_OK;
@@ -238,11 +238,11 @@ static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status s
 }
 
 /* The history's last instant is known before the segments are looked for: they end with it. */
-static dem_status go_on(dem_trajectory *t, const dem_record *record)
+static dem_status go_on(dem_trajectory *t, const dem_checkpoint *checkpoint)
 {
     recorded then;
     trajectory_rows *r = &t->rows;
-    dem_status status = read_record(&then, t, record);
+    dem_status status = read_checkpoint(&then, t, checkpoint);
     for (dem_index k = 0; k < r->options.n_probes && status == DEM_OK; k++)
         status = probe_restore(&r->probes[k], &then.probes[k]);
     if (status == DEM_OK) {
@@ -267,12 +267,12 @@ dem_status dem_trajectory_create(dem_trajectory **out, const char *path, const d
 }
 
 dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const dem_simulation *simulation,
-                                 const dem_trajectory_options *options, const dem_record *record)
+                                 const dem_trajectory_options *options, const dem_checkpoint *checkpoint)
 {
     dem_trajectory *t = NULL;
-    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_resume: the record is NULL");
+    CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_resume: the checkpoint is NULL");
     TRY(prepare(&t, path, simulation, options));
-    return hand_out(out, t, go_on(t, record));
+    return hand_out(out, t, go_on(t, checkpoint));
 }
 
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
@@ -281,7 +281,7 @@ dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
                           .frame = on_frame,
                           .step = on_step,
                           .event = trajectory->rows.options.events ? on_event : NULL,
-                          .record = on_record,
+                          .checkpoint = on_checkpoint,
                           .context = trajectory};
 }
 
@@ -298,13 +298,13 @@ dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, con
     return provenance_put(&trajectory->rows.provenance, path, text);
 }
 
-dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_record *record)
+dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoint *checkpoint)
 {
     recorded then;
-    CHECK(trajectory != NULL && record != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
+    CHECK(trajectory != NULL && checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
     TRY(flush(trajectory));
-    dem_status status = read_record(&then, trajectory, record);
+    dem_status status = read_checkpoint(&then, trajectory, checkpoint);
     if (status == DEM_OK) status = trajectory_parts_cut(&trajectory->segments, &trajectory->rows, then.rows);
     free(then.rows);
     return status;

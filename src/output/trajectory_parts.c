@@ -182,7 +182,7 @@ dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *
     for (int k = 0; k < r->n_kinds; k++) {
         const hsize_t total = trajectory_rows_total(r, k), before = total - trajectory_rows_written(r, k);
         CHECK(upto[k] >= before && upto[k] <= total, DEM_ERROR_ARGUMENT,
-              "%s: the record is at row %llu of %s, rows %llu to %llu are here", s->names[PARTS_PART],
+              "%s: the checkpoint is at row %llu of %s, rows %llu to %llu are here", s->names[PARTS_PART],
               (unsigned long long)upto[k], trajectory_rows_name(r, k), (unsigned long long)before,
               (unsigned long long)total);
         later = later || upto[k] < total;

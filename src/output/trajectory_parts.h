@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The files of a run NAME: the live part NAME.part.vtkhdf, the segments NAME.00001.vtkhdf, ... with the rows before it,
  * and the whole NAME.vtkhdf that they become. What is made stands under a name of its own until it is whole, and
- * nothing is removed before what takes its place is on the disk: a kill at any moment leaves, for every record that
+ * nothing is removed before what takes its place is on the disk: a kill at any moment leaves, for every checkpoint that
  * was written after its segments, these segments or a whole with their rows. */
 #ifndef DEM_OUTPUT_TRAJECTORY_PARTS_H
 #define DEM_OUTPUT_TRAJECTORY_PARTS_H

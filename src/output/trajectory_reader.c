@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a file holds is listed when it is opened, and measured again whenever some of it is read: it may have become
  * another one. */
-#include <dem/film.h>
+#include <dem/reader.h>
 #include <dem/trajectory.h>
 
 #include "base/grow.h"
@@ -32,16 +32,16 @@ typedef struct names {
     dem_index n, capacity;
 } names;
 
-struct dem_film {
+struct dem_reader {
     char *path;
     dem_lattice lattice;
     dem_obstacle *obstacles;
     dem_index n_obstacles;
     double *times;
     dem_index n_frames;
-    dem_film_array *arrays;
+    dem_reader_array *arrays;
     dem_index n_arrays, room_arrays;
-    dem_film_column *columns;
+    dem_reader_column *columns;
     dem_index n_columns, room_columns;
     char **texts; /* names that arrays and columns point to */
     dem_index n_texts, room_texts;
@@ -49,13 +49,13 @@ struct dem_film {
 
 /* ---- names ---- */
 
-static dem_status keep(dem_film *film, const char *text, const char **out)
+static dem_status keep(dem_reader *reader, const char *text, const char **out)
 {
-    CHECK(grow_array((void **)&film->texts, &film->room_texts, film->n_texts + 1, sizeof *film->texts),
+    CHECK(grow_array((void **)&reader->texts, &reader->room_texts, reader->n_texts + 1, sizeof *reader->texts),
           DEM_ERROR_MEMORY, "out of memory");
     char *copy = strdup(text);
     CHECK_MEMORY(copy);
-    film->texts[film->n_texts++] = copy;
+    reader->texts[reader->n_texts++] = copy;
     *out = copy;
     return DEM_OK;
 }
@@ -94,28 +94,28 @@ static dem_status list_names(names *out, const hdf5_file *file, const char *grou
     return DEM_OK;
 }
 
-static dem_film_type type_of(hdf5_kind kind)
+static dem_reader_type type_of(hdf5_kind kind)
 {
-    static const dem_film_type types[] = {
-        [HDF5_F64] = DEM_FILM_F64, [HDF5_F32] = DEM_FILM_F32, [HDF5_I64] = DEM_FILM_I64,
-        [HDF5_I32] = DEM_FILM_I32, [HDF5_I8] = DEM_FILM_I8,   [HDF5_U8] = DEM_FILM_U8};
+    static const dem_reader_type types[] = {
+        [HDF5_F64] = DEM_READER_F64, [HDF5_F32] = DEM_READER_F32, [HDF5_I64] = DEM_READER_I64,
+        [HDF5_I32] = DEM_READER_I32, [HDF5_I8] = DEM_READER_I8,   [HDF5_U8] = DEM_READER_U8};
     return types[kind];
 }
 
 /* ---- frames ---- */
 
-static dem_index count_of(const dem_film *film, int of_springs)
+static dem_index count_of(const dem_reader *reader, int of_springs)
 {
-    return of_springs ? film->lattice.n_springs : film->lattice.n_nodes;
+    return of_springs ? reader->lattice.n_springs : reader->lattice.n_nodes;
 }
 
 /* Whether so many rows are those of all frames at least: one more may be in the making. */
-static bool holds_frames(const dem_film *film, hsize_t rows, dem_index in_frame)
+static bool holds_frames(const dem_reader *reader, hsize_t rows, dem_index in_frame)
 {
-    return in_frame == 0 || rows / (hsize_t)in_frame >= (hsize_t)film->n_frames;
+    return in_frame == 0 || rows / (hsize_t)in_frame >= (hsize_t)reader->n_frames;
 }
 
-static dem_status read_times(dem_film *film, const hdf5_file *file)
+static dem_status read_times(dem_reader *reader, const hdf5_file *file)
 {
     static const char name[] = STEPS "/Values";
     hdf5_untrusted_shape shape;
@@ -124,32 +124,32 @@ static dem_status read_times(dem_film *film, const hdf5_file *file)
     TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
     CHECK(shape.rank == 1 && n >= 0 && (hsize_t)n <= shape.extent[0], DEM_ERROR_IO,
           "%s: %s: is not of shape [%lld], as NSteps says", file->path, name, (long long)n);
-    film->times = lattice_zeros(n, sizeof *film->times);
-    CHECK_MEMORY(film->times);
-    TRY(hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, (hsize_t)n, 0}, film->times));
+    reader->times = lattice_zeros(n, sizeof *reader->times);
+    CHECK_MEMORY(reader->times);
+    TRY(hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, (hsize_t)n, 0}, reader->times));
     for (dem_index k = 0; k < n; k++)
-        if (!isfinite(film->times[k]) || (k > 0 && film->times[k] <= film->times[k - 1]))
+        if (!isfinite(reader->times[k]) || (k > 0 && reader->times[k] <= reader->times[k - 1]))
             return hdf5_untrusted_refuse(file, name, "is not finite and ascending");
-    film->n_frames = n;
+    reader->n_frames = n;
     return DEM_OK;
 }
 
-static dem_status check_positions(const dem_film *film, const hdf5_file *file)
+static dem_status check_positions(const dem_reader *reader, const hdf5_file *file)
 {
     hdf5_untrusted_shape shape;
     TRY(hdf5_untrusted_measure(file, GRID "Points", HDF5_F64, &shape));
-    CHECK(shape.rank == 2 && shape.extent[1] == 3 && holds_frames(film, shape.extent[0], film->lattice.n_nodes),
+    CHECK(shape.rank == 2 && shape.extent[1] == 3 && holds_frames(reader, shape.extent[0], reader->lattice.n_nodes),
           DEM_ERROR_IO, "%s: " GRID "Points: is not of shape [%lld frames of %lld][3]", file->path,
-          (long long)film->n_frames, (long long)film->lattice.n_nodes);
+          (long long)reader->n_frames, (long long)reader->lattice.n_nodes);
     return DEM_OK;
 }
 
 /* A single frame is recognised by its name alone. */
-static bool is_constant(const dem_film *film, const char *name, hsize_t rows, dem_index in_frame)
+static bool is_constant(const dem_reader *reader, const char *name, hsize_t rows, dem_index in_frame)
 {
     static const char peak[] = "peak_";
     return strcmp(name, "id") == 0 || strcmp(name, "body") == 0 || strncmp(name, peak, sizeof peak - 1) == 0 ||
-           (film->n_frames > 1 && in_frame > 0 && rows == (hsize_t)in_frame);
+           (reader->n_frames > 1 && in_frame > 0 && rows == (hsize_t)in_frame);
 }
 
 static const char *set_of(int of_springs)
@@ -157,37 +157,37 @@ static const char *set_of(int of_springs)
     return of_springs ? "CellData" : "PointData";
 }
 
-static dem_status add_array(dem_film *film, const hdf5_file *file, int of_springs, const char *name)
+static dem_status add_array(dem_reader *reader, const hdf5_file *file, int of_springs, const char *name)
 {
     char path[PATH];
     hdf5_untrusted_shape shape;
-    const dem_index in_frame = count_of(film, of_springs);
+    const dem_index in_frame = count_of(reader, of_springs);
     (void)snprintf(path, sizeof path, GRID "%s/%s", set_of(of_springs), name);
     TRY(hdf5_untrusted_measure(file, path, HDF5_F64, &shape));
     const hsize_t rows = shape.extent[0];
-    dem_film_array a = {.unit = units_of(name),
-                        .type = type_of(shape.stored),
-                        .of_springs = of_springs,
-                        .components = (int)shape.extent[1],
-                        .constant = is_constant(film, name, rows, in_frame)};
+    dem_reader_array a = {.unit = units_of(name),
+                          .type = type_of(shape.stored),
+                          .of_springs = of_springs,
+                          .components = (int)shape.extent[1],
+                          .constant = is_constant(reader, name, rows, in_frame)};
     CHECK(shape.rank >= 1 && shape.rank <= 2 && shape.extent[1] >= 1 && shape.extent[1] <= MOST_COMPONENTS &&
-              (a.constant ? rows == (hsize_t)in_frame : holds_frames(film, rows, in_frame)),
+              (a.constant ? rows == (hsize_t)in_frame : holds_frames(reader, rows, in_frame)),
           DEM_ERROR_IO, "%s: %s: is not of shape [%lld times %lld] or [..][1 to %d]", file->path, path,
-          a.constant ? 1LL : (long long)film->n_frames, (long long)in_frame, MOST_COMPONENTS);
-    TRY(keep(film, name, &a.name));
-    CHECK(grow_array((void **)&film->arrays, &film->room_arrays, film->n_arrays + 1, sizeof a), DEM_ERROR_MEMORY,
+          a.constant ? 1LL : (long long)reader->n_frames, (long long)in_frame, MOST_COMPONENTS);
+    TRY(keep(reader, name, &a.name));
+    CHECK(grow_array((void **)&reader->arrays, &reader->room_arrays, reader->n_arrays + 1, sizeof a), DEM_ERROR_MEMORY,
           "out of memory");
-    film->arrays[film->n_arrays++] = a;
+    reader->arrays[reader->n_arrays++] = a;
     return DEM_OK;
 }
 
-static dem_status add_arrays(dem_film *film, const hdf5_file *file, int of_springs)
+static dem_status add_arrays(dem_reader *reader, const hdf5_file *file, int of_springs)
 {
     char group[PATH];
     names all;
     (void)snprintf(group, sizeof group, GRID "%s", set_of(of_springs));
     dem_status status = list_names(&all, file, group);
-    for (dem_index k = 0; k < all.n && status == DEM_OK; k++) status = add_array(film, file, of_springs, all.list[k]);
+    for (dem_index k = 0; k < all.n && status == DEM_OK; k++) status = add_array(reader, file, of_springs, all.list[k]);
     free(all.list);
     return status;
 }
@@ -204,19 +204,19 @@ static void name_table(char path[PATH], const char *table)
         (void)snprintf(path, PATH, "/%s", table);
 }
 
-static void name_column(char path[PATH], const dem_film_column *column)
+static void name_column(char path[PATH], const dem_reader_column *column)
 {
     name_table(path, column->table);
     const size_t n = strlen(path);
     (void)snprintf(path + n, PATH - n, "/%s", column->name);
 }
 
-static dem_status add_column(dem_film *film, const hdf5_file *file, const char *table, const char *name)
+static dem_status add_column(dem_reader *reader, const hdf5_file *file, const char *table, const char *name)
 {
     char path[PATH];
     hdf5_untrusted_shape shape;
-    dem_film_column c = {.table = table, .unit = units_of(name)};
-    TRY(keep(film, name, &c.name));
+    dem_reader_column c = {.table = table, .unit = units_of(name)};
+    TRY(keep(reader, name, &c.name));
     name_column(path, &c);
     TRY(hdf5_untrusted_measure(file, path, HDF5_F64, &shape));
     const hsize_t *extent = shape.extent;
@@ -229,38 +229,38 @@ static dem_status add_column(dem_film *film, const hdf5_file *file, const char *
     c.items = of_items ? (dem_index)extent[1] : 1;
     c.components = of_items ? (dem_index)extent[2] : (dem_index)extent[1];
     c.width = c.items * c.components;
-    CHECK(grow_array((void **)&film->columns, &film->room_columns, film->n_columns + 1, sizeof c), DEM_ERROR_MEMORY,
-          "out of memory");
-    film->columns[film->n_columns++] = c;
+    CHECK(grow_array((void **)&reader->columns, &reader->room_columns, reader->n_columns + 1, sizeof c),
+          DEM_ERROR_MEMORY, "out of memory");
+    reader->columns[reader->n_columns++] = c;
     return DEM_OK;
 }
 
 /* Of a run that goes on, some columns may have rows already that others have not. */
-static void even_rows(dem_film *film, dem_index first)
+static void even_rows(dem_reader *reader, dem_index first)
 {
     dem_index rows = INT64_MAX;
-    for (dem_index k = first; k < film->n_columns; k++)
-        if (film->columns[k].n_rows < rows) rows = film->columns[k].n_rows;
-    for (dem_index k = first; k < film->n_columns; k++) film->columns[k].n_rows = rows;
+    for (dem_index k = first; k < reader->n_columns; k++)
+        if (reader->columns[k].n_rows < rows) rows = reader->columns[k].n_rows;
+    for (dem_index k = first; k < reader->n_columns; k++) reader->columns[k].n_rows = rows;
 }
 
-static dem_status add_table(dem_film *film, const hdf5_file *file, const char *name)
+static dem_status add_table(dem_reader *reader, const hdf5_file *file, const char *name)
 {
     char group[PATH];
     const char *table = NULL;
-    const dem_index first = film->n_columns;
+    const dem_index first = reader->n_columns;
     names all;
-    TRY(keep(film, name, &table));
+    TRY(keep(reader, name, &table));
     name_table(group, table);
     dem_status status = list_names(&all, file, group);
-    for (dem_index k = 0; k < all.n && status == DEM_OK; k++) status = add_column(film, file, table, all.list[k]);
+    for (dem_index k = 0; k < all.n && status == DEM_OK; k++) status = add_column(reader, file, table, all.list[k]);
     free(all.list);
-    even_rows(film, first);
+    even_rows(reader, first);
     return status;
 }
 
 /* The tables of a group. */
-static dem_status add_tables(dem_film *film, const hdf5_file *file, const char *group)
+static dem_status add_tables(dem_reader *reader, const hdf5_file *file, const char *group)
 {
     char path[PATH], table[TABLE + NAME];
     names all;
@@ -268,129 +268,129 @@ static dem_status add_tables(dem_film *film, const hdf5_file *file, const char *
     dem_status status = list_names(&all, file, path);
     for (dem_index k = 0; k < all.n && status == DEM_OK; k++) {
         (void)snprintf(table, sizeof table, "%s/%s", group, all.list[k]);
-        status = add_table(film, file, table);
+        status = add_table(reader, file, table);
     }
     free(all.list);
     return status;
 }
 
-static dem_status add_frames_table(dem_film *film, const hdf5_file *file)
+static dem_status add_frames_table(dem_reader *reader, const hdf5_file *file)
 {
-    const dem_index first = film->n_columns;
-    TRY(add_table(film, file, frames_table));
-    for (dem_index k = first; k < film->n_columns; k++) {
-        CHECK(film->columns[k].n_rows >= film->n_frames, DEM_ERROR_IO,
+    const dem_index first = reader->n_columns;
+    TRY(add_table(reader, file, frames_table));
+    for (dem_index k = first; k < reader->n_columns; k++) {
+        CHECK(reader->columns[k].n_rows >= reader->n_frames, DEM_ERROR_IO,
               "%s: " GRID "FieldData: has arrays of %lld rows, of %lld frames", file->path,
-              (long long)film->columns[k].n_rows, (long long)film->n_frames);
-        film->columns[k].n_rows = film->n_frames;
+              (long long)reader->columns[k].n_rows, (long long)reader->n_frames);
+        reader->columns[k].n_rows = reader->n_frames;
     }
     return DEM_OK;
 }
 
 /* ---- opening ---- */
 
-static dem_status list_frames(dem_film *film, const hdf5_file *file)
+static dem_status list_frames(dem_reader *reader, const hdf5_file *file)
 {
     bool present = false;
     TRY(hdf5_untrusted_find(file, STEPS, &present));
     if (!present) return DEM_OK;
-    TRY(read_times(film, file));
-    TRY(check_positions(film, file));
-    TRY(add_arrays(film, file, 0));
-    TRY(add_arrays(film, file, 1));
-    return add_frames_table(film, file);
+    TRY(read_times(reader, file));
+    TRY(check_positions(reader, file));
+    TRY(add_arrays(reader, file, 0));
+    TRY(add_arrays(reader, file, 1));
+    return add_frames_table(reader, file);
 }
 
-static dem_status list_all(dem_film *film, const hdf5_file *file)
+static dem_status list_all(dem_reader *reader, const hdf5_file *file)
 {
-    TRY(list_frames(film, file));
-    TRY(add_table(film, file, history_table));
-    TRY(add_table(film, file, "events"));
-    TRY(add_tables(film, file, "probes"));
-    TRY(add_tables(film, file, "most_stressed"));
-    return obstacle_file_read(file, &film->obstacles, &film->n_obstacles);
+    TRY(list_frames(reader, file));
+    TRY(add_table(reader, file, history_table));
+    TRY(add_table(reader, file, "events"));
+    TRY(add_tables(reader, file, "probes"));
+    TRY(add_tables(reader, file, "most_stressed"));
+    return obstacle_file_read(file, &reader->obstacles, &reader->n_obstacles);
 }
 
-static dem_status look(dem_film *film, const char *path)
+static dem_status look(dem_reader *reader, const char *path)
 {
     hdf5_file file;
-    film->path = strdup(path);
-    CHECK_MEMORY(film->path);
-    TRY(dem_lattice_read(&film->lattice, path));
-    TRY(hdf5_untrusted_open(&file, film->path));
-    return hdf5_close(&file, list_all(film, &file));
+    reader->path = strdup(path);
+    CHECK_MEMORY(reader->path);
+    TRY(dem_lattice_read(&reader->lattice, path));
+    TRY(hdf5_untrusted_open(&file, reader->path));
+    return hdf5_close(&file, list_all(reader, &file));
 }
 
-dem_status dem_film_open(dem_film **out, const char *path)
+dem_status dem_reader_open(dem_reader **out, const char *path)
 {
-    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_film_open: an argument is NULL");
-    dem_film *film = calloc(1, sizeof *film);
-    CHECK_MEMORY(film);
-    const dem_status status = look(film, path);
+    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_reader_open: an argument is NULL");
+    dem_reader *reader = calloc(1, sizeof *reader);
+    CHECK_MEMORY(reader);
+    const dem_status status = look(reader, path);
     if (status == DEM_OK)
-        *out = film;
+        *out = reader;
     else
-        dem_film_close(film);
+        dem_reader_close(reader);
     return status;
 }
 
-void dem_film_close(dem_film *film)
+void dem_reader_close(dem_reader *reader)
 {
-    if (film == NULL) return;
-    for (dem_index k = 0; k < film->n_texts; k++) free(film->texts[k]);
-    free(film->texts);
-    free(film->columns);
-    free(film->arrays);
-    free(film->times);
-    obstacle_file_free(film->obstacles, film->n_obstacles);
-    dem_lattice_free(&film->lattice);
-    free(film->path);
-    free(film);
+    if (reader == NULL) return;
+    for (dem_index k = 0; k < reader->n_texts; k++) free(reader->texts[k]);
+    free(reader->texts);
+    free(reader->columns);
+    free(reader->arrays);
+    free(reader->times);
+    obstacle_file_free(reader->obstacles, reader->n_obstacles);
+    dem_lattice_free(&reader->lattice);
+    free(reader->path);
+    free(reader);
 }
 
 /* ---- what there is ---- */
 
-const dem_lattice *dem_film_lattice(const dem_film *film)
+const dem_lattice *dem_reader_lattice(const dem_reader *reader)
 {
-    return &film->lattice;
+    return &reader->lattice;
 }
 
-const dem_obstacle *dem_film_obstacles(const dem_film *film, dem_index *n_obstacles)
+const dem_obstacle *dem_reader_obstacles(const dem_reader *reader, dem_index *n_obstacles)
 {
-    *n_obstacles = film->n_obstacles;
-    return film->obstacles;
+    *n_obstacles = reader->n_obstacles;
+    return reader->obstacles;
 }
 
-const double *dem_film_times(const dem_film *film, dem_index *n_frames)
+const double *dem_reader_times(const dem_reader *reader, dem_index *n_frames)
 {
-    *n_frames = film->n_frames;
-    return film->times;
+    *n_frames = reader->n_frames;
+    return reader->times;
 }
 
-const dem_film_array *dem_film_arrays(const dem_film *film, dem_index *n)
+const dem_reader_array *dem_reader_arrays(const dem_reader *reader, dem_index *n)
 {
-    *n = film->n_arrays;
-    return film->arrays;
+    *n = reader->n_arrays;
+    return reader->arrays;
 }
 
-const dem_film_array *dem_film_array_find(const dem_film *film, const char *name)
+const dem_reader_array *dem_reader_array_find(const dem_reader *reader, const char *name)
 {
-    for (dem_index k = 0; k < film->n_arrays; k++)
-        if (strcmp(film->arrays[k].name, name) == 0) return &film->arrays[k];
+    for (dem_index k = 0; k < reader->n_arrays; k++)
+        if (strcmp(reader->arrays[k].name, name) == 0) return &reader->arrays[k];
     return NULL;
 }
 
-const dem_film_column *dem_film_columns(const dem_film *film, dem_index *n)
+const dem_reader_column *dem_reader_columns(const dem_reader *reader, dem_index *n)
 {
-    *n = film->n_columns;
-    return film->columns;
+    *n = reader->n_columns;
+    return reader->columns;
 }
 
-const dem_film_column *dem_film_column_find(const dem_film *film, const char *table, const char *name)
+const dem_reader_column *dem_reader_column_find(const dem_reader *reader, const char *table, const char *name)
 {
-    for (dem_index k = 0; k < film->n_columns; k++)
-        if (strcmp(film->columns[k].table, table) == 0 && strcmp(film->columns[k].name, name) == 0)
-            return &film->columns[k];
+    for (dem_index k = 0; k < reader->n_columns; k++)
+        if (strcmp(reader->columns[k].table, table) == 0 && strcmp(reader->columns[k].name, name) == 0)
+            return &reader->columns[k];
     return NULL;
 }
 
@@ -406,61 +406,62 @@ static dem_status read_checked(const hdf5_file *file, const char *name, hdf5_unt
     if (!present) return hdf5_untrusted_refuse(file, name, "is missing");
     TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
     if (shape.rank == 0 || shape.extent[1] * shape.extent[2] != width || shape.extent[0] < rows.first + rows.count)
-        return hdf5_untrusted_refuse(file, name, "has another shape than when the film was opened");
+        return hdf5_untrusted_refuse(file, name, "has another shape than when the reader was opened");
     return hdf5_untrusted_read(file, name, HDF5_F64, rows, values);
 }
 
-static dem_status read_rows(const dem_film *film, const char *name, hdf5_untrusted_rows rows, dem_index width,
+static dem_status read_rows(const dem_reader *reader, const char *name, hdf5_untrusted_rows rows, dem_index width,
                             double *values)
 {
     hdf5_file file;
-    TRY(hdf5_untrusted_open(&file, film->path));
+    TRY(hdf5_untrusted_open(&file, reader->path));
     return hdf5_close(&file, read_checked(&file, name, rows, (hsize_t)width, values));
 }
 
-static dem_status check_frame(const dem_film *film, dem_index frame)
+static dem_status check_frame(const dem_reader *reader, dem_index frame)
 {
-    CHECK(frame >= 0 && frame < film->n_frames, DEM_ERROR_ARGUMENT, "%s: has no frame %lld: there are %lld", film->path,
-          (long long)frame, (long long)film->n_frames);
+    CHECK(frame >= 0 && frame < reader->n_frames, DEM_ERROR_ARGUMENT, "%s: has no frame %lld: there are %lld",
+          reader->path, (long long)frame, (long long)reader->n_frames);
     return DEM_OK;
 }
 
-dem_status dem_film_positions(const dem_film *film, dem_index frame, double *x)
+dem_status dem_reader_positions(const dem_reader *reader, dem_index frame, double *x)
 {
-    CHECK(film != NULL && x != NULL, DEM_ERROR_ARGUMENT, "dem_film_positions: an argument is NULL");
-    TRY(check_frame(film, frame));
-    const hsize_t n = (hsize_t)film->lattice.n_nodes;
-    return read_rows(film, GRID "Points", (hdf5_untrusted_rows){(hsize_t)frame * n, n, 2}, 3, x);
+    CHECK(reader != NULL && x != NULL, DEM_ERROR_ARGUMENT, "dem_reader_positions: an argument is NULL");
+    TRY(check_frame(reader, frame));
+    const hsize_t n = (hsize_t)reader->lattice.n_nodes;
+    return read_rows(reader, GRID "Points", (hdf5_untrusted_rows){(hsize_t)frame * n, n, 2}, 3, x);
 }
 
-dem_status dem_film_read(const dem_film *film, const dem_film_array *array, dem_index frame, double *values)
+dem_status dem_reader_read(const dem_reader *reader, const dem_reader_array *array, dem_index frame, double *values)
 {
     char path[PATH];
-    CHECK(film != NULL && array != NULL && values != NULL, DEM_ERROR_ARGUMENT, "dem_film_read: an argument is NULL");
+    CHECK(reader != NULL && array != NULL && values != NULL, DEM_ERROR_ARGUMENT,
+          "dem_reader_read: an argument is NULL");
     if (array->constant)
         frame = 0;
     else
-        TRY(check_frame(film, frame));
-    const hsize_t n = (hsize_t)count_of(film, array->of_springs);
+        TRY(check_frame(reader, frame));
+    const hsize_t n = (hsize_t)count_of(reader, array->of_springs);
     (void)snprintf(path, sizeof path, GRID "%s/%s", set_of(array->of_springs), array->name);
-    return read_rows(film, path, (hdf5_untrusted_rows){(hsize_t)frame * n, n, 0}, array->components, values);
+    return read_rows(reader, path, (hdf5_untrusted_rows){(hsize_t)frame * n, n, 0}, array->components, values);
 }
 
-dem_status dem_film_read_column(const dem_film *film, const dem_film_column *column, double *values)
+dem_status dem_reader_read_column(const dem_reader *reader, const dem_reader_column *column, double *values)
 {
-    CHECK(column != NULL, DEM_ERROR_ARGUMENT, "dem_film_read_column: column is NULL");
-    return dem_film_read_rows(film, column, 0, column->n_rows, values);
+    CHECK(column != NULL, DEM_ERROR_ARGUMENT, "dem_reader_read_column: column is NULL");
+    return dem_reader_read_rows(reader, column, 0, column->n_rows, values);
 }
 
-dem_status dem_film_read_rows(const dem_film *film, const dem_film_column *column, dem_index first, dem_index count,
-                              double *values)
+dem_status dem_reader_read_rows(const dem_reader *reader, const dem_reader_column *column, dem_index first,
+                                dem_index count, double *values)
 {
     char path[PATH];
-    CHECK(film != NULL && column != NULL && values != NULL, DEM_ERROR_ARGUMENT,
-          "dem_film_read_rows: an argument is NULL");
+    CHECK(reader != NULL && column != NULL && values != NULL, DEM_ERROR_ARGUMENT,
+          "dem_reader_read_rows: an argument is NULL");
     CHECK(first >= 0 && count >= 0 && count <= column->n_rows && first <= column->n_rows - count, DEM_ERROR_ARGUMENT,
-          "%s: %s/%s: has no rows %lld to %lld: there are %lld", film->path, column->table, column->name,
+          "%s: %s/%s: has no rows %lld to %lld: there are %lld", reader->path, column->table, column->name,
           (long long)first, (long long)(first + count - 1), (long long)column->n_rows);
     name_column(path, column);
-    return read_rows(film, path, (hdf5_untrusted_rows){(hsize_t)first, (hsize_t)count, 0}, column->width, values);
+    return read_rows(reader, path, (hdf5_untrusted_rows){(hsize_t)first, (hsize_t)count, 0}, column->width, values);
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/record.h"
+#include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
 
@@ -32,15 +32,15 @@ static sizes sizes_of(const dem_simulation *s)
                    m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     state_velocities(&s->layout)};
 }
 
-/* Puts the entries into a record, or gets them from it. */
-static dem_status pass(dem_simulation *s, const record_way *way, numbers *n, dem_counts *counts)
+/* Puts the entries into a checkpoint, or gets them from it. */
+static dem_status pass(dem_simulation *s, const checkpoint_entries_way *way, numbers *n, dem_counts *counts)
 {
     contact_ledger *ledger = &s->automaton.set.ledger;
     const size_t n_impulses = 4 * (size_t)s->model->obstacles.n;
-    TRY(record_pass(way, "numbers", n, sizeof *n));
-    TRY(record_pass(way, "counts", counts, sizeof *counts));
-    TRY(record_pass(way, "impulses", ledger->impulse, n_impulses * sizeof *ledger->impulse));
-    return record_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
+    TRY(checkpoint_entries_pass(way, "numbers", n, sizeof *n));
+    TRY(checkpoint_entries_pass(way, "counts", counts, sizeof *counts));
+    TRY(checkpoint_entries_pass(way, "impulses", ledger->impulse, n_impulses * sizeof *ledger->impulse));
+    return checkpoint_entries_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
 /* How many numbers say how an obstacle moves. */
@@ -60,22 +60,22 @@ static double *copy_motion(double *to, const dem_obstacle *obstacle)
     return to;
 }
 
-static dem_status put_motion(const dem_model *model, dem_record *record)
+static dem_status put_motion(const dem_model *model, dem_checkpoint *checkpoint)
 {
     const obstacle_set *o = &model->obstacles;
     const size_t n = count_motion() * (size_t)o->n;
     double *list = malloc((n + 1) * sizeof *list), *end = list;
-    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the obstacles of a record");
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the obstacles of a checkpoint");
     for (dem_index k = 0; k < o->n; k++) end = copy_motion(end, &o->list[k]);
-    const dem_status status = dem_record_put(record, "motions", list, n * sizeof *list);
+    const dem_status status = dem_checkpoint_put(checkpoint, "motions", list, n * sizeof *list);
     free(list);
     return status;
 }
 
-dem_status checkpoint_take(dem_simulation *s, dem_record *record)
+dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const contact_ledger *ledger = &s->automaton.set.ledger;
-    const record_way way = {.into = record};
+    const checkpoint_entries_way way = {.into = checkpoint};
     const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = ledger->counts;
     sizes size = sizes_of(s);
@@ -93,58 +93,59 @@ dem_status checkpoint_take(dem_simulation *s, dem_record *record)
     counts.rejected = of_integrator.rejected;
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
-    TRY(record_pass(&way, "sizes", &size, sizeof size));
-    TRY(put_motion(s->model, record));
+    TRY(checkpoint_entries_pass(&way, "sizes", &size, sizeof size));
+    TRY(put_motion(s->model, checkpoint));
     TRY(pass(s, &way, &n, &counts));
-    TRY(source_list_save(&s->sources, record));
-    return record_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
+    TRY(source_list_save(&s->sources, checkpoint));
+    return checkpoint_entries_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
 }
 
-/* Finds the state in a record, and checks it. */
-static dem_status find_state(const dem_simulation *s, const dem_record *record, const double **out)
+/* Finds the state in a checkpoint, and checks it. */
+static dem_status find_state(const dem_simulation *s, const dem_checkpoint *checkpoint, const double **out)
 {
     const size_t n = (size_t)state_size(&s->layout);
     size_t size;
-    const double *y = dem_record_find(record, "state", &size);
-    CHECK(y != NULL && size == n * sizeof *y, DEM_ERROR_IO, "the record has %zu bytes of state, %zu are expected", size,
-          n * sizeof *y);
-    for (size_t k = 0; k < n; k++) CHECK(isfinite(y[k]), DEM_ERROR_IO, "the state in the record is not finite");
+    const double *y = dem_checkpoint_find(checkpoint, "state", &size);
+    CHECK(y != NULL && size == n * sizeof *y, DEM_ERROR_IO, "the checkpoint has %zu bytes of state, %zu are expected",
+          size, n * sizeof *y);
+    for (size_t k = 0; k < n; k++) CHECK(isfinite(y[k]), DEM_ERROR_IO, "the state in the checkpoint is not finite");
     *out = y;
     return DEM_OK;
 }
 
-static dem_status check_sizes(const dem_simulation *s, const dem_record *record)
+static dem_status check_sizes(const dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     const sizes here = sizes_of(s);
     sizes there;
-    TRY(dem_record_get(record, "sizes", &there, sizeof there));
+    TRY(dem_checkpoint_get(checkpoint, "sizes", &there, sizeof there));
     CHECK(memcmp(&here, &there, sizeof here) == 0, DEM_ERROR_IO,
-          "the record is of another model: %lld nodes, %lld springs, %lld segments, not %lld, %lld, %lld",
+          "the checkpoint is of another model: %lld nodes, %lld springs, %lld segments, not %lld, %lld, %lld",
           (long long)there.n_nodes, (long long)there.n_springs, (long long)there.n_segments, (long long)here.n_nodes,
           (long long)here.n_springs, (long long)here.n_segments);
     return DEM_OK;
 }
 
-/* Positions of obstacles follow from their motion laws, so that those of the record must be the model's. */
+/* Positions of obstacles follow from their motion laws, so that those of the checkpoint must be the model's. */
 static dem_status check_field(const dem_obstacle *obstacle, dem_index number, const dem_motion_field *field,
                               const double *there)
 {
     const double *here = (const double *)(const void *)((const char *)obstacle + field->offset);
     for (dem_index d = 0; d < field->n; d++)
-        CHECK(here[d] == there[d], DEM_ERROR_IO, "in the record obstacle %lld moves with %s of %g %s, not %g %s",
+        CHECK(here[d] == there[d], DEM_ERROR_IO, "in the checkpoint obstacle %lld moves with %s of %g %s, not %g %s",
               (long long)number, field->name, there[d], field->unit, here[d], field->unit);
     return DEM_OK;
 }
 
-static dem_status check_motion(const dem_simulation *s, const dem_record *record)
+static dem_status check_motion(const dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     const obstacle_set *o = &s->model->obstacles;
     const size_t expected = count_motion() * (size_t)o->n * sizeof(double);
     size_t size;
     const dem_motion_field *field;
-    const double *there = dem_record_find(record, "motions", &size);
+    const double *there = dem_checkpoint_find(checkpoint, "motions", &size);
     CHECK(there != NULL && size == expected, DEM_ERROR_IO,
-          "the record has %zu bytes of the motion of obstacles, %zu are expected", there != NULL ? size : 0, expected);
+          "the checkpoint has %zu bytes of the motion of obstacles, %zu are expected", there != NULL ? size : 0,
+          expected);
     for (dem_index i = 0; i < o->n; i++)
         for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++, there += field->n)
             TRY(check_field(&o->list[i], i, field, there));
@@ -156,30 +157,30 @@ static dem_status check_numbers(const numbers *n)
     const bool finite = isfinite(n->impact) && isfinite(n->projection) && isfinite(n->work) && isfinite(n->projected);
     const bool timely = isfinite(n->t) && n->t >= 0.0 && isfinite(n->step) && n->step >= 0.0;
     CHECK(finite && timely && isfinite(n->next_step) && n->next_step >= 0.0, DEM_ERROR_IO,
-          "the record's time %g s, step %g s or next step %g s is impossible", n->t, n->step, n->next_step);
+          "the checkpoint's time %g s, step %g s or next step %g s is impossible", n->t, n->step, n->next_step);
     CHECK(n->unlooked >= 0 && n->unlooked <= INT32_MAX && n->events >= 0 && n->idle >= 0, DEM_ERROR_IO,
-          "the record's counts are impossible");
+          "the checkpoint's counts are impossible");
     return DEM_OK;
 }
 
-/* Gets everything from a record, with all checks. */
-static dem_status get(dem_simulation *s, const dem_record *record, numbers *n, const double **y)
+/* Gets everything from a checkpoint, with all checks. */
+static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbers *n, const double **y)
 {
-    const record_way way = {.from = record};
-    TRY(check_sizes(s, record));
-    TRY(check_motion(s, record));
+    const checkpoint_entries_way way = {.from = checkpoint};
+    TRY(check_sizes(s, checkpoint));
+    TRY(check_motion(s, checkpoint));
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
-    TRY(find_state(s, record, y));
-    return source_list_restore(&s->sources, record, n->t, *y);
+    TRY(find_state(s, checkpoint, y));
+    return source_list_restore(&s->sources, checkpoint, n->t, *y);
 }
 
-dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
+dem_status checkpoint_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     contact_set *c = &s->automaton.set;
     const double *y = NULL;
     numbers n;
-    TRY(reduce_status(get(s, record, &n, &y), 0.0));
+    TRY(reduce_status(get(s, checkpoint, &n, &y), 0.0));
     c->ledger.impact = n.impact;
     c->ledger.projection = n.projection;
     c->ledger.work = n.work;
@@ -189,7 +190,7 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_record *record)
     s->step = n.step;
     s->events = n.events;
     s->unlooked = (int)n.unlooked;
-    s->unrecorded = 0;
+    s->since_checkpoint = 0;
     s->in_hand = s->at_event = false;
     s->path = (dense_output){0};
     TRY(integrator_renew(&s->integrator, &(integrator_start){n.t, n.next_step, y, c->ledger.counts}));

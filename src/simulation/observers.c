@@ -57,12 +57,12 @@ dem_status observers_step(const observers *a, const dem_simulation *simulation)
     return reduce_status(status, 0.0);
 }
 
-dem_status observers_record(const observers *a, const dem_simulation *simulation, dem_record *record)
+dem_status observers_checkpoint(const observers *a, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     dem_status status = DEM_OK;
     for (int k = 0; k < a->n; k++) {
         const dem_observer *o = &a->members[k].observer;
-        if (o->record != NULL) status = status_first(status, o->record(o->context, simulation, record));
+        if (o->checkpoint != NULL) status = status_first(status, o->checkpoint(o->context, simulation, checkpoint));
     }
     return reduce_status(status, 0.0);
 }

@@ -28,7 +28,7 @@ bool observers_want_events(const observers *a);
 /** Call every observer; the first status other than DEM_OK is returned. */
 dem_status observers_event(const observers *a, const dem_simulation *simulation, const dem_event *event);
 dem_status observers_step(const observers *a, const dem_simulation *simulation);
-dem_status observers_record(const observers *a, const dem_simulation *simulation, dem_record *record);
+dem_status observers_checkpoint(const observers *a, const dem_simulation *simulation, dem_checkpoint *checkpoint);
 
 /** The observer whose frame is due first until `end` and t_end (s), and when; a frame at t_end is not lost to rounding.
  *  -1: none. */

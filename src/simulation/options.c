@@ -40,7 +40,8 @@ dem_status options_check(const dem_options *o)
     CHECK(o->contact == DEM_CONTACT_LOCAL || o->contact == DEM_CONTACT_EXACT, DEM_ERROR_ARGUMENT,
           "unknown contact method %d", (int)o->contact);
     CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
-    CHECK(o->record_steps >= 0, DEM_ERROR_ARGUMENT, "record_steps must be >= 0, got %lld", (long long)o->record_steps);
+    CHECK(o->checkpoint_steps >= 0, DEM_ERROR_ARGUMENT, "checkpoint_steps must be >= 0, got %lld",
+          (long long)o->checkpoint_steps);
     return DEM_OK;
 }
 

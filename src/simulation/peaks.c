@@ -2,7 +2,7 @@
 /* Largest stresses and strains of a run: one entry for each node and spring, replaced by a larger one. */
 #include <dem/dem.h>
 
-#include "base/record.h"
+#include "base/checkpoint_entries.h"
 #include "base/status.h"
 
 #include <math.h>
@@ -45,17 +45,17 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-/* Puts what a checkpoint contains of them into a record, or gets it. */
-static dem_status pass(dem_peaks *p, const record_way *way)
+/* Puts what a checkpoint contains of them into a checkpoint, or gets it. */
+static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
 {
-    TRY(record_pass(way, "peaks.left", &p->left, sizeof p->left));
-    TRY(record_pass(way, "peaks.nodes", p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
-    return record_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
+    TRY(checkpoint_entries_pass(way, "peaks.left", &p->left, sizeof p->left));
+    TRY(checkpoint_entries_pass(way, "peaks.nodes", p->nodes, (size_t)p->n_nodes * sizeof *p->nodes));
+    return checkpoint_entries_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
 }
 
-static dem_status remember(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status remember(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    const record_way way = {.into = record};
+    const checkpoint_entries_way way = {.into = checkpoint};
     (void)simulation;
     return pass(context, &way);
 }
@@ -113,15 +113,15 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     return status_fail(DEM_ERROR_MEMORY, "out of memory for the peaks of %lld nodes", (long long)size.n_nodes);
 }
 
-dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_record *record)
+dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_checkpoint *checkpoint)
 {
-    const record_way way = {.from = record};
+    const checkpoint_entries_way way = {.from = checkpoint};
     dem_peaks *p;
-    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: record is NULL");
+    CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_resume: checkpoint is NULL");
     TRY(dem_peaks_create(&p, model, every));
     dem_status status = pass(p, &way);
     if (status == DEM_OK && (p->left < 0 || p->left >= every))
-        status = status_fail(DEM_ERROR_IO, "the record has %lld steps until the next look at peaks, of %lld",
+        status = status_fail(DEM_ERROR_IO, "the checkpoint has %lld steps until the next look at peaks, of %lld",
                              (long long)p->left, (long long)every);
     if (status == DEM_OK)
         *out = p;
@@ -142,7 +142,7 @@ void dem_peaks_destroy(dem_peaks *peaks)
 
 dem_observer dem_peaks_observer(dem_peaks *peaks)
 {
-    return (dem_observer){.step = look, .record = remember, .context = peaks};
+    return (dem_observer){.step = look, .checkpoint = remember, .context = peaks};
 }
 
 const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks)

@@ -60,10 +60,10 @@ struct dem_simulation {
     run_measures *measures;
     int unlooked; /* steps since overlaps were looked for */
     dem_index events;
-    dem_index unrecorded;           /* steps since the last record */
-    dem_record *record;             /* the last one, */
-    bool has_record;                /* if there is one */
-    dem_record *rollback;           /* the state before contacts change, in case the external force fails, */
+    dem_index since_checkpoint;     /* steps since the last checkpoint */
+    dem_checkpoint *checkpoint;     /* the last one, */
+    bool has_checkpoint;            /* if there is one */
+    dem_checkpoint *rollback;       /* the state before contacts change, in case the external force fails, */
     bool has_rollback;              /* if there is one */
     dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
     observers observers;

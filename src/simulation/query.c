@@ -214,9 +214,9 @@ double dem_simulation_residual(const dem_simulation *s)
     return known ? diagnostics_residual(&s->forces, s->path.y1, s->path.y1 + v, s->path.f1 + v) : (double)INFINITY;
 }
 
-const dem_record *dem_simulation_record(const dem_simulation *s)
+const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *s)
 {
-    return s->has_record ? s->record : NULL;
+    return s->has_checkpoint ? s->checkpoint : NULL;
 }
 
 const dem_model *dem_simulation_model(const dem_simulation *s)

@@ -60,7 +60,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;
     s->t = s->seen_t;
     s->path = (dense_output){0};
-    s->in_hand = s->at_event = s->started = s->has_record = false;
+    s->in_hand = s->at_event = s->started = s->has_checkpoint = false;
     TRY(automaton_open_all(&s->automaton));
     TRY(integrator_restart(&s->integrator, s->t, s->frame));
     s->y = integrator_state(&s->integrator);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates a simulation, from a model or from a record, and destroys it. */
+/* Creates a simulation, from a model or from a checkpoint, and destroys it. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/aligned.h"
-#include "base/record.h"
+#include "base/checkpoint_entries.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/contact_constraints.h"
@@ -103,26 +103,26 @@ static dem_status set_up(dem_simulation *s)
     s->y = integrator_state(&s->integrator);
     free(s->initial);
     s->initial = NULL;
-    TRY(dem_record_create(&s->record));
+    TRY(dem_checkpoint_create(&s->checkpoint));
     TRY(overlap_create(&s->overlap, &model->lattice));
     overlap_look(&s->overlap, &model->lattice, s->t, s->y);
     query_at(s, 0.0, s->y);
     return DEM_OK;
 }
 
-static dem_status resume(dem_simulation *s, const dem_record *record)
+static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
-    TRY(checkpoint_restore(s, record));
+    TRY(checkpoint_restore(s, checkpoint));
     query_at(s, s->t, s->y);
     const dem_status status = query_ask_force(s);
     if (run_force_failed(s)) return reduce_status(external_force_failure(s->external), 0.0);
     TRY(status);
-    s->started = s->has_record = true;
-    return record_copy(s->record, record);
+    s->started = s->has_checkpoint = true;
+    return checkpoint_entries_copy(s->checkpoint, checkpoint);
 }
 
 static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options,
-                         const dem_record *record)
+                         const dem_checkpoint *checkpoint)
 {
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
@@ -134,7 +134,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     s->options = own;
     s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n);
     dem_status status = reduce_status(set_up(s), 0.0);
-    if (status == DEM_OK && record != NULL) status = resume(s, record);
+    if (status == DEM_OK && checkpoint != NULL) status = resume(s, checkpoint);
     if (status == DEM_OK)
         *out = s;
     else
@@ -148,10 +148,10 @@ dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, c
 }
 
 dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
-                                 const dem_record *record)
+                                 const dem_checkpoint *checkpoint)
 {
-    CHECK(record != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: record is NULL");
-    return create(out, model, options, record);
+    CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: checkpoint is NULL");
+    return create(out, model, options, checkpoint);
 }
 
 void dem_simulation_destroy(dem_simulation *s)
@@ -171,8 +171,8 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->initial);
     free(s->frame);
     free(s->measures);
-    dem_record_destroy(s->record);
-    dem_record_destroy(s->rollback);
+    dem_checkpoint_destroy(s->checkpoint);
+    dem_checkpoint_destroy(s->rollback);
     free(s);
 }
 

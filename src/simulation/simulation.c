@@ -82,7 +82,7 @@ static dem_status stop_if_force_failed(const dem_simulation *s, dem_status statu
 static dem_status take_rollback(dem_simulation *s)
 {
     if (s->external == NULL) return DEM_OK;
-    if (s->rollback == NULL) TRY(dem_record_create(&s->rollback));
+    if (s->rollback == NULL) TRY(dem_checkpoint_create(&s->rollback));
     TRY(checkpoint_take(s, s->rollback));
     s->has_rollback = true;
     return DEM_OK;
@@ -180,7 +180,7 @@ static bool settle_step(dem_simulation *s)
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
-    s->unrecorded++;
+    s->since_checkpoint++;
     if (++s->unlooked >= between_looks) look_for_overlaps(s);
     return moved;
 }
@@ -224,28 +224,28 @@ static dem_status start(dem_simulation *s)
     return status;
 }
 
-static bool wants_record(const dem_simulation *s)
+static bool wants_checkpoint(const dem_simulation *s)
 {
-    const dem_index every = s->options.record_steps;
-    return every > 0 && (!s->has_record || s->unrecorded >= every);
+    const dem_index every = s->options.checkpoint_steps;
+    return every > 0 && (!s->has_checkpoint || s->since_checkpoint >= every);
 }
 
-/* Takes a record and goes on from it, so that the run has the bits of one that is resumed. */
-static dem_status take_record(dem_simulation *s)
+/* Takes a checkpoint and goes on from it, so that the run has the bits of one that is resumed. */
+static dem_status take_checkpoint(dem_simulation *s)
 {
-    s->has_record = false;
-    TRY(checkpoint_take(s, s->record));
-    TRY(checkpoint_restore(s, s->record));
-    s->has_record = true;
+    s->has_checkpoint = false;
+    TRY(checkpoint_take(s, s->checkpoint));
+    TRY(checkpoint_restore(s, s->checkpoint));
+    s->has_checkpoint = true;
     TRY(show_state(s));
-    return observers_record(&s->observers, s, s->record);
+    return observers_checkpoint(&s->observers, s, s->checkpoint);
 }
 
 static dem_status advance(dem_simulation *s, double t_end)
 {
     if (!s->started) TRY(start(s));
     for (;;) {
-        if (!s->in_hand && wants_record(s)) TRY(take_record(s));
+        if (!s->in_hand && wants_checkpoint(s)) TRY(take_checkpoint(s));
         if (!s->in_hand) TRY(take_step(s));
         TRY(stop_if_force_failed(s, report_frames(s, t_end)));
         if (t_end < s->path.end) break;

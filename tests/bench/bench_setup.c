@@ -76,10 +76,10 @@ static void time_frames(body *b, int n)
     dem_trajectory_options options = dem_trajectory_options_default();
     const double h = dem_simulation_options(b->simulation).max_step;
     double frame = INFINITY, steps = INFINITY;
-    dem_trajectory *film;
+    dem_trajectory *reader;
     options.frame_interval = 1.0;
-    ask(dem_trajectory_create(&film, path, b->simulation, &options));
-    const dem_observer watcher = dem_trajectory_observer(film);
+    ask(dem_trajectory_create(&reader, path, b->simulation, &options));
+    const dem_observer watcher = dem_trajectory_observer(reader);
     for (int k = 1; k <= n; k++) {
         double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
         ask(dem_simulation_advance(b->simulation, 4.0 * h * k));
@@ -87,8 +87,8 @@ static void time_frames(body *b, int n)
         ask(watcher.frame(watcher.context, b->simulation));
         frame = fmin(frame, lap(&start));
     }
-    ask(dem_trajectory_finish(film));
-    dem_trajectory_destroy(film);
+    ask(dem_trajectory_finish(reader));
+    dem_trajectory_destroy(reader);
     must(unlink(path) == 0, path);
     (void)printf("frames     %.2f ms each, a step %.3f ms: %.2f %% of a run with one each 1 ms of %.3g s\n",
                  1e3 * frame, 1e3 * steps / 4.0, 100.0 * frame / (0.25 * steps * 1e-3 / h), h);

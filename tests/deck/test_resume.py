@@ -32,7 +32,7 @@ DECK = """
 &body shape = 'rectangle', size = 0.04, 0.02, spacing = 5e-3, velocity = 3, -2, clearance = 1e-5, position = -0.02, 0 /
 &obstacle points = -0.3, 0.03, 0.3, -0.03, profile = 'rough', roughness = 1e-4, correlation = 2e-2, resolution = 2e-3,
           restitution = 0.6, friction = 0.4, velocity = 0.5, 0.1 /
-&solver record_steps = 7 /
+&solver checkpoint_steps = 7 /
 &probe name = 'corner', number = 0, every = 3 /
 &output name = 'a', frame_interval = 2.5e-4, precision = 'double', events = .true., peak_every = 3 /
 """
@@ -41,7 +41,7 @@ REST = """
 &material youngs_modulus = 1e6, density = 1000 /
 &body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2 /
 &boundary where = 'side', side = 'top' /
-&solver record_steps = 50 /
+&solver checkpoint_steps = 50 /
 &output name = 'a', frame_interval = 1 /
 """
 FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.json", "a.checkpoint"}
@@ -122,14 +122,14 @@ class Cuts(Case):
         self.expect_same("cut")
         self.assertNotIn("resumed", log)
 
-    def test_records_on_disk_change_nothing(self):
+    def test_checkpoints_on_disk_change_nothing(self):
         self.call(0, outdir="whole")
         log = self.call(0, *OFTEN, outdir="often")
         self.assertGreater(log.count("\ncheckpoint t "), 20)
         self.expect_same("often")
 
     def test_other_threads_and_kernels(self):
-        self.put(DECK.replace("record_steps = 7", "record_steps = 20"))
+        self.put(DECK.replace("checkpoint_steps = 7", "checkpoint_steps = 20"))
         self.call(0, outdir="whole")
         shifts = [("--set", f"solver.kernel='{kernel}'", "--set", f"solver.threads={threads}")
                   for kernel, threads in (("portable", 2), ("auto", 1), ("portable", 1), ("auto", 2))]
@@ -165,7 +165,7 @@ class Cuts(Case):
 class Signals(Case):
     def setUp(self):
         super().setUp()
-        self.put(DECK.replace("spacing = 5e-3", "spacing = 3e-3").replace("record_steps = 7", "record_steps = 20"))
+        self.put(DECK.replace("spacing = 5e-3", "spacing = 3e-3").replace("checkpoint_steps = 7", "checkpoint_steps = 20"))
 
     def lines(self, process, word):
         """Reads the log up to a line that has the word."""
@@ -336,7 +336,7 @@ class Refusals(Case):
 
 
 def with_checksum(text):
-    """src/base/record.c: the checksum, of the file with 0 in its place, is behind magic, byte order, format, size and number."""
+    """src/base/checkpoint_entries.c: the checksum, of the file with 0 in its place, is behind magic, byte order, format, size and number."""
     blank = text[:32] + bytes(8) + text[40:]
     return text[:32] + zlib.crc32(blank).to_bytes(8, sys.byteorder) + text[40:]
 

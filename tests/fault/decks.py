@@ -11,7 +11,7 @@ STICKS = """
 &obstacle points = -0.3, -0.02, -0.05, 0.004, 0, -0.01, 0.045, 0.01, 0.3, -0.02, restitution = 0.3, friction = 0.4 /
 &probe name = 'node', place = 0, -0.02 /
 &probe name = 'gauge', kind = 'gauge', place = -0.02, 0, 0.02, 0, every = 3 /
-&solver record_steps = 24 /
+&solver checkpoint_steps = 24 /
 &output name = 'sticks', frame_interval = 4e-4, events = T, fields = 'velocity', 'force', most_stressed = 2 /
 """
 
@@ -21,6 +21,6 @@ TINY = """
 &material youngs_modulus = 1e7, density = 1050 /
 &body shape = 'rectangle', size = 0.02, 0.02, spacing = 0.01, clearance = 1e-4, velocity = 0, -5 /
 &obstacle points = -0.3, 0, 0.3, 0 /
-&solver record_steps = 8 /
+&solver checkpoint_steps = 8 /
 &output name = 'tiny', frame_interval = 2e-4, fields = 'velocity', peak_every = 0 /
 """

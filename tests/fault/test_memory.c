@@ -130,21 +130,22 @@ static dem_status run(void)
     return status;
 }
 
-/* ---- a run with friction that keeps records and segments, and goes on from one of them ---- */
+/* ---- a run with friction that keeps checkpoints and segments, and goes on from one of them ---- */
 
 static const char *const checkpoints[] = {"fault.checkpoint", "fault.checkpoint.prev"};
-static bool kept; /* a record has been written */
+static bool kept; /* a checkpoint has been written */
 
-static dem_status keep_record(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status keep_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     if (dem_simulation_counts(simulation).steps == 0) return DEM_OK;
-    dem_status status = dem_trajectory_segment(context, record);
-    if (status == DEM_OK) status = dem_record_write(record, checkpoints[0]);
+    dem_status status = dem_trajectory_segment(context, checkpoint);
+    if (status == DEM_OK) status = dem_checkpoint_write(checkpoint, checkpoints[0]);
     if (status == DEM_OK) kept = true;
     return status;
 }
 
-static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem_record *record, bool to_the_end)
+static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem_checkpoint *checkpoint,
+                         bool to_the_end)
 {
     dem_trajectory *trajectory = NULL;
     dem_trajectory_options options = dem_trajectory_options_default();
@@ -152,12 +153,13 @@ static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem
     options.fields = DEM_FIELD_VELOCITY;
     options.events = 1;
     options.peaks = peaks;
-    dem_status status = record == NULL
+    dem_status status = checkpoint == NULL
                             ? dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options)
-                            : dem_trajectory_resume(&trajectory, "fault.vtkhdf", simulation, &options, record);
+                            : dem_trajectory_resume(&trajectory, "fault.vtkhdf", simulation, &options, checkpoint);
     if (status != DEM_OK) return status;
-    const dem_observer observers[3] = {
-        dem_peaks_observer(peaks), dem_trajectory_observer(trajectory), {.record = keep_record, .context = trajectory}};
+    const dem_observer observers[3] = {dem_peaks_observer(peaks),
+                                       dem_trajectory_observer(trajectory),
+                                       {.checkpoint = keep_record, .context = trajectory}};
     for (int k = 0; k < 3 && status == DEM_OK; k++) status = dem_simulation_observe(simulation, &observers[k]);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, to_the_end ? 3e-4 : 2e-4);
     if (status == DEM_OK && to_the_end) status = dem_trajectory_finish(trajectory);
@@ -172,20 +174,21 @@ static dem_status lean(void *context, const dem_force_query *query, double *forc
     return DEM_OK;
 }
 
-/* From the beginning but not to the end, or to the end from a record. */
-static dem_status run_from(const dem_record *record, const dem_model *model)
+/* From the beginning but not to the end, or to the end from a checkpoint. */
+static dem_status run_from(const dem_checkpoint *checkpoint, const dem_model *model)
 {
     dem_options options = dem_options_default();
     dem_simulation *simulation = NULL;
     dem_peaks *peaks = NULL;
     options.contact = DEM_CONTACT_EXACT;
-    options.record_steps = 12;
+    options.checkpoint_steps = 12;
     options.force = lean;
-    dem_status status = record == NULL ? dem_simulation_create(&simulation, model, &options)
-                                       : dem_simulation_resume(&simulation, model, &options, record);
+    dem_status status = checkpoint == NULL ? dem_simulation_create(&simulation, model, &options)
+                                           : dem_simulation_resume(&simulation, model, &options, checkpoint);
     if (status == DEM_OK)
-        status = record == NULL ? dem_peaks_create(&peaks, model, 2) : dem_peaks_resume(&peaks, model, 2, record);
-    if (status == DEM_OK) status = follow(simulation, peaks, record, record != NULL);
+        status =
+            checkpoint == NULL ? dem_peaks_create(&peaks, model, 2) : dem_peaks_resume(&peaks, model, 2, checkpoint);
+    if (status == DEM_OK) status = follow(simulation, peaks, checkpoint, checkpoint != NULL);
     dem_peaks_destroy(peaks);
     dem_simulation_destroy(simulation);
     return status;
@@ -205,27 +208,27 @@ static dem_status build_model(dem_model **model)
 static dem_status run_with_records(void)
 {
     dem_model *model = NULL;
-    dem_record *record = NULL;
+    dem_checkpoint *checkpoint = NULL;
     kept = false;
     dem_status status = build_model(&model);
     if (status == DEM_OK) status = run_from(NULL, model);
-    if (status == DEM_OK) status = dem_record_read(&record, checkpoints[0]);
-    if (status == DEM_OK) status = run_from(record, model);
-    dem_record_destroy(record);
+    if (status == DEM_OK) status = dem_checkpoint_read(&checkpoint, checkpoints[0]);
+    if (status == DEM_OK) status = run_from(checkpoint, model);
+    dem_checkpoint_destroy(checkpoint);
     dem_model_destroy(model);
     return status;
 }
 
-/* A record that was on disk still is, in one of its two files, and the run comes to its end from there. */
+/* A checkpoint that was on disk still is, in one of its two files, and the run comes to its end from there. */
 static dem_status go_on(void)
 {
     dem_model *model = NULL;
-    dem_record *record = NULL;
+    dem_checkpoint *checkpoint = NULL;
     if (!kept) return DEM_OK;
-    for (int k = 0; k < 2 && record == NULL; k++) (void)dem_record_read(&record, checkpoints[k]);
-    dem_status status = record == NULL ? DEM_ERROR_IO : build_model(&model);
-    if (status == DEM_OK) status = run_from(record, model);
-    dem_record_destroy(record);
+    for (int k = 0; k < 2 && checkpoint == NULL; k++) (void)dem_checkpoint_read(&checkpoint, checkpoints[k]);
+    dem_status status = checkpoint == NULL ? DEM_ERROR_IO : build_model(&model);
+    if (status == DEM_OK) status = run_from(checkpoint, model);
+    dem_checkpoint_destroy(checkpoint);
     dem_model_destroy(model);
     return status;
 }

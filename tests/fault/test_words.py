@@ -26,7 +26,7 @@ BASE = """&run t_end = 6e-4 /
 &material youngs_modulus = 1e7, density = 1050 /
 &body shape = 'disc', radius = 0.03, spacing = 0.01, clearance = 1e-4, velocity = 2, -5 /
 &obstacle points = -0.3, -0.02, -0.05, 0.004, 0, -0.01, 0.045, 0.01, 0.3, -0.02, restitution = 0.3, friction = 0.4 /
-&solver record_steps = 24 /
+&solver checkpoint_steps = 24 /
 &output name = 'disc', frame_interval = 2e-4, events = T /
 """
 READS = """&run t_end = 1e-4 /
@@ -77,7 +77,7 @@ class Words(unittest.TestCase):
             "no step short enough": ("&run ", "&run gravity = 0, -1e300, ",
                                      r"the step from t = \S+ s fails: no step is short enough for rtol"),
             "not finite": ("2, -5", "0, -1e308", r"forces overflow at t = 0 s"),
-            "a step too long": ("record_steps = 24", "fixed_step = 1e-3", r"is \S+ m inside the body"),
+            "a step too long": ("checkpoint_steps = 24", "fixed_step = 1e-3", r"is \S+ m inside the body"),
         }
         for name, (old, new, cause) in edits.items():
             with self.subTest(name):

@@ -43,7 +43,7 @@ program calls
   call lattices()
   call models()
   call simulations()
-  call records()
+  call checkpoints()
   call films()
   call dem_simulation_destroy(simulation)
   call dem_model_destroy(model)
@@ -154,24 +154,24 @@ contains
     call expect(seen%steps > 1 .and. abs(seen%ledger(2) - seen%ledger(1)) < 1d-6 * abs(seen%ledger(1)), 'the ledger')
   end subroutine
 
-  subroutine records()
-    type(c_ptr) :: record, entry
+  subroutine checkpoints()
+    type(c_ptr) :: checkpoint, entry
     real(c_double), target :: written(3) = [1d0, 2d0, 3d0], read(3) = 0
     integer(c_size_t) :: bytes
-    call succeed(dem_record_create(record))
-    call succeed(dem_record_put(record, 'mine'//c_null_char, c_loc(written), c_sizeof(written)))
-    call succeed(dem_record_get(record, 'mine'//c_null_char, c_loc(read), c_sizeof(read)))
+    call succeed(dem_checkpoint_create(checkpoint))
+    call succeed(dem_checkpoint_put(checkpoint, 'mine'//c_null_char, c_loc(written), c_sizeof(written)))
+    call succeed(dem_checkpoint_get(checkpoint, 'mine'//c_null_char, c_loc(read), c_sizeof(read)))
     call expect(maxval(abs(read - written)) < 1d-300, 'the same')
-    entry = dem_record_find(record, 'mine'//c_null_char, bytes)
+    entry = dem_checkpoint_find(checkpoint, 'mine'//c_null_char, bytes)
     call expect(c_associated(entry) .and. bytes == 24, 'found')
-    call dem_record_destroy(record)
+    call dem_checkpoint_destroy(checkpoint)
   end subroutine
 
   !> A run written to the file that is named on the command line, and read back.
   subroutine films()
     type(dem_trajectory_options) :: options
-    type(dem_film_array), pointer :: array
-    type(c_ptr) :: falling, file, film
+    type(dem_reader_array), pointer :: array
+    type(c_ptr) :: falling, file, reader
     character(:), allocatable :: path
     character(kind=c_char) :: note(8)
     real(c_double), pointer :: times(:)
@@ -195,16 +195,16 @@ contains
 
     call succeed(dem_trajectory_read_note(path, 'mine'//c_null_char, note, size(note, kind=c_size_t)))
     call expect(transfer(note(:6), 'a note') == 'a note' .and. note(7) == c_null_char, 'the note')
-    call succeed(dem_film_open(film, path))
-    call c_f_pointer(dem_film_times(film, n_frames), times, [3])
+    call succeed(dem_reader_open(reader, path))
+    call c_f_pointer(dem_reader_times(reader, n_frames), times, [3])
     call expect(n_frames == 3 .and. maxval(abs(times - [0d0, t / 2, t])) < 1d-15, 'three frames')
-    call c_f_pointer(dem_film_array_find(film, 'velocity'//c_null_char), array)
+    call c_f_pointer(dem_reader_array_find(reader, 'velocity'//c_null_char), array)
     call expect(dem_string(array%unit) == 'm/s' .and. array%components == 3, 'velocities in three components')
     allocate (x(2, lattice%n_nodes), v(array%components, lattice%n_nodes))
-    call succeed(dem_film_positions(film, n_frames - 1, x))
-    call succeed(dem_film_read(film, array, n_frames - 1, v))
+    call succeed(dem_reader_positions(reader, n_frames - 1, x))
+    call succeed(dem_reader_read(reader, array, n_frames - 1, v))
     call expect(abs(minval(x(2, :)) - 1 + 9.81d0 * t**2 / 2) < 1d-9, 'how far it fell')
     call expect(maxval(abs(v(2, :) + 9.81d0 * t)) < 1d-6, 'how fast, in single precision')
-    call dem_film_close(film)
+    call dem_reader_close(reader)
   end subroutine
 end program

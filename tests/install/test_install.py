@@ -70,10 +70,10 @@ class Installed(unittest.TestCase):
     def test_the_library_is_known_by_its_generation(self):
         version = self.flags("--modversion")[0]
         shared = self.lib / "libdem.so"
-        self.assertEqual((os.readlink(shared), os.readlink(self.lib / "libdem.so.1")),
-                         ("libdem.so.1", f"libdem.so.{version}"))
+        self.assertEqual((os.readlink(shared), os.readlink(self.lib / "libdem.so.2")),
+                         ("libdem.so.2", f"libdem.so.{version}"))
         dynamic = run("readelf", "-d", shared)
-        self.assertEqual(re.findall(r"SONAME.*\[(.*)\]", dynamic), ["libdem.so.1"])
+        self.assertEqual(re.findall(r"SONAME.*\[(.*)\]", dynamic), ["libdem.so.2"])
         needed = " ".join(re.findall(r"NEEDED.*\[(.*)\]", dynamic))
         self.assertRegex(needed, "libsundials_arkode.*libhdf5|libhdf5.*libsundials_arkode")
         self.assertNotRegex(needed, "gsl|cairo")
@@ -99,7 +99,7 @@ class Installed(unittest.TestCase):
         for program in self.programs:
             self.assertIn(f"dem {self.flags('--modversion')[0]}", run(self.bin / program, "--version", env=away))
             self.assertIn(str(self.lib), os.path.realpath(re.search(
-                r"libdem.so.1 => (\S+)", run("ldd", self.bin / program, env=away))[1]))
+                r"libdem.so.2 => (\S+)", run("ldd", self.bin / program, env=away))[1]))
         run(self.bin / "dem_batch", "--set", "run.t_end=1e-4", "--outdir", self.work, deck, env=away)
         self.assertTrue((self.work / "disc.vtkhdf").exists())
 

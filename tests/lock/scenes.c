@@ -84,7 +84,7 @@ static void make_scene(scene *sc, extras *e, const task *what, dem_kernel kernel
     sc->options.contact = what->contact;
     sc->options.kernel = kernel;
     if (what->seed % 2 == 0) sc->options.window = 1e-5;
-    sc->options.record_steps = 16;
+    sc->options.checkpoint_steps = 16;
 }
 
 /* ---- runs ---- */
@@ -123,7 +123,7 @@ static uint64_t run_scene(const void *what, dem_kernel kernel)
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &first));
     assert_ok(dem_simulation_advance(run.simulation, 0.5 * sc.t_end));
-    assert_ok(dem_simulation_resume(&resumed, run.model, &sc.options, dem_simulation_record(run.simulation)));
+    assert_ok(dem_simulation_resume(&resumed, run.model, &sc.options, dem_simulation_checkpoint(run.simulation)));
     assert_ok(dem_simulation_observe(resumed, &second));
     assert_ok(dem_simulation_advance(resumed, sc.t_end));
     assert_ok(dem_simulation_advance(run.simulation, sc.t_end));

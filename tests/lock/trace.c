@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 
 #include "digest.h"
 #include "verification/support.h"
@@ -161,30 +161,30 @@ static double *room(dem_index n)
     return values;
 }
 
-static void add_frame(trace *t, const dem_film *film, dem_index frame)
+static void add_frame(trace *t, const dem_reader *reader, dem_index frame)
 {
-    const dem_lattice *lattice = dem_film_lattice(film);
+    const dem_lattice *lattice = dem_reader_lattice(reader);
     dem_index n;
-    const dem_film_array *arrays = dem_film_arrays(film, &n);
+    const dem_reader_array *arrays = dem_reader_arrays(reader, &n);
     double *values = room(9 * (lattice->n_nodes + lattice->n_springs));
-    assert_ok(dem_film_positions(film, frame, values));
+    assert_ok(dem_reader_positions(reader, frame, values));
     add_reals(t, values, 2 * lattice->n_nodes);
     for (dem_index k = 0; k < n; k++) {
-        assert_ok(dem_film_read(film, &arrays[k], frame, values));
+        assert_ok(dem_reader_read(reader, &arrays[k], frame, values));
         add_text(t, arrays[k].name);
         add_reals(t, values, arrays[k].components * (arrays[k].of_springs ? lattice->n_springs : lattice->n_nodes));
     }
     free(values);
 }
 
-static void add_tables(trace *t, const dem_film *film)
+static void add_tables(trace *t, const dem_reader *reader)
 {
     dem_index n;
-    const dem_film_column *columns = dem_film_columns(film, &n);
+    const dem_reader_column *columns = dem_reader_columns(reader, &n);
     for (dem_index k = 0; k < n; k++) {
         const dem_index size = columns[k].n_rows * columns[k].width;
         double *values = room(size);
-        assert_ok(dem_film_read_column(film, &columns[k], values));
+        assert_ok(dem_reader_read_column(reader, &columns[k], values));
         add_text(t, columns[k].table);
         add_text(t, columns[k].name);
         add_reals(t, values, size);
@@ -194,16 +194,16 @@ static void add_tables(trace *t, const dem_film *film)
 
 void trace_add_film(trace *t, const char *path)
 {
-    dem_film *film;
+    dem_reader *reader;
     dem_index n;
-    assert_ok(dem_film_open(&film, path));
-    const double *times = dem_film_times(film, &n);
-    const dem_lattice *lattice = dem_film_lattice(film);
+    assert_ok(dem_reader_open(&reader, path));
+    const double *times = dem_reader_times(reader, &n);
+    const dem_lattice *lattice = dem_reader_lattice(reader);
     add_reals(t, lattice->x, 2 * lattice->n_nodes);
     add_reals(t, lattice->mass, lattice->n_nodes);
     add_reals(t, lattice->stiffness, lattice->n_springs);
     add_reals(t, times, n);
-    for (dem_index k = 0; k < n; k++) add_frame(t, film, k);
-    add_tables(t, film);
-    dem_film_close(film);
+    for (dem_index k = 0; k < n; k++) add_frame(t, reader, k);
+    add_tables(t, reader);
+    dem_reader_close(reader);
 }

@@ -118,7 +118,7 @@ def solver(dice, deck, harsh):
     if dice.chance(0.05):
         keys["threads"] = 2
     if dice.chance(0.3):
-        keys["record_steps"] = dice.one_of([0, 7, 50])
+        keys["checkpoint_steps"] = dice.one_of([0, 7, 50])
     return keys
 
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Random scenes in random fields of force: nobody sinks in, the ledger stays closed, also when nodes are put elsewhere
  * between advances; a run is the same to the bit with
- * more threads, in parts, watched, and resumed from its records; and a force that fails leaves a state from which the
- * run goes on. `test_forces [CASES [FIRST_SEED]]`. */
+ * more threads, in parts, watched, and resumed from its checkpoints; and a force that fails leaves a state from which
+ * the run goes on. `test_forces [CASES [FIRST_SEED]]`. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,7 +25,7 @@ typedef struct stage {
     dem_simulation *simulation;
 } stage;
 
-static void open_stage(stage *s, unsigned long seed, manner how, const dem_record *record)
+static void open_stage(stage *s, unsigned long seed, manner how, const dem_checkpoint *checkpoint)
 {
     scene_random(&s->scene, seed);
     field_random(&s->field, &s->scene, seed);
@@ -33,12 +33,12 @@ static void open_stage(stage *s, unsigned long seed, manner how, const dem_recor
     o->method = how.method;
     o->contact = how.contact;
     o->threads = how.threads;
-    o->record_steps = 20;
+    o->checkpoint_steps = 20;
     o->force = field_act;
     o->force_context = &s->field;
     assert_ok(dem_model_create(&s->model, &s->scene.body, s->scene.obstacles, s->scene.n));
-    if (record != NULL)
-        assert_ok(dem_simulation_resume(&s->simulation, s->model, o, record));
+    if (checkpoint != NULL)
+        assert_ok(dem_simulation_resume(&s->simulation, s->model, o, checkpoint));
     else
         assert_ok(dem_simulation_create(&s->simulation, s->model, o));
 }
@@ -214,9 +214,9 @@ static void compare(const stage *a, const stage *b, unsigned long seed, const ch
         fail_msg("seed %lu: another run %s", seed, what);
 }
 
-static void go(stage *s, unsigned long seed, manner how, const dem_record *record)
+static void go(stage *s, unsigned long seed, manner how, const dem_checkpoint *checkpoint)
 {
-    open_stage(s, seed, how, record);
+    open_stage(s, seed, how, checkpoint);
     const double t_end = 0.25 * s->scene.t_end;
     for (int k = 1; k <= how.cuts; k++) assert_ok(dem_simulation_advance(s->simulation, t_end * k / (how.cuts + 1.0)));
     assert_ok(dem_simulation_advance(s->simulation, t_end));
@@ -240,8 +240,8 @@ static void nobody_leaves_a_trace(void **state)
                                 &(dem_energy[1]){dem_simulation_energy(other.simulation)}, sizeof(dem_energy));
             close_stage(&other);
         }
-        go(&other, seed, how, dem_simulation_record(alone.simulation));
-        compare(&alone, &other, seed, "from its last record");
+        go(&other, seed, how, dem_simulation_checkpoint(alone.simulation));
+        compare(&alone, &other, seed, "from its last checkpoint");
         close_stage(&other);
         close_stage(&alone);
     }

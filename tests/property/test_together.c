@@ -42,7 +42,7 @@ static dem_status go(job *j, dem_simulation *simulation, dem_trajectory *traject
     for (int part = 1; part <= 4 && status == DEM_OK; part++) {
         status = dem_simulation_advance(simulation, 0.02 * part * j->scene.t_end);
         if (status == DEM_OK && part < 4)
-            status = dem_trajectory_segment(trajectory, dem_simulation_record(simulation));
+            status = dem_trajectory_segment(trajectory, dem_simulation_checkpoint(simulation));
     }
     return status == DEM_OK ? dem_trajectory_finish(trajectory) : status;
 }
@@ -99,7 +99,7 @@ static void open_job(job *j, unsigned long seed, const char *folder)
     field_random(&j->field, &j->scene, seed);
     j->scene.options.contact = seed % 2 == 0 ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
     j->scene.options.threads = 1 + (seed % 4 == 0);
-    j->scene.options.record_steps = 20;
+    j->scene.options.checkpoint_steps = 20;
     j->scene.options.force = field_act;
     j->scene.options.force_context = &j->field;
     j->state = calloc(4 * (size_t)j->scene.body.n_nodes, sizeof *j->state);

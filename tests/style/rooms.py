@@ -15,7 +15,7 @@ ROOMS = [  # pattern, files that may have it
     (r'#include [<"]hdf5\.h', {"src/output/hdf5_file.c", "src/output/hdf5_file.h"}),
     (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/pores.c", "drivers/deck/profile.c",
                           "drivers/batch/report.c", "drivers/batch/preview.c"}),
-    (r"#include [<\"]zlib", {"src/base/record.c"}),
+    (r"#include [<\"]zlib", {"src/base/checkpoint_entries.c"}),
     (r"#include [<\"]cairo", {"drivers/body/png.c", "drivers/plot/paint.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
     (r"[+*]\s*[\w.\[\]]*(->)?restitution\b|\brestitution\s*[-+*]", {"src/contact/impact_law.c"}),

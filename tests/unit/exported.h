@@ -20,7 +20,7 @@ enum { EXPORTED_FRAMES = 3, EXPORTED_TEXT = 1 << 16 };
 
 typedef struct exported {
     char folder[64], path[96];
-    dem_film *film;
+    dem_reader *reader;
     outcome outcome;
     task task;
     char text[EXPORTED_TEXT]; /* of the file last read */
@@ -89,9 +89,9 @@ static inline void exported_open(exported *e, exported_how how)
     (void)snprintf(folder, sizeof folder, "%s/", e->folder);
     (void)snprintf(e->path, sizeof e->path, "%s/run.vtkhdf", e->folder);
     exported_run(e, &how);
-    assert_ok(dem_film_open(&e->film, e->path));
-    (void)dem_film_times(e->film, &n);
-    e->task = (task){.input = e->path, .film = e->film, .folder = folder, .name = "run", .outcome = &e->outcome};
+    assert_ok(dem_reader_open(&e->reader, e->path));
+    (void)dem_reader_times(e->reader, &n);
+    e->task = (task){.input = e->path, .reader = e->reader, .folder = folder, .name = "run", .outcome = &e->outcome};
     assert_true(frame_list_all(&e->task.frames, n));
 }
 
@@ -135,7 +135,7 @@ static inline void exported_close(exported *e)
     DIR *list = opendir(e->folder);
     assert_non_null(list);
     frame_list_free(&e->task.frames);
-    dem_film_close(e->film);
+    dem_reader_close(e->reader);
     for (struct dirent *entry; (entry = readdir(list)) != NULL;) {
         if (strstr(entry->d_name, ".new") != NULL) fail_msg("%s was left", entry->d_name);
         (void)unlinkat(dirfd(list), entry->d_name, 0);

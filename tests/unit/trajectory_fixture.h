@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A short run written to a file and opened as a film: a block falls on a slope, and a loose node flies by. */
+/* A short run written to a file and opened as a trajectory: a block falls on a slope, and a loose node flies by. */
 #ifndef DEM_TEST_TRAJECTORY_FIXTURE_H
 #define DEM_TEST_TRAJECTORY_FIXTURE_H
 
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 #include <dem/trajectory.h>
 
 enum { TRAJECTORY_FIXTURE_FRAMES = 6 };
@@ -18,7 +18,7 @@ static const double trajectory_fixture_slope[4] = {-1.0, -0.011, 1.0, 0.009};
 
 typedef struct trajectory_fixture {
     char folder[64], path[96];
-    dem_film *film;
+    dem_reader *reader;
 } trajectory_fixture;
 
 #define trajectory_fixture_ok(status) assert_int_equal(status, DEM_OK)
@@ -66,7 +66,7 @@ static inline trajectory_fixture trajectory_fixture_open(void)
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
     dem_lattice_free(&block);
-    trajectory_fixture_ok(dem_film_open(&f.film, f.path));
+    trajectory_fixture_ok(dem_reader_open(&f.reader, f.path));
     return f;
 }
 
@@ -80,10 +80,10 @@ static inline char *trajectory_fixture_beside(const trajectory_fixture *f, const
     return path[next];
 }
 
-/** The film and its folder are gone; what else was written there must be gone before. */
+/** The trajectory and its folder are gone; what else was written there must be gone before. */
 static inline void trajectory_fixture_close(trajectory_fixture *f)
 {
-    dem_film_close(f->film);
+    dem_reader_close(f->reader);
     (void)remove(f->path);
     (void)remove(trajectory_fixture_beside(f, "run.obstacle.vtkhdf"));
     assert_int_equal(rmdir(f->folder), 0);

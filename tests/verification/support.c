@@ -71,7 +71,7 @@ dem_options support_options(void)
     return options;
 }
 
-static dem_status record(void *context, const dem_simulation *simulation, const dem_event *event)
+static dem_status checkpoint(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     support_run *run = context;
     (void)simulation;
@@ -85,7 +85,7 @@ void support_open(support_run *run, const dem_lattice *lattice, const dem_obstac
                   const dem_options *options)
 {
     *run = (support_run){0};
-    const dem_observer observer = {.event = record, .context = run};
+    const dem_observer observer = {.event = checkpoint, .context = run};
     assert_ok(dem_model_create(&run->model, lattice, obstacles, n_obstacles));
     assert_ok(dem_simulation_create(&run->simulation, run->model, options));
     assert_ok(dem_simulation_observe(run->simulation, &observer));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Small bodies from literal arrays, and a run that records its impacts. */
+/* Small bodies from literal arrays, and a run that checkpoints its impacts. */
 #ifndef DEM_TEST_SUPPORT_H
 #define DEM_TEST_SUPPORT_H
 

@@ -118,7 +118,7 @@ static cost run_line(const dem_lattice *block, const line *l, double t, const do
     dem_options options = support_options();
     const dem_observer observer = {.step = follow, .context = &d};
     options.gravity[1] = 0.0;
-    options.record_steps = 0; /* each takes an evaluation */
+    options.checkpoint_steps = 0; /* each takes an evaluation */
     options.method = l->method;
     options.v_scale = speed;
     options.max_step = t;

@@ -34,16 +34,16 @@ typedef struct drop {
 } drop;
 
 /* A run that keeps its states after accepted steps. */
-typedef struct record {
+typedef struct checkpoint {
     dem_index n; /* nodes */
     int n_steps;
     double t[most_steps], *y[most_steps]; /* [4 n] */
     dem_index impacts[most_steps];
-} record;
+} checkpoint;
 
 static dem_status keep(void *context, const dem_simulation *simulation)
 {
-    record *r = context;
+    checkpoint *r = context;
     const size_t size = 2 * (size_t)r->n * sizeof(double);
     dem_state state = {.struct_size = sizeof state};
     dem_simulation_state(simulation, &state);
@@ -58,7 +58,7 @@ static dem_status keep(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-static void forget(record *r)
+static void forget(checkpoint *r)
 {
     for (int k = 0; k < r->n_steps; k++) free(r->y[k]);
 }
@@ -228,7 +228,7 @@ static void make_parts(parts *p, const support_run *run)
 }
 
 /* The run, its steps as they are reported, and kept. */
-static void run_block(support_run *run, record *r, const drop *d)
+static void run_block(support_run *run, checkpoint *r, const drop *d)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
@@ -247,7 +247,7 @@ static void run_block(support_run *run, record *r, const drop *d)
     options.penetration_tolerance = 1e-9 * spacing;
     options.vertices = 0;
     support_open(run, &lattice, d->ground, 1, &options);
-    *r = (record){.n = lattice.n_nodes};
+    *r = (checkpoint){.n = lattice.n_nodes};
     dem_lattice_free(&lattice);
     const dem_observer observer = {.step = keep, .context = r};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
@@ -260,7 +260,7 @@ static void run_block(support_run *run, record *r, const drop *d)
 static double judge_run(const drop *d)
 {
     support_run run;
-    record r;
+    checkpoint r;
     parts p;
     verdict without = {0}, with = {0}, by_free_step = {0};
     run_block(&run, &r, d);
@@ -314,7 +314,7 @@ static void the_step_after_an_impact_is_not_blind(void **state)
     for (int k = 0; k < 24; k++) {
         const drop d = {&grounds[0], 1e-8, 0.5, 0.5, 0.02 + k / 24.0 * 0.25 / omega / spacing, 2.5e-4};
         support_run run;
-        record r;
+        checkpoint r;
         parts p;
         run_block(&run, &r, &d);
         make_parts(&p, &run);

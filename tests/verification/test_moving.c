@@ -280,7 +280,7 @@ static void nor_with_fixed_steps(void **state)
         compare_views(&views[k], frames[0], k % 2 == 0 ? DEM_METHOD_VERLET : DEM_METHOD_RK4);
 }
 
-/* ---- records ---- */
+/* ---- checkpoints ---- */
 
 static void a_run_goes_on_from_its_record_to_the_same_bits(void **state)
 {
@@ -292,9 +292,9 @@ static void a_run_goes_on_from_its_record_to_the_same_bits(void **state)
         open_view(&run, v, frames[0], DEM_METHOD_FEHLBERG45);
         (void)support_at(&run, 0.6 * v->t_end);
         const dem_options options = dem_simulation_options(run.simulation);
-        const dem_record *record = dem_simulation_record(run.simulation);
-        assert_non_null(record);
-        assert_ok(dem_simulation_resume(&resumed, run.model, &options, record));
+        const dem_checkpoint *checkpoint = dem_simulation_checkpoint(run.simulation);
+        assert_non_null(checkpoint);
+        assert_ok(dem_simulation_resume(&resumed, run.model, &options, checkpoint));
         const dem_state a = support_at(&run, v->t_end);
         dem_state b = {.struct_size = sizeof b};
         assert_ok(dem_simulation_advance(resumed, v->t_end));
@@ -317,9 +317,10 @@ static void a_record_of_another_velocity_is_refused(void **state)
     open_view(&other, &views[1], frames[1], DEM_METHOD_FEHLBERG45);
     (void)support_at(&run, 0.001);
     const dem_options options = dem_simulation_options(run.simulation);
-    assert_int_equal(dem_simulation_resume(&resumed, other.model, &options, dem_simulation_record(run.simulation)),
+    assert_int_equal(dem_simulation_resume(&resumed, other.model, &options, dem_simulation_checkpoint(run.simulation)),
                      DEM_ERROR_IO);
-    assert_string_equal(dem_status_message(), "in the record obstacle 0 moves with velocity of -1 m/s, not 4.7 m/s");
+    assert_string_equal(dem_status_message(),
+                        "in the checkpoint obstacle 0 moves with velocity of -1 m/s, not 4.7 m/s");
     assert_null(resumed);
     support_close(&run);
     support_close(&other);

@@ -84,7 +84,7 @@ static void plastic_bodies_rebound_alike(void **state)
     compare("porous", 0.0, 0.01);
 }
 
-/* How many impacts the porous body has is chance: with records at other steps, which change no more than the last
+/* How many impacts the porous body has is chance: with checkpoints at other steps, which change no more than the last
  * digits, `local` counts 1498 +- 64 at rtol 1e-6, 1408 +- 135 at 1e-7 and 1360 +- 72 at 1e-8, and `exact` 1281 +- 71,
  * 1319 +- 70 and 1286 +- 41. At 1e-8 three deviations of the difference of two such are a fifth; both means differ by
  * 6 percent. */

@@ -58,7 +58,7 @@ static void add_power(double *power, double *series)
 }
 
 /* Lengths of all springs at every sample, [n_springs][n_samples]. */
-static double *record(const dem_lattice *l, double interval, double omega)
+static double *checkpoint(const dem_lattice *l, double interval, double omega)
 {
     support_run run;
     dem_options options = support_options();
@@ -115,7 +115,7 @@ static void check_ringing(bool squares)
     gsl_vector *values = eigenvalues(&l);
     const double highest = sqrt(gsl_vector_get(values, values->size - 1)), interval = 0.9 * M_PI / highest;
     strain(&l);
-    double *series = record(&l, interval, highest), *power = calloc(n_samples, sizeof *power);
+    double *series = checkpoint(&l, interval, highest), *power = calloc(n_samples, sizeof *power);
     assert_non_null(power);
     for (dem_index s = 0; s < l.n_springs; s++) add_power(power, series + s * n_samples);
     find_peaks(peak, power, interval);

@@ -6,7 +6,7 @@
 
 enum { dim_most = STATE_DIM_MOST, most_numbers = 1024 };
 
-/* 5 nodes, 3 rows of padding, 3 impulses, 3 of friction, 2 rows of totals: records of states have them so. */
+/* 5 nodes, 3 rows of padding, 3 impulses, 3 of friction, 2 rows of totals: checkpoints of states have them so. */
 static void two_components_stand_where_records_have_them(void **state)
 {
     const state_layout l = state_layout_of(2, 5, 3);

@@ -296,16 +296,16 @@ static dem_status kicks_resolve(void *self, dem_index key, const event_place *at
     return listener->event(listener->context, &event);
 }
 
-static dem_status kicks_save(const void *self, dem_record *record)
+static dem_status kicks_save(const void *self, dem_checkpoint *checkpoint)
 {
-    return dem_record_put(record, "kicks", self, sizeof(kicks));
+    return dem_checkpoint_put(checkpoint, "kicks", self, sizeof(kicks));
 }
 
-static dem_status kicks_restore(void *self, const dem_record *record, double t, const double *y)
+static dem_status kicks_restore(void *self, const dem_checkpoint *checkpoint, double t, const double *y)
 {
     (void)t;
     (void)y;
-    return dem_record_get(record, "kicks", self, sizeof(kicks));
+    return dem_checkpoint_get(checkpoint, "kicks", self, sizeof(kicks));
 }
 
 static event_source kicks_events(kicks *s)
@@ -475,13 +475,13 @@ static void the_end_of_a_step_in_three_dimensions_has_its_own_derivative(void **
     close_kicked_chain(&s);
 }
 
-/* Taken back, and taken again by sources that come back from a record. */
+/* Taken back, and taken again by sources that come back from a checkpoint. */
 static void a_step_in_three_dimensions_is_undone_and_redone_to_the_bit(void **state)
 {
     static const int axes[3] = {0, 1, 2};
     static chain before, after;
     kicked_chain s;
-    dem_record *record;
+    dem_checkpoint *checkpoint;
     (void)state;
     open_kicked_chain(&s, 3, axes);
     memcpy(&before, &s.chain, sizeof before);
@@ -490,17 +490,17 @@ static void a_step_in_three_dimensions_is_undone_and_redone_to_the_bit(void **st
     event_queue_undo(&s.q);
     assert_memory_equal(s.chain.y1, before.y1, sizeof before.y1);
     assert_memory_equal(s.chain.f1, before.f1, sizeof before.f1);
-    assert_ok(dem_record_create(&record));
-    assert_ok(kicks_save(&s.sources[0], record));
+    assert_ok(dem_checkpoint_create(&checkpoint));
+    assert_ok(kicks_save(&s.sources[0], checkpoint));
     memset(&s.sources[0], 0, sizeof s.sources[0]);
-    assert_ok(kicks_restore(&s.sources[0], record, 0.0, s.chain.y0));
+    assert_ok(kicks_restore(&s.sources[0], checkpoint, 0.0, s.chain.y0));
     assert_ok(event_queue_show(&s.q, 0.0));
     assert_memory_equal(s.chain.y1, before.y1, sizeof before.y1);
     assert_ok(event_queue_show(&s.q, chain_step));
     assert_int_equal(s.q.n_events, 4);
     assert_memory_equal(s.chain.y1, after.y1, sizeof after.y1);
     assert_memory_equal(s.chain.f1, after.f1, sizeof after.f1);
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(checkpoint);
     close_kicked_chain(&s);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* source_list.c: sources go into a record and come back, in their order, and each one's failure is heard of. */
+/* source_list.c: sources go into a checkpoint and come back, in their order, and each one's failure is heard of. */
 #include "verification/support.h"
 
 #include <string.h>
@@ -13,18 +13,18 @@ typedef struct counter {
     double t, y; /* s; the first number of the state */
 } counter;
 
-static dem_status counter_save(const void *self, dem_record *record)
+static dem_status counter_save(const void *self, dem_checkpoint *checkpoint)
 {
     const counter *c = self;
-    return dem_record_put(record, c->entry, &c->count, sizeof c->count);
+    return dem_checkpoint_put(checkpoint, c->entry, &c->count, sizeof c->count);
 }
 
-static dem_status counter_restore(void *self, const dem_record *record, double t, const double *y)
+static dem_status counter_restore(void *self, const dem_checkpoint *checkpoint, double t, const double *y)
 {
     counter *c = self;
     c->t = t;
     c->y = *y;
-    return dem_record_get(record, c->entry, &c->count, sizeof c->count);
+    return dem_checkpoint_get(checkpoint, c->entry, &c->count, sizeof c->count);
 }
 
 static event_source counter_source(counter *c)
@@ -55,21 +55,21 @@ static void each_source_comes_back_from_its_own_entry(void **state)
             to[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.25;
     source_list s;
-    dem_record *record;
+    dem_checkpoint *checkpoint;
     (void)state;
-    assert_ok(dem_record_create(&record));
+    assert_ok(dem_checkpoint_create(&checkpoint));
     open_list(&s, from);
-    assert_ok(source_list_save(&s, record));
+    assert_ok(source_list_save(&s, checkpoint));
     source_list_destroy(&s);
     open_list(&s, to);
-    assert_ok(source_list_restore(&s, record, 1.5, &y));
+    assert_ok(source_list_restore(&s, checkpoint, 1.5, &y));
     for (int k = 0; k < 2; k++) {
         assert_int_equal(to[k].count, from[k].count);
         assert_close(to[k].t, 1.5, 0.0);
         assert_close(to[k].y, y, 0.0);
     }
     source_list_destroy(&s);
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 static void a_record_without_the_entry_of_a_source_is_refused(void **state)
@@ -77,17 +77,17 @@ static void a_record_without_the_entry_of_a_source_is_refused(void **state)
     counter one = {.entry = "one", .count = 7}, both[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.0;
     source_list s = {0};
-    dem_record *record;
+    dem_checkpoint *checkpoint;
     (void)state;
-    assert_ok(dem_record_create(&record));
+    assert_ok(dem_checkpoint_create(&checkpoint));
     assert_ok(source_list_add(&s, counter_source(&one)));
-    assert_ok(source_list_save(&s, record));
+    assert_ok(source_list_save(&s, checkpoint));
     source_list_destroy(&s);
     open_list(&s, both);
-    assert_int_equal(source_list_restore(&s, record, 0.0, &y), DEM_ERROR_IO);
+    assert_int_equal(source_list_restore(&s, checkpoint, 0.0, &y), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "two"));
     source_list_destroy(&s);
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 int main(void)

@@ -21,16 +21,16 @@ static void open_block(support_run *run)
     dem_lattice_free(&lattice);
 }
 
-typedef struct film {
+typedef struct reader {
     support_run run;
     stored stored;
     frames frames;
-} film;
+} reader;
 
 /* Two frames, at 0 and 1e-4 s. */
-static film *shoot(uint32_t fields, int is_double)
+static reader *shoot(uint32_t fields, int is_double)
 {
-    film *f = calloc(1, sizeof *f);
+    reader *f = calloc(1, sizeof *f);
     assert_non_null(f);
     dem_trajectory_options options = dem_trajectory_options_default();
     options.fields = fields;
@@ -47,7 +47,7 @@ static film *shoot(uint32_t fields, int is_double)
     return f;
 }
 
-static void put_away(film *f)
+static void put_away(reader *f)
 {
     frames_free(&f->frames);
     stored_close(&f->stored);
@@ -75,7 +75,7 @@ static void a_file_has_the_arrays_that_are_wanted_and_their_offsets(void **state
     static const uint32_t wishes[4] = {0, DEM_FIELD_PRINCIPAL | DEM_FIELD_STRAIN, DEM_FIELD_ALL, DEM_FIELD_STRESS};
     (void)state;
     for (int w = 0; w < 4; w++) {
-        film *f = shoot(wishes[w], 0);
+        reader *f = shoot(wishes[w], 0);
         for (int k = 0; k < n_arrays; k++) {
             char name[64], offset[64];
             const bool is_set = strchr(arrays[k].name, '/') != NULL;
@@ -97,7 +97,7 @@ static void stresses_are_those_of_the_simulation(void **state)
 {
     (void)state;
     for (int is_double = 0; is_double < 2; is_double++) {
-        film *f = shoot(DEM_FIELD_ALL, is_double);
+        reader *f = shoot(DEM_FIELD_ALL, is_double);
         const hsize_t n = (hsize_t)f->frames.n_nodes;
         const double accuracy = is_double ? 0.0 : 6e-8; /* half a unit of the last place */
         double *stress = malloc(3 * n * sizeof *stress), largest = 0.0;
@@ -131,7 +131,7 @@ static void stresses_are_those_of_the_simulation(void **state)
 static void forces_are_stiffness_times_strain(void **state)
 {
     (void)state;
-    film *f = shoot(DEM_FIELD_ALL, 1);
+    reader *f = shoot(DEM_FIELD_ALL, 1);
     const hsize_t m = (hsize_t)f->frames.n_springs;
     double strain[STORED_VALUES];
     memcpy(strain, stored_values(&f->stored, "/VTKHDF/CellData/strain", 2 * m, 1, 8), 2 * m * sizeof *strain);
@@ -145,7 +145,7 @@ static void a_constant_is_in_all_frames(void **state)
 {
     const frames_constant constants[2] = {{"PointData", "peak", HDF5_F64, 2}, {"CellData", "time", HDF5_F32, 1}};
     (void)state;
-    film *f = shoot(0, 0);
+    reader *f = shoot(0, 0);
     const hsize_t n = (hsize_t)f->frames.n_nodes, m = (hsize_t)f->frames.n_springs;
     for (hsize_t k = 0; k < 2 * n || k < m; k++) f->frames.scratch[k] = (double)k;
     for (int c = 0; c < 2; c++)

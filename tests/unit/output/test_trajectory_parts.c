@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* trajectory_parts.c, trajectory_rows.c, trajectory.c: a run cut into segments leaves the data of one that was left
  * alone. A run that is killed is one that is stopped and thrown away; one that goes on is a new one of the same bits
- * whose trajectory sees nothing before its record. */
+ * whose trajectory sees nothing before its checkpoint. */
 #include "verification/support.h"
 
 #include <errno.h>
@@ -15,7 +15,7 @@
 
 #include <dem/trajectory.h>
 
-#include "base/record.h"
+#include "base/checkpoint_entries.h"
 #include "output/hdf5_file.h"
 #include "unit/solids.h"
 
@@ -121,18 +121,18 @@ int __wrap_unlink(const char *path)
     return is_well() ? __real_unlink(path) : -1;
 }
 
-/* ---- a run, from a record to where it is killed ---- */
+/* ---- a run, from a checkpoint to where it is killed ---- */
 
-/* A record and its place: accepted steps, the one at t = 0 included. */
+/* A checkpoint and its place: accepted steps, the one at t = 0 included. */
 typedef struct point {
     dem_index step;
-    dem_record *record;
+    dem_checkpoint *checkpoint;
 } point;
 
 /* Steps at which something happens; 0: never. */
 typedef struct plan {
-    dem_index record;  /* one is taken, */
-    dem_index segment; /* its segment is made: at once, or later; */
+    dem_index checkpoint; /* one is taken, */
+    dem_index segment;    /* its segment is made: at once, or later; */
     dem_index kill;
 } plan;
 
@@ -141,7 +141,7 @@ typedef struct session {
     dem_index from, steps; /* what is seen begins behind `from` */
     dem_trajectory *trajectory;
     dem_observer to;
-    dem_record *record;
+    dem_checkpoint *checkpoint;
 } session;
 
 /* The segment that was finished last, for a process that watches this one. */
@@ -164,9 +164,9 @@ static dem_status see_step(void *context, const dem_simulation *simulation)
 {
     session *s = context;
     if (s->steps++ >= s->from) assert_ok(s->to.step(s->to.context, simulation));
-    if (s->steps == s->plan.record) assert_ok(s->to.record(s->to.context, simulation, s->record));
+    if (s->steps == s->plan.checkpoint) assert_ok(s->to.checkpoint(s->to.context, simulation, s->checkpoint));
     if (s->steps == s->plan.segment) {
-        assert_ok(dem_trajectory_segment(s->trajectory, s->record));
+        assert_ok(dem_trajectory_segment(s->trajectory, s->checkpoint));
         ++*progress;
     }
     return s->steps == s->plan.kill ? DEM_STOPPED : DEM_OK;
@@ -206,7 +206,7 @@ static void watch(dem_simulation *simulation, session *s, dem_peaks *peaks)
     assert_ok(dem_simulation_observe(simulation, &seeing));
 }
 
-/* Runs from a point, or from the start, to the end or where it is killed.  \return the point of its record */
+/* Runs from a point, or from the start, to the end or where it is killed.  \return the point of its checkpoint */
 static point run_until(const place *p, const char *name, dem_trajectory_options options, const point *from, plan todo,
                        double t_end)
 {
@@ -214,10 +214,10 @@ static point run_until(const place *p, const char *name, dem_trajectory_options 
     dem_simulation *simulation = make_simulation(p);
     dem_peaks *peaks;
     const char *path = name_in(p, name);
-    assert_ok(dem_record_create(&s.record));
+    assert_ok(dem_checkpoint_create(&s.checkpoint));
     assert_ok(dem_peaks_create(&peaks, p->model, 4));
     options.peaks = peaks;
-    assert_ok(from != NULL ? dem_trajectory_resume(&s.trajectory, path, simulation, &options, from->record)
+    assert_ok(from != NULL ? dem_trajectory_resume(&s.trajectory, path, simulation, &options, from->checkpoint)
                            : dem_trajectory_create(&s.trajectory, path, simulation, &options));
     note_all(s.trajectory);
     watch(simulation, &s, peaks);
@@ -226,7 +226,7 @@ static point run_until(const place *p, const char *name, dem_trajectory_options 
     dem_trajectory_destroy(s.trajectory);
     dem_simulation_destroy(simulation);
     dem_peaks_destroy(peaks);
-    return (point){todo.record, s.record};
+    return (point){todo.checkpoint, s.checkpoint};
 }
 
 static point run(const place *p, const char *name, const point *from, plan todo)
@@ -237,7 +237,7 @@ static point run(const place *p, const char *name, const point *from, plan todo)
 static void run_quietly(const place *p)
 {
     const point last = run(p, "quiet.vtkhdf", NULL, (plan){0, 0, 0});
-    dem_record_destroy(last.record);
+    dem_checkpoint_destroy(last.checkpoint);
 }
 
 /* ---- the same data ---- */
@@ -348,7 +348,7 @@ enum { most_sessions = 4 };
 typedef struct story {
     const char *what; /* it is */
     struct {
-        int from; /* the session whose record it goes on from, -1: none */
+        int from; /* the session whose checkpoint it goes on from, -1: none */
         plan plan;
     } sessions[most_sessions]; /* the last of them is not killed */
 } story;
@@ -362,18 +362,19 @@ static void tell(const place *p, const story *s)
         points[k] = run(p, "run.vtkhdf", from >= 0 ? &points[from] : NULL, s->sessions[k].plan);
         ended = s->sessions[k].plan.kill == 0;
     }
-    for (int k = 0; k < most_sessions; k++) dem_record_destroy(points[k].record);
+    for (int k = 0; k < most_sessions; k++) dem_checkpoint_destroy(points[k].checkpoint);
 }
 
 static void a_run_that_was_cut_has_the_data_of_one_that_was_not(void **state)
 {
     static const story stories[] = {
         {"killed right behind the segment", {{-1, {40, 40, 40}}, {0, {70, 70, 70}}, {1, {0, 0, 0}}}},
-        {"rows behind the record", {{-1, {40, 58, 58}}, {0, {90, 117, 117}}, {1, {0, 0, 0}}}},
+        {"rows behind the checkpoint", {{-1, {40, 58, 58}}, {0, {90, 117, 117}}, {1, {0, 0, 0}}}},
         {"killed long after the segment", {{-1, {40, 40, 95}}, {0, {70, 81, 99}}, {1, {0, 0, 0}}}},
-        {"a record at t = 0, one before the first frame", {{-1, {1, 1, 1}}, {0, {2, 9, 9}}, {1, {0, 0, 0}}}},
+        {"a checkpoint at t = 0, one before the first frame", {{-1, {1, 1, 1}}, {0, {2, 9, 9}}, {1, {0, 0, 0}}}},
         {"segments and no kill", {{-1, {64, 75, 0}}}},
-        {"a segment without its record", {{-1, {40, 40, 60}}, {0, {70, 70, 80}}, {0, {71, 73, 85}}, {2, {0, 0, 0}}}},
+        {"a segment without its checkpoint",
+         {{-1, {40, 40, 60}}, {0, {70, 70, 80}}, {0, {71, 73, 85}}, {2, {0, 0, 0}}}},
         {"no segment yet", {{-1, {40, 0, 60}}, {-1, {30, 30, 50}}, {1, {0, 0, 0}}}},
     };
     (void)state;
@@ -459,9 +460,9 @@ static void a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record(v
         events += count_rows(&p, names[k], "/events/t");
         sweep(&p, names[k]);
     }
-    dem_record_destroy(a.record);
-    dem_record_destroy(b.record);
-    dem_record_destroy(c.record);
+    dem_checkpoint_destroy(a.checkpoint);
+    dem_checkpoint_destroy(b.checkpoint);
+    dem_checkpoint_destroy(c.checkpoint);
     close_place(&p);
 }
 
@@ -470,7 +471,7 @@ typedef struct opened {
     dem_simulation *simulation;
     dem_trajectory *trajectory;
     dem_observer observer;
-    dem_record *record;
+    dem_checkpoint *checkpoint;
 } opened;
 
 static opened open_run(const place *p, const dem_trajectory_options *options)
@@ -481,14 +482,14 @@ static opened open_run(const place *p, const dem_trajectory_options *options)
     o.observer = dem_trajectory_observer(o.trajectory);
     assert_ok(dem_simulation_observe(o.simulation, &o.observer));
     assert_ok(dem_simulation_advance(o.simulation, 2 * interval));
-    assert_ok(dem_record_create(&o.record));
-    assert_ok(o.observer.record(o.observer.context, o.simulation, o.record));
+    assert_ok(dem_checkpoint_create(&o.checkpoint));
+    assert_ok(o.observer.checkpoint(o.observer.context, o.simulation, o.checkpoint));
     return o;
 }
 
 static void close_run(opened *o)
 {
-    dem_record_destroy(o->record);
+    dem_checkpoint_destroy(o->checkpoint);
     dem_trajectory_destroy(o->trajectory);
     dem_simulation_destroy(o->simulation);
 }
@@ -504,25 +505,25 @@ static void the_segment_of_a_record_is_made_once(void **state)
     place p = open_place();
     const dem_trajectory_options options = everything();
     opened o = open_run(&p, &options);
-    for (int k = 0; k < 2; k++) assert_ok(dem_trajectory_segment(o.trajectory, o.record));
+    for (int k = 0; k < 2; k++) assert_ok(dem_trajectory_segment(o.trajectory, o.checkpoint));
     assert_true(has(&p, "run.00001.vtkhdf"));
     assert_false(has(&p, "run.00002.vtkhdf"));
-    dem_record *later = NULL, *empty = NULL;
-    assert_ok(dem_record_create(&later));
-    assert_ok(dem_record_create(&empty));
+    dem_checkpoint *later = NULL, *empty = NULL;
+    assert_ok(dem_checkpoint_create(&later));
+    assert_ok(dem_checkpoint_create(&empty));
     assert_ok(dem_simulation_advance(o.simulation, 4 * interval));
-    assert_ok(o.observer.record(o.observer.context, o.simulation, later));
+    assert_ok(o.observer.checkpoint(o.observer.context, o.simulation, later));
     assert_ok(dem_trajectory_segment(o.trajectory, later));
-    assert_int_equal(dem_trajectory_segment(o.trajectory, o.record), DEM_ERROR_ARGUMENT);
-    assert_says("run.part.vtkhdf: the record is at row 3 of frames, rows 5 to 5 are here");
+    assert_int_equal(dem_trajectory_segment(o.trajectory, o.checkpoint), DEM_ERROR_ARGUMENT);
+    assert_says("run.part.vtkhdf: the checkpoint is at row 3 of frames, rows 5 to 5 are here");
     assert_int_equal(dem_trajectory_segment(o.trajectory, empty), DEM_ERROR_IO);
     assert_int_equal(dem_trajectory_segment(o.trajectory, NULL), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_trajectory_segment(NULL, later), DEM_ERROR_ARGUMENT);
     assert_ok(dem_trajectory_finish(o.trajectory));
     assert_int_equal(dem_trajectory_segment(o.trajectory, later), DEM_ERROR_ARGUMENT);
     assert_says("is finished and takes no more segments");
-    dem_record_destroy(later);
-    dem_record_destroy(empty);
+    dem_checkpoint_destroy(later);
+    dem_checkpoint_destroy(empty);
     close_run(&o);
     close_place(&p);
 }
@@ -538,9 +539,9 @@ static void a_bare_run_is_cut_as_well(void **state)
     const point a = run_until(&p, "run.vtkhdf", options, NULL, (plan){20, 31, 40}, end);
     const point b = run_until(&p, "run.vtkhdf", options, &a, (plan){0, 0, 0}, end);
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
-    dem_record_destroy(whole.record);
-    dem_record_destroy(a.record);
-    dem_record_destroy(b.record);
+    dem_checkpoint_destroy(whole.checkpoint);
+    dem_checkpoint_destroy(a.checkpoint);
+    dem_checkpoint_destroy(b.checkpoint);
     close_place(&p);
 }
 
@@ -560,9 +561,9 @@ static void a_finished_run_is_continued_from_its_own_file(void **state)
         assert_true(count_rows(&p, "run.vtkhdf", "/VTKHDF/Steps/Values") < 23);
         const point c = run(&p, "run.vtkhdf", &b, (plan){0, 0, 0});
         assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
-        dem_record_destroy(a.record);
-        dem_record_destroy(b.record);
-        dem_record_destroy(c.record);
+        dem_checkpoint_destroy(a.checkpoint);
+        dem_checkpoint_destroy(b.checkpoint);
+        dem_checkpoint_destroy(c.checkpoint);
     }
     close_place(&p);
 }
@@ -572,8 +573,8 @@ static void assert_resume_fails(const place *p, const point *from, dem_trajector
 {
     dem_simulation *simulation = make_simulation(p);
     dem_trajectory *trajectory = NULL;
-    assert_int_equal(dem_trajectory_resume(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options, from->record),
-                     status);
+    assert_int_equal(
+        dem_trajectory_resume(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options, from->checkpoint), status);
     assert_null(trajectory);
     assert_says(words);
     dem_simulation_destroy(simulation);
@@ -606,14 +607,14 @@ static void other_options_are_refused(void **state)
         if (k == 3) other[1].kind = DEM_PROBE_NODE;
         assert_resume_fails(&p, &a, options, DEM_ERROR_ARGUMENT, "is none of those of the run that is to go on");
     }
-    assert_resume_fails(&p, &none, everything(), DEM_ERROR_ARGUMENT, "the record is NULL");
-    dem_record *empty;
-    assert_ok(dem_record_create(&empty));
+    assert_resume_fails(&p, &none, everything(), DEM_ERROR_ARGUMENT, "the checkpoint is NULL");
+    dem_checkpoint *empty;
+    assert_ok(dem_checkpoint_create(&empty));
     assert_resume_fails(&p, &(point){0, empty}, everything(), DEM_ERROR_IO, "trajectory");
-    dem_record_destroy(empty);
+    dem_checkpoint_destroy(empty);
     const point b = run(&p, "run.vtkhdf", &a, (plan){0, 0, 0}); /* nothing has changed */
-    dem_record_destroy(a.record);
-    dem_record_destroy(b.record);
+    dem_checkpoint_destroy(a.checkpoint);
+    dem_checkpoint_destroy(b.checkpoint);
     close_place(&p);
 }
 
@@ -682,7 +683,7 @@ static void a_segment_that_is_not_right_is_named(void **state)
         assert_resume_fails(&p, &b, everything(), DEM_ERROR_IO, cases[k].words);
         copy_file(&p, "kept", "run.00002.vtkhdf");
     }
-    copy_file(&p, "kept", "run.00001.vtkhdf"); /* more rows than there are up to the first record */
+    copy_file(&p, "kept", "run.00001.vtkhdf"); /* more rows than there are up to the first checkpoint */
     assert_resume_fails(&p, &a, everything(), DEM_ERROR_IO, "run.00001.vtkhdf: /: segment is 2, 1 was written");
     copy_file(&p, "run.part.vtkhdf", "run.vtkhdf"); /* an unfinished one is no help */
     lose(&p);
@@ -690,12 +691,12 @@ static void a_segment_that_is_not_right_is_named(void **state)
     assert_resume_fails(&p, &b, everything(), DEM_ERROR_IO, "run.00001.vtkhdf is missing, and ");
     assert_says("run.vtkhdf does not hold its rows");
     sweep(&p, "kept");
-    dem_record_destroy(a.record);
-    dem_record_destroy(b.record);
+    dem_checkpoint_destroy(a.checkpoint);
+    dem_checkpoint_destroy(b.checkpoint);
     close_place(&p);
 }
 
-/* A record between two segments: the second of them goes beyond it. */
+/* A checkpoint between two segments: the second of them goes beyond it. */
 static void a_record_that_no_segment_ends_at_is_refused(void **state)
 {
     (void)state;
@@ -704,9 +705,9 @@ static void a_record_that_no_segment_ends_at_is_refused(void **state)
     const point c = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
     assert_resume_fails(&p, &b, everything(), DEM_ERROR_IO, "run.00001.vtkhdf: has history beyond row 30");
     sweep(&p, "run.00001.vtkhdf");
-    dem_record_destroy(a.record);
-    dem_record_destroy(b.record);
-    dem_record_destroy(c.record);
+    dem_checkpoint_destroy(a.checkpoint);
+    dem_checkpoint_destroy(b.checkpoint);
+    dem_checkpoint_destroy(c.checkpoint);
     close_place(&p);
 }
 
@@ -726,14 +727,14 @@ static void a_new_run_removes_the_segments_of_an_old_one_and_nothing_else(void *
     assert_false(has(&p, "run.vtkhdf.new") || has(&p, "run.part.vtkhdf.new"));
     assert_true(has(&p, "run.00003.vtkhdf"));
     assert_int_equal(rename(name_in(&p, "run.00003.vtkhdf"), name_in(&p, "run.00001.vtkhdf")), 0);
-    assert_int_equal(dem_trajectory_segment(o.trajectory, o.record), DEM_ERROR_IO);
+    assert_int_equal(dem_trajectory_segment(o.trajectory, o.checkpoint), DEM_ERROR_IO);
     assert_says("run.00001.vtkhdf is in the way of a segment of that name");
     assert_ok(dem_trajectory_finish(o.trajectory));
     assert_true(has(&p, "run.00001.vtkhdf"));
     close_run(&o);
     sweep(&p, "run.00001.vtkhdf");
-    dem_record_destroy(a.record);
-    dem_record_destroy(b.record);
+    dem_checkpoint_destroy(a.checkpoint);
+    dem_checkpoint_destroy(b.checkpoint);
     close_place(&p);
 }
 
@@ -753,7 +754,7 @@ static void a_whole_stands_for_segments_that_are_gone(void **state)
     const point d = run(&p, "run.vtkhdf", &c, (plan){0, 0, 0});
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
     const point all[] = {a, b, c, d};
-    for (int k = 0; k < 4; k++) dem_record_destroy(all[k].record);
+    for (int k = 0; k < 4; k++) dem_checkpoint_destroy(all[k].checkpoint);
     sweep(&p, "kept");
     close_place(&p);
 }
@@ -768,7 +769,7 @@ static void run_on(const place *p, opened *o, const char *name)
     close_run(o);
 }
 
-/* Without or with rows behind the record, each renaming in turn; then it works, or is not tried again. */
+/* Without or with rows behind the checkpoint, each renaming in turn; then it works, or is not tried again. */
 static void a_segment_that_fails_changes_nothing(void **state)
 {
     (void)state;
@@ -781,13 +782,13 @@ static void a_segment_that_fails_changes_nothing(void **state)
         if (k % 2) assert_ok(dem_simulation_advance(o.simulation, 4 * interval));
         for (failing = 1; failing <= 2; failing++) {
             calls = 0;
-            assert_int_equal(dem_trajectory_segment(o.trajectory, o.record), DEM_ERROR_IO);
+            assert_int_equal(dem_trajectory_segment(o.trajectory, o.checkpoint), DEM_ERROR_IO);
             assert_says("cannot be renamed to");
             assert_false(has(&p, "run.00001.vtkhdf") || has(&p, "run.vtkhdf.new") || has(&p, "run.part.vtkhdf.new"));
             assert_int_equal(count_rows(&p, "run.part.vtkhdf", "/VTKHDF/Steps/Values"), k % 2 ? 5 : 3);
         }
         failing = 0;
-        if (k < 2) assert_ok(dem_trajectory_segment(o.trajectory, o.record));
+        if (k < 2) assert_ok(dem_trajectory_segment(o.trajectory, o.checkpoint));
         assert_int_equal(has(&p, "run.00001.vtkhdf"), k < 2);
         run_on(&p, &o, "run.vtkhdf");
         assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
@@ -807,7 +808,7 @@ static void a_finish_that_failed_works_the_second_time(void **state)
     run_on(&p, &o, "quiet.vtkhdf");
     for (int segmented = 0; segmented < 2; segmented++) {
         o = open_run(&p, &options);
-        if (segmented) assert_ok(dem_trajectory_segment(o.trajectory, o.record));
+        if (segmented) assert_ok(dem_trajectory_segment(o.trajectory, o.checkpoint));
         assert_ok(dem_simulation_advance(o.simulation, 8 * interval));
         calls = 0, failing = 1;
         assert_int_equal(dem_trajectory_finish(o.trajectory), DEM_ERROR_IO);
@@ -838,15 +839,15 @@ static bool run_in_child(const place *p, int deadly)
         calls = 0, fatal = deadly;
         const point a = run_until(p, "run.vtkhdf", everything(), NULL, first, short_end);
         const point b = run_until(p, "run.vtkhdf", everything(), &a, second, short_end);
-        _exit(b.record != NULL ? 0 : 1);
+        _exit(b.checkpoint != NULL ? 0 : 1);
     }
     assert_int_equal(waitpid(child, &how, 0), child);
     if (!WIFEXITED(how) || WEXITSTATUS(how) == 1) fail_msg("the run that was to be killed failed");
     return WEXITSTATUS(how) == 0;
 }
 
-/* It goes on from a record that may be on the disk then: in turn from that of the last segment that was finished, and
- * from the one before. */
+/* It goes on from a checkpoint that may be on the disk then: in turn from that of the last segment that was finished,
+ * and from the one before. */
 static void a_kill_between_two_names_loses_nothing(void **state)
 {
     (void)state;
@@ -868,54 +869,55 @@ static void a_kill_between_two_names_loses_nothing(void **state)
         assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
         assert_false(has(&p, "run.00001.vtkhdf") || has(&p, "run.00002.vtkhdf") || has(&p, "run.part.vtkhdf") ||
                      has(&p, "run.part.vtkhdf.new") || has(&p, "run.vtkhdf.new"));
-        dem_record_destroy(done.record);
+        dem_checkpoint_destroy(done.checkpoint);
     }
     assert_true(n > 12);
     sweep(&p, "run.obstacle.part.vtkhdf");
-    for (int k = 1; k < 3; k++) dem_record_destroy(points[k].record);
-    dem_record_destroy(whole.record);
+    for (int k = 1; k < 3; k++) dem_checkpoint_destroy(points[k].checkpoint);
+    dem_checkpoint_destroy(whole.checkpoint);
     assert_int_equal(munmap(progress, sizeof *progress), 0);
     progress = &own_progress;
     (void)fclose(shared);
     close_place(&p);
 }
 
-/* ---- with the records of the simulation itself ---- */
+/* ---- with the checkpoints of the simulation itself ---- */
 
-static dem_trajectory *follow(const place *p, dem_simulation *simulation, dem_peaks *peaks, const dem_record *record)
+static dem_trajectory *follow(const place *p, dem_simulation *simulation, dem_peaks *peaks,
+                              const dem_checkpoint *checkpoint)
 {
     dem_trajectory_options options = everything();
     dem_trajectory *trajectory;
     options.peaks = peaks;
-    assert_ok(record != NULL
-                  ? dem_trajectory_resume(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options, record)
+    assert_ok(checkpoint != NULL
+                  ? dem_trajectory_resume(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options, checkpoint)
                   : dem_trajectory_create(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options));
     const dem_observer observers[] = {dem_peaks_observer(peaks), dem_trajectory_observer(trajectory)};
     for (int k = 0; k < 2; k++) assert_ok(dem_simulation_observe(simulation, &observers[k]));
     return trajectory;
 }
 
-/* Advances to t, where it is either finished or leaves a segment of the last record, which is returned. */
-static dem_record *follow_to(const place *p, const dem_record *record, double t)
+/* Advances to t, where it is either finished or leaves a segment of the last checkpoint, which is returned. */
+static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoint, double t)
 {
     dem_options options = dem_options_default();
     dem_simulation *simulation;
     dem_peaks *peaks;
-    dem_record *last = NULL;
-    options.spacing = 5e-3, options.max_step = 2e-5, options.v_scale = 5.0, options.record_steps = 16;
-    if (record != NULL) {
-        assert_ok(dem_simulation_resume(&simulation, p->model, &options, record));
-        assert_ok(dem_peaks_resume(&peaks, p->model, 4, record));
+    dem_checkpoint *last = NULL;
+    options.spacing = 5e-3, options.max_step = 2e-5, options.v_scale = 5.0, options.checkpoint_steps = 16;
+    if (checkpoint != NULL) {
+        assert_ok(dem_simulation_resume(&simulation, p->model, &options, checkpoint));
+        assert_ok(dem_peaks_resume(&peaks, p->model, 4, checkpoint));
     } else {
         assert_ok(dem_simulation_create(&simulation, p->model, &options));
         assert_ok(dem_peaks_create(&peaks, p->model, 4));
     }
-    dem_trajectory *trajectory = follow(p, simulation, peaks, record);
+    dem_trajectory *trajectory = follow(p, simulation, peaks, checkpoint);
     assert_ok(dem_simulation_advance(simulation, t));
     if (t < end) {
-        assert_ok(dem_trajectory_segment(trajectory, dem_simulation_record(simulation)));
-        assert_ok(dem_record_create(&last));
-        assert_ok(record_copy(last, dem_simulation_record(simulation)));
+        assert_ok(dem_trajectory_segment(trajectory, dem_simulation_checkpoint(simulation)));
+        assert_ok(dem_checkpoint_create(&last));
+        assert_ok(checkpoint_entries_copy(last, dem_simulation_checkpoint(simulation)));
     } else
         assert_ok(dem_trajectory_finish(trajectory));
     dem_trajectory_destroy(trajectory);
@@ -930,11 +932,11 @@ static void a_run_goes_on_from_the_records_of_its_simulation(void **state)
     place p = open_place();
     assert_null(follow_to(&p, NULL, end));
     assert_int_equal(rename(name_in(&p, "run.vtkhdf"), name_in(&p, "quiet.vtkhdf")), 0);
-    dem_record *record = NULL;
+    dem_checkpoint *checkpoint = NULL;
     for (int k = 1; k <= 6; k++) {
-        dem_record *last = follow_to(&p, record, k * end / 6.0);
-        dem_record_destroy(record);
-        record = last;
+        dem_checkpoint *last = follow_to(&p, checkpoint, k * end / 6.0);
+        dem_checkpoint_destroy(checkpoint);
+        checkpoint = last;
     }
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
     close_place(&p);

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <dem/film.h>
+#include <dem/reader.h>
 #include <dem/trajectory.h>
 
 #include "output/hdf5_file.h"
@@ -78,7 +78,7 @@ static void make_folder(run *r)
 static void start(run *r, dem_trajectory_options options)
 {
     dem_options how = dem_options_default();
-    how.spacing = 5e-3, how.max_step = 2e-5, how.v_scale = 5.0, how.record_steps = 8;
+    how.spacing = 5e-3, how.max_step = 2e-5, how.v_scale = 5.0, how.checkpoint_steps = 8;
     const dem_observer watching = {.interval = interval, .frame = see_frame, .context = r};
     assert_ok(dem_simulation_create(&r->simulation, r->model, &how));
     assert_ok(dem_peaks_create(&r->peaks, r->model, 2));
@@ -143,7 +143,7 @@ static void end(run *r)
     dem_simulation_destroy(r->simulation);
     dem_model_destroy(r->model);
     (void)unlink(r->path), (void)unlink(r->part), (void)unlink(r->segment), (void)unlink(r->obstacle);
-    assert_int_equal(rmdir(r->folder), 0); /* a film leaves nothing */
+    assert_int_equal(rmdir(r->folder), 0); /* a trajectory leaves nothing */
 }
 
 static dem_trajectory_options everything(void)
@@ -155,22 +155,22 @@ static dem_trajectory_options everything(void)
     return options;
 }
 
-static dem_film *open_film(const char *path)
+static dem_reader *open_film(const char *path)
 {
-    dem_film *film;
-    assert_ok(dem_film_open(&film, path));
-    return film;
+    dem_reader *reader;
+    assert_ok(dem_reader_open(&reader, path));
+    return reader;
 }
 
 /* ---- frames ---- */
 
-static double *read_array(const dem_film *film, const char *name, dem_index frame)
+static double *read_array(const dem_reader *reader, const char *name, dem_index frame)
 {
-    const dem_lattice *l = dem_film_lattice(film);
-    const dem_film_array *a = dem_film_array_find(film, name);
+    const dem_lattice *l = dem_reader_lattice(reader);
+    const dem_reader_array *a = dem_reader_array_find(reader, name);
     if (a == NULL) fail_msg("there is no %s", name);
     double *values = copy_of(NULL, (a->of_springs ? l->n_springs : l->n_nodes) * a->components);
-    assert_ok(dem_film_read(film, a, frame, values));
+    assert_ok(dem_reader_read(reader, a, frame, values));
     return values;
 }
 
@@ -180,52 +180,52 @@ static double rounding(double value)
     return (double)FLT_EPSILON * fabs(value) / 2.0 + FLT_TRUE_MIN;
 }
 
-static void assert_shown(const dem_film *film, const char *name, dem_index frame, const double *expected, dem_index n,
-                         double roundings)
+static void assert_shown(const dem_reader *reader, const char *name, dem_index frame, const double *expected,
+                         dem_index n, double roundings)
 {
-    if (dem_film_array_find(film, name) == NULL) return;
-    double *values = read_array(film, name, frame);
+    if (dem_reader_array_find(reader, name) == NULL) return;
+    double *values = read_array(reader, name, frame);
     for (dem_index k = 0; k < n; k++) assert_close(values[k], expected[k], roundings * rounding(expected[k]));
     free(values);
 }
 
-static void assert_frame(const dem_film *film, const run *r, dem_index frame, double roundings)
+static void assert_frame(const dem_reader *reader, const run *r, dem_index frame, double roundings)
 {
     const dem_model_size size = dem_model_sizes(r->model);
     const shot *s = &r->shots[frame];
     const dem_index n = size.n_nodes;
     double *x = copy_of(NULL, 2 * n), *spread = copy_of(NULL, 6 * n), direction[2];
-    assert_ok(dem_film_positions(film, frame, x));
+    assert_ok(dem_reader_positions(reader, frame, x));
     assert_memory_equal(x, s->x, 2 * (size_t)n * sizeof *x);
     for (dem_index i = 0; i < n; i++) memcpy(spread + 3 * i, s->v + 2 * i, 2 * sizeof *x);
-    assert_shown(film, "velocity", frame, spread, 3 * n, roundings);
+    assert_shown(reader, "velocity", frame, spread, 3 * n, roundings);
     memset(spread, 0, 6 * (size_t)n * sizeof *x);
-    for (dem_index k = 0; k < 2 * n; k++) spread[k / 2 * 3 + k % 2] = s->x[k] - dem_film_lattice(film)->x[k];
-    assert_shown(film, "displacement", frame, spread, 3 * n, roundings);
+    for (dem_index k = 0; k < 2 * n; k++) spread[k / 2 * 3 + k % 2] = s->x[k] - dem_reader_lattice(reader)->x[k];
+    assert_shown(reader, "displacement", frame, spread, 3 * n, roundings);
     memset(spread, 0, 6 * (size_t)n * sizeof *x);
     for (dem_index i = 0; i < n; i++) {
         memcpy(spread + 6 * i, s->stress + 3 * i, 2 * sizeof *x);
         spread[6 * i + 3] = s->stress[3 * i + 2];
     }
-    assert_shown(film, "stress", frame, spread, 6 * n, roundings);
+    assert_shown(reader, "stress", frame, spread, 6 * n, roundings);
     for (dem_index i = 0; i < n; i++) spread[i] = dem_stress_von_mises(s->stress + 3 * i);
-    assert_shown(film, "von_mises", frame, spread, n, roundings);
+    assert_shown(reader, "von_mises", frame, spread, n, roundings);
     for (dem_index i = 0; i < n; i++) dem_stress_principal(s->stress + 3 * i, spread + 2 * i, direction);
-    assert_shown(film, "principal_stress", frame, spread, 2 * n, roundings);
-    assert_shown(film, "strain", frame, s->strain, size.n_springs, roundings);
-    assert_shown(film, "force", frame, s->force, size.n_springs, roundings);
+    assert_shown(reader, "principal_stress", frame, spread, 2 * n, roundings);
+    assert_shown(reader, "strain", frame, s->strain, size.n_springs, roundings);
+    assert_shown(reader, "force", frame, s->force, size.n_springs, roundings);
     free(x);
     free(spread);
 }
 
-static void assert_frames(const dem_film *film, const run *r, double roundings)
+static void assert_frames(const dem_reader *reader, const run *r, double roundings)
 {
     dem_index n = 0;
-    const double *times = dem_film_times(film, &n);
+    const double *times = dem_reader_times(reader, &n);
     assert_int_equal(n, r->n_shots);
     for (dem_index k = 0; k < n; k++) {
         assert_true(times[k] == r->shots[k].t);
-        assert_frame(film, r, k, roundings);
+        assert_frame(reader, r, k, roundings);
     }
 }
 
@@ -237,12 +237,12 @@ static void frames_are_what_was_seen(void **state)
         options.double_precision = in_double;
         run r;
         make(&r, &options);
-        dem_film *film = open_film(r.path);
+        dem_reader *reader = open_film(r.path);
         assert_int_equal(r.n_shots, 11);
-        assert_frames(film, &r, in_double ? 0.0 : 1.0);
-        const dem_film_array *v = dem_film_array_find(film, "velocity");
-        assert_int_equal(v->type, in_double ? DEM_FILM_F64 : DEM_FILM_F32);
-        dem_film_close(film);
+        assert_frames(reader, &r, in_double ? 0.0 : 1.0);
+        const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
+        assert_int_equal(v->type, in_double ? DEM_READER_F64 : DEM_READER_F32);
+        dem_reader_close(reader);
         end(&r);
     }
 }
@@ -256,12 +256,12 @@ static void any_fields_may_be_there(void **state)
         options.fields = some[k], options.deflate = 0;
         run r;
         make(&r, &options);
-        dem_film *film = open_film(r.path);
-        assert_frames(film, &r, 0.0);
-        assert_int_equal(dem_film_array_find(film, "velocity") != NULL, (some[k] & DEM_FIELD_VELOCITY) != 0);
-        assert_int_equal(dem_film_array_find(film, "strain") != NULL, (some[k] & DEM_FIELD_STRAIN) != 0);
-        assert_null(dem_film_array_find(film, "stress"));
-        dem_film_close(film);
+        dem_reader *reader = open_film(r.path);
+        assert_frames(reader, &r, 0.0);
+        assert_int_equal(dem_reader_array_find(reader, "velocity") != NULL, (some[k] & DEM_FIELD_VELOCITY) != 0);
+        assert_int_equal(dem_reader_array_find(reader, "strain") != NULL, (some[k] & DEM_FIELD_STRAIN) != 0);
+        assert_null(dem_reader_array_find(reader, "stress"));
+        dem_reader_close(reader);
         end(&r);
     }
 }
@@ -269,22 +269,22 @@ static void any_fields_may_be_there(void **state)
 static void arrays_are_listed_with_what_they_are(void **state)
 {
     (void)state;
-    const dem_film_array expected[] = {
-        {"body", "", DEM_FILM_I32, 0, 1, 1},
-        {"displacement", "m", DEM_FILM_F64, 0, 3, 0},
-        {"id", "", DEM_FILM_I64, 0, 1, 1},
-        {"peak_stress", "Pa", DEM_FILM_F64, 0, 6, 1},
-        {"peak_von_mises", "Pa", DEM_FILM_F64, 0, 1, 1},
-        {"peak_von_mises_time", "s", DEM_FILM_F64, 0, 1, 1},
-        {"principal_stress", "Pa", DEM_FILM_F64, 0, 2, 0},
-        {"stress", "Pa", DEM_FILM_F64, 0, 6, 0},
-        {"velocity", "m/s", DEM_FILM_F64, 0, 3, 0},
-        {"von_mises", "Pa", DEM_FILM_F64, 0, 1, 0},
-        {"broken", "", DEM_FILM_U8, 1, 1, 0},
-        {"force", "N", DEM_FILM_F64, 1, 1, 0},
-        {"peak_strain", "1", DEM_FILM_F64, 1, 1, 1},
-        {"peak_strain_time", "s", DEM_FILM_F64, 1, 1, 1},
-        {"strain", "1", DEM_FILM_F64, 1, 1, 0},
+    const dem_reader_array expected[] = {
+        {"body", "", DEM_READER_I32, 0, 1, 1},
+        {"displacement", "m", DEM_READER_F64, 0, 3, 0},
+        {"id", "", DEM_READER_I64, 0, 1, 1},
+        {"peak_stress", "Pa", DEM_READER_F64, 0, 6, 1},
+        {"peak_von_mises", "Pa", DEM_READER_F64, 0, 1, 1},
+        {"peak_von_mises_time", "s", DEM_READER_F64, 0, 1, 1},
+        {"principal_stress", "Pa", DEM_READER_F64, 0, 2, 0},
+        {"stress", "Pa", DEM_READER_F64, 0, 6, 0},
+        {"velocity", "m/s", DEM_READER_F64, 0, 3, 0},
+        {"von_mises", "Pa", DEM_READER_F64, 0, 1, 0},
+        {"broken", "", DEM_READER_U8, 1, 1, 0},
+        {"force", "N", DEM_READER_F64, 1, 1, 0},
+        {"peak_strain", "1", DEM_READER_F64, 1, 1, 1},
+        {"peak_strain_time", "s", DEM_READER_F64, 1, 1, 1},
+        {"strain", "1", DEM_READER_F64, 1, 1, 0},
     };
     const dem_trajectory_options options = everything();
     for (int frames = 1; frames <= 10; frames += 9) { /* of one frame only the names tell what is constant */
@@ -293,10 +293,10 @@ static void arrays_are_listed_with_what_they_are(void **state)
         dem_index n = 0;
         advance(&r, frames == 1 ? 0.5 : 9.0);
         assert_ok(dem_trajectory_finish(r.trajectory));
-        dem_film *film = open_film(r.path);
-        (void)dem_film_times(film, &n);
+        dem_reader *reader = open_film(r.path);
+        (void)dem_reader_times(reader, &n);
         assert_int_equal(n, frames);
-        const dem_film_array *arrays = dem_film_arrays(film, &n);
+        const dem_reader_array *arrays = dem_reader_arrays(reader, &n);
         assert_int_equal(n, sizeof expected / sizeof expected[0]);
         for (dem_index k = 0; k < n; k++) {
             assert_string_equal(arrays[k].name, expected[k].name);
@@ -306,7 +306,7 @@ static void arrays_are_listed_with_what_they_are(void **state)
             assert_int_equal(arrays[k].components, expected[k].components);
             assert_int_equal(arrays[k].constant, expected[k].constant);
         }
-        dem_film_close(film);
+        dem_reader_close(reader);
         end(&r);
     }
 }
@@ -317,14 +317,14 @@ static void constants_are_the_same_in_all_frames(void **state)
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path);
+    dem_reader *reader = open_film(r.path);
     const dem_lattice *l = dem_model_lattice(r.model);
     const dem_node_peak *nodes = dem_peaks_nodes(r.peaks);
     const dem_spring_peak *springs = dem_peaks_springs(r.peaks);
     for (dem_index frame = 0; frame < 11; frame += 10) {
-        double *id = read_array(film, "id", frame), *body = read_array(film, "body", frame);
-        double *most = read_array(film, "peak_von_mises", frame), *strain = read_array(film, "peak_strain", frame);
-        double *when = read_array(film, "peak_strain_time", frame);
+        double *id = read_array(reader, "id", frame), *body = read_array(reader, "body", frame);
+        double *most = read_array(reader, "peak_von_mises", frame), *strain = read_array(reader, "peak_strain", frame);
+        double *when = read_array(reader, "peak_strain_time", frame);
         for (dem_index i = 0; i < l->n_nodes; i++) {
             assert_close(id[i], (double)i, 0.0);
             assert_close(body[i], (double)l->body[i], 0.0);
@@ -336,20 +336,20 @@ static void constants_are_the_same_in_all_frames(void **state)
         }
         free(id), free(body), free(most), free(strain), free(when);
     }
-    dem_film_close(film);
+    dem_reader_close(reader);
     end(&r);
 }
 
 /* ---- tables ---- */
 
-static void column_path(char path[160], const dem_film_column *c)
+static void column_path(char path[160], const dem_reader_column *c)
 {
     const int frames = strcmp(c->table, "frames") == 0;
     (void)snprintf(path, 160, "/%s/%s", frames ? "VTKHDF/FieldData" : c->table, c->name);
 }
 
 /* All of a dataset, by HDF5 itself. */
-static double *read_plainly(const char *path, const dem_film_column *c)
+static double *read_plainly(const char *path, const dem_reader_column *c)
 {
     char name[160];
     column_path(name, c);
@@ -366,13 +366,13 @@ static double *read_plainly(const char *path, const dem_film_column *c)
     return values;
 }
 
-static void assert_column(const dem_film *film, const char *path, const dem_film_column *c)
+static void assert_column(const dem_reader *reader, const char *path, const dem_reader_column *c)
 {
     double *plain = read_plainly(path, c), *values = copy_of(NULL, c->n_rows * c->width);
-    assert_ok(dem_film_read_column(film, c, values));
+    assert_ok(dem_reader_read_column(reader, c, values));
     assert_memory_equal(values, plain, (size_t)(c->n_rows * c->width) * sizeof *values);
     if (c->n_rows > 2) {
-        assert_ok(dem_film_read_rows(film, c, 1, c->n_rows - 2, values));
+        assert_ok(dem_reader_read_rows(reader, c, 1, c->n_rows - 2, values));
         assert_memory_equal(values, plain + c->width, (size_t)((c->n_rows - 2) * c->width) * sizeof *values);
     }
     free(plain);
@@ -385,13 +385,13 @@ static void tables_are_what_hdf5_finds(void **state)
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path);
+    dem_reader *reader = open_film(r.path);
     dem_index n = 0, tables = 0;
-    const dem_film_column *columns = dem_film_columns(film, &n);
+    const dem_reader_column *columns = dem_reader_columns(reader, &n);
     const char *table = "";
     for (dem_index k = 0; k < n; k++) {
-        assert_column(film, r.path, &columns[k]);
-        assert_ptr_equal(dem_film_column_find(film, columns[k].table, columns[k].name), &columns[k]);
+        assert_column(reader, r.path, &columns[k]);
+        assert_ptr_equal(dem_reader_column_find(reader, columns[k].table, columns[k].name), &columns[k]);
         if (strcmp(columns[k].table, table) != 0) {
             tables++;
             table = columns[k].table;
@@ -403,13 +403,13 @@ static void tables_are_what_hdf5_finds(void **state)
     }
     assert_int_equal(tables, 7); /* frames, history, events, two probes, two lists */
     assert_int_equal(n, 11 + 43 + 15 + 5 + 3 + 5 + 5);
-    dem_film_close(film);
+    dem_reader_close(reader);
     end(&r);
 }
 
-static void expect_column(const dem_film *film, const dem_film_column *expected)
+static void expect_column(const dem_reader *reader, const dem_reader_column *expected)
 {
-    const dem_film_column *c = dem_film_column_find(film, expected->table, expected->name);
+    const dem_reader_column *c = dem_reader_column_find(reader, expected->table, expected->name);
     if (c == NULL) fail_msg("there is no %s/%s", expected->table, expected->name);
     assert_string_equal(c->unit, expected->unit);
     assert_int_equal(c->type, expected->type);
@@ -421,26 +421,26 @@ static void expect_column(const dem_film *film, const dem_film_column *expected)
 static void columns_have_items_and_components(void **state)
 {
     (void)state;
-    const dem_film_column expected[] = {
-        {"frames", "kinetic_energy", "J", DEM_FILM_F64, 0, 1, 1, 0},
-        {"history", "t", "s", DEM_FILM_F64, 0, 1, 1, 0},
-        {"history", "steps", "", DEM_FILM_I64, 0, 1, 1, 0},
-        {"history", "body_centre", "m", DEM_FILM_F64, 0, 2, 2, 0},
-        {"history", "body_angular_momentum", "kg m^2/s", DEM_FILM_F64, 0, 2, 1, 0},
-        {"history", "obstacle_reaction", "N", DEM_FILM_F64, 0, 2, 2, 0},
-        {"events", "kind", "", DEM_FILM_I8, 0, 1, 1, 0},
-        {"events", "normal", "1", DEM_FILM_F64, 0, 1, 2, 0},
-        {"probes/corner", "stress", "Pa", DEM_FILM_F64, 0, 1, 3, 0},
-        {"probes/width", "length", "m", DEM_FILM_F64, 0, 1, 1, 0},
-        {"most_stressed/nodes", "x", "m", DEM_FILM_F64, 0, 1, 2, 0},
+    const dem_reader_column expected[] = {
+        {"frames", "kinetic_energy", "J", DEM_READER_F64, 0, 1, 1, 0},
+        {"history", "t", "s", DEM_READER_F64, 0, 1, 1, 0},
+        {"history", "steps", "", DEM_READER_I64, 0, 1, 1, 0},
+        {"history", "body_centre", "m", DEM_READER_F64, 0, 2, 2, 0},
+        {"history", "body_angular_momentum", "kg m^2/s", DEM_READER_F64, 0, 2, 1, 0},
+        {"history", "obstacle_reaction", "N", DEM_READER_F64, 0, 2, 2, 0},
+        {"events", "kind", "", DEM_READER_I8, 0, 1, 1, 0},
+        {"events", "normal", "1", DEM_READER_F64, 0, 1, 2, 0},
+        {"probes/corner", "stress", "Pa", DEM_READER_F64, 0, 1, 3, 0},
+        {"probes/width", "length", "m", DEM_READER_F64, 0, 1, 1, 0},
+        {"most_stressed/nodes", "x", "m", DEM_READER_F64, 0, 1, 2, 0},
     };
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path);
-    for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) expect_column(film, &expected[k]);
-    assert_null(dem_film_column_find(film, "history", "kind"));
-    dem_film_close(film);
+    dem_reader *reader = open_film(r.path);
+    for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) expect_column(reader, &expected[k]);
+    assert_null(dem_reader_column_find(reader, "history", "kind"));
+    dem_reader_close(reader);
     end(&r);
 }
 
@@ -452,14 +452,14 @@ static void lattice_and_obstacles_are_the_models(void **state)
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path);
-    const dem_lattice *l = dem_film_lattice(film), *own = dem_model_lattice(r.model);
+    dem_reader *reader = open_film(r.path);
+    const dem_lattice *l = dem_reader_lattice(reader), *own = dem_model_lattice(r.model);
     dem_index n = 0, n_own = 0;
     assert_int_equal(l->n_nodes, own->n_nodes);
     assert_memory_equal(l->x, own->x, 2 * (size_t)own->n_nodes * sizeof *own->x);
     assert_memory_equal(l->velocity, own->velocity, 2 * (size_t)own->n_nodes * sizeof *own->x);
     assert_memory_equal(l->stiffness, own->stiffness, (size_t)own->n_springs * sizeof *own->x);
-    const dem_obstacle *o = dem_film_obstacles(film, &n), *given = dem_model_obstacles(r.model, &n_own);
+    const dem_obstacle *o = dem_reader_obstacles(reader, &n), *given = dem_model_obstacles(r.model, &n_own);
     assert_int_equal(n, n_own);
     for (dem_index k = 0; k < n; k++) {
         assert_int_equal(o[k].n_points, given[k].n_points);
@@ -468,7 +468,7 @@ static void lattice_and_obstacles_are_the_models(void **state)
         assert_close(o[k].friction, given[k].friction, 0.0);
         assert_int_equal(o[k].friction_law, given[k].friction_law);
     }
-    dem_film_close(film);
+    dem_reader_close(reader);
     end(&r);
 }
 
@@ -485,15 +485,15 @@ static void a_point_without_springs_and_obstacles_is_read(void **state)
     double values[6];
     advance(&r, 10.0);
     assert_ok(dem_trajectory_finish(r.trajectory));
-    dem_film *film = open_film(r.path);
-    assert_frames(film, &r, 0.0);
-    const dem_film_array *force = dem_film_array_find(film, "force");
+    dem_reader *reader = open_film(r.path);
+    assert_frames(reader, &r, 0.0);
+    const dem_reader_array *force = dem_reader_array_find(reader, "force");
     assert_false(force->constant);
-    assert_ok(dem_film_read(film, force, 10, values));
-    (void)dem_film_obstacles(film, &n);
+    assert_ok(dem_reader_read(reader, force, 10, values));
+    (void)dem_reader_obstacles(reader, &n);
     assert_int_equal(n, 0);
-    assert_null(dem_film_column_find(film, "history", "obstacle_reaction"));
-    dem_film_close(film);
+    assert_null(dem_reader_column_find(reader, "history", "obstacle_reaction"));
+    dem_reader_close(reader);
     end(&r);
 }
 
@@ -504,17 +504,17 @@ static void a_run_without_frames_has_its_tables(void **state)
     options.frame_interval = 0.0, options.events = 0;
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path);
+    dem_reader *reader = open_film(r.path);
     dem_index n = -1;
     double x[64];
-    (void)dem_film_times(film, &n);
+    (void)dem_reader_times(reader, &n);
     assert_int_equal(n, 0);
-    (void)dem_film_arrays(film, &n);
+    (void)dem_reader_arrays(reader, &n);
     assert_int_equal(n, 0);
-    assert_int_equal(dem_film_positions(film, 0, x), DEM_ERROR_ARGUMENT);
-    assert_null(dem_film_column_find(film, "events", "t"));
-    assert_column(film, r.path, dem_film_column_find(film, "history", "kinetic"));
-    dem_film_close(film);
+    assert_int_equal(dem_reader_positions(reader, 0, x), DEM_ERROR_ARGUMENT);
+    assert_null(dem_reader_column_find(reader, "events", "t"));
+    assert_column(reader, r.path, dem_reader_column_find(reader, "history", "kinetic"));
+    dem_reader_close(reader);
     end(&r);
 }
 
@@ -526,22 +526,22 @@ static void a_part_is_seen_as_it_was_when_it_was_opened(void **state)
     begin(&r, &options);
     dem_index n = 0;
     advance(&r, 4.5);
-    dem_film *film = open_film(r.part);
-    const dem_film_column *t = dem_film_column_find(film, "history", "t");
+    dem_reader *reader = open_film(r.part);
+    const dem_reader_column *t = dem_reader_column_find(reader, "history", "t");
     double *times = copy_of(NULL, t->n_rows);
-    (void)dem_film_times(film, &n);
+    (void)dem_reader_times(reader, &n);
     assert_int_equal(n, 5);
     advance(&r, 8.0);
-    (void)dem_film_times(film, &n);
+    (void)dem_reader_times(reader, &n);
     assert_int_equal(n, 5);
-    for (dem_index k = 0; k < n; k++) assert_frame(film, &r, k, 0.0);
-    assert_ok(dem_film_read_column(film, t, times));
+    for (dem_index k = 0; k < n; k++) assert_frame(reader, &r, k, 0.0);
+    assert_ok(dem_reader_read_column(reader, t, times));
     assert_true(times[t->n_rows - 1] <= 4.0 * interval);
     free(times);
     assert_ok(dem_trajectory_finish(r.trajectory));
-    assert_int_equal(dem_film_positions(film, 0, r.shots[0].x), DEM_ERROR_IO);
+    assert_int_equal(dem_reader_positions(reader, 0, r.shots[0].x), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "run.part.vtkhdf: cannot be opened"));
-    dem_film_close(film);
+    dem_reader_close(reader);
     end(&r);
 }
 
@@ -553,20 +553,20 @@ static void segment_and_part_follow_each_other(void **state)
     begin(&r, &options);
     dem_index n[2] = {0, 0};
     advance(&r, 6.5);
-    assert_ok(dem_trajectory_segment(r.trajectory, dem_simulation_record(r.simulation)));
+    assert_ok(dem_trajectory_segment(r.trajectory, dem_simulation_checkpoint(r.simulation)));
     advance(&r, 10.0);
-    dem_film *segment = open_film(r.segment), *part = open_film(r.part);
-    const double *first = dem_film_times(segment, &n[0]), *then = dem_film_times(part, &n[1]);
+    dem_reader *segment = open_film(r.segment), *part = open_film(r.part);
+    const double *first = dem_reader_times(segment, &n[0]), *then = dem_reader_times(part, &n[1]);
     assert_true(n[0] > 1 && n[1] > 1);
     assert_int_equal(n[0] + n[1], 11);
     assert_true(first[0] == 0.0 && then[0] == r.shots[n[0]].t);
     assert_frame(segment, &r, n[0] - 1, 0.0);
     double *x = copy_of(NULL, 2 * dem_model_sizes(r.model).n_nodes);
-    assert_ok(dem_film_positions(part, 0, x));
+    assert_ok(dem_reader_positions(part, 0, x));
     assert_memory_equal(x, r.shots[n[0]].x, 2 * (size_t)dem_model_sizes(r.model).n_nodes * sizeof *x);
     free(x);
-    dem_film_close(segment);
-    dem_film_close(part);
+    dem_reader_close(segment);
+    dem_reader_close(part);
     end(&r);
 }
 
@@ -576,25 +576,25 @@ static void what_is_not_there_cannot_be_read(void **state)
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path), *other = NULL;
+    dem_reader *reader = open_film(r.path), *other = NULL;
     double values[1024];
-    const dem_film_array *v = dem_film_array_find(film, "velocity");
-    const dem_film_column *t = dem_film_column_find(film, "history", "t");
-    assert_int_equal(dem_film_positions(film, 11, values), DEM_ERROR_ARGUMENT);
+    const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
+    const dem_reader_column *t = dem_reader_column_find(reader, "history", "t");
+    assert_int_equal(dem_reader_positions(reader, 11, values), DEM_ERROR_ARGUMENT);
     assert_non_null(strstr(dem_status_message(), "run.vtkhdf: has no frame 11: there are 11"));
-    assert_int_equal(dem_film_positions(film, -1, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_read(film, v, 11, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_read(film, NULL, 0, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_read_column(film, NULL, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_read_rows(film, t, t->n_rows, 1, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_read_rows(film, t, -1, 1, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_read_rows(film, t, 0, -1, values), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_open(&other, NULL), DEM_ERROR_ARGUMENT);
-    assert_int_equal(dem_film_open(&other, r.obstacle), DEM_ERROR_IO); /* which has no lattice */
-    assert_int_equal(dem_film_open(&other, r.folder), DEM_ERROR_IO);
+    assert_int_equal(dem_reader_positions(reader, -1, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_read(reader, v, 11, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_read(reader, NULL, 0, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_read_column(reader, NULL, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_read_rows(reader, t, t->n_rows, 1, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_read_rows(reader, t, -1, 1, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_read_rows(reader, t, 0, -1, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_open(&other, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_open(&other, r.obstacle), DEM_ERROR_IO); /* which has no lattice */
+    assert_int_equal(dem_reader_open(&other, r.folder), DEM_ERROR_IO);
     assert_null(other);
-    dem_film_close(film);
-    dem_film_close(NULL);
+    dem_reader_close(reader);
+    dem_reader_close(NULL);
     end(&r);
 }
 
@@ -755,18 +755,18 @@ static void damaged_files_are_refused(void **state)
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = NULL;
+    dem_reader *reader = NULL;
     for (size_t k = 0; k < sizeof damages / sizeof damages[0]; k++) {
         copy_file(r.path, r.part);
         const hid_t file = H5Fopen(r.part, H5F_ACC_RDWR, H5P_DEFAULT);
         damages[k].make(file, damages[k].name);
         (void)H5Fclose(file);
-        const dem_status status = dem_film_open(&film, r.part);
+        const dem_status status = dem_reader_open(&reader, r.part);
         if (status != DEM_ERROR_IO || strstr(dem_status_message(), "run.part.vtkhdf: ") == NULL ||
             strstr(dem_status_message(), damages[k].reason) == NULL)
             fail_msg("%zu: '%s' where '%s' was expected", k, status == DEM_OK ? "" : dem_status_message(),
                      damages[k].reason);
-        assert_null(film);
+        assert_null(reader);
     }
     end(&r);
 }
@@ -777,7 +777,7 @@ static void what_has_changed_since_is_refused(void **state)
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
-    dem_film *film = open_film(r.path);
+    dem_reader *reader = open_film(r.path);
     double *values = copy_of(NULL, 4096);
     const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
     put_flat(file, "/VTKHDF/PointData/velocity");
@@ -785,15 +785,17 @@ static void what_has_changed_since_is_refused(void **state)
     put_flat(file, "/history/h");
     put_huge(file, "/VTKHDF/Points");
     (void)H5Fclose(file);
-    assert_int_equal(dem_film_read(film, dem_film_array_find(film, "velocity"), 3, values), DEM_ERROR_IO);
-    assert_non_null(strstr(dem_status_message(), "velocity: has another shape than when the film was opened"));
-    assert_int_equal(dem_film_read_column(film, dem_film_column_find(film, "history", "t"), values), DEM_ERROR_IO);
+    assert_int_equal(dem_reader_read(reader, dem_reader_array_find(reader, "velocity"), 3, values), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "velocity: has another shape than when the reader was opened"));
+    assert_int_equal(dem_reader_read_column(reader, dem_reader_column_find(reader, "history", "t"), values),
+                     DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/history/t: is missing"));
-    assert_int_equal(dem_film_read_column(film, dem_film_column_find(film, "history", "h"), values), DEM_ERROR_IO);
-    assert_non_null(strstr(dem_status_message(), "/history/h: has another shape than when the film was opened"));
-    assert_int_equal(dem_film_positions(film, 3, values), DEM_ERROR_IO);
+    assert_int_equal(dem_reader_read_column(reader, dem_reader_column_find(reader, "history", "h"), values),
+                     DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/history/h: has another shape than when the reader was opened"));
+    assert_int_equal(dem_reader_positions(reader, 3, values), DEM_ERROR_IO);
     free(values);
-    dem_film_close(film);
+    dem_reader_close(reader);
     end(&r);
 }
 
@@ -812,15 +814,15 @@ static void other_arrays_and_uneven_tables_are_read(void **state)
     assert_ok(hdf5_write(&file, (hdf5_rows){"/VTKHDF/CellData/mine", HDF5_F32, 2, {2}, 0, 0}, (hsize_t)n, mine));
     put_flat(file.id, "/history/short");
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_film *film = open_film(r.path);
-    double *found = read_array(film, "mine", 7);
+    dem_reader *reader = open_film(r.path);
+    double *found = read_array(reader, "mine", 7);
     assert_memory_equal(found, mine, 2 * (size_t)n * sizeof *mine);
-    assert_true(dem_film_array_find(film, "mine")->constant);
-    assert_int_equal(dem_film_column_find(film, "history", "t")->n_rows, 11);
-    assert_ok(dem_film_read_column(film, dem_film_column_find(film, "history", "t"), values));
+    assert_true(dem_reader_array_find(reader, "mine")->constant);
+    assert_int_equal(dem_reader_column_find(reader, "history", "t")->n_rows, 11);
+    assert_ok(dem_reader_read_column(reader, dem_reader_column_find(reader, "history", "t"), values));
     free(mine);
     free(found);
-    dem_film_close(film);
+    dem_reader_close(reader);
     end(&r);
 }
 

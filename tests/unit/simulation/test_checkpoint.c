@@ -13,7 +13,7 @@
 typedef struct pair {
     dem_model *model;
     dem_simulation *from, *to;
-    dem_record *record;
+    dem_checkpoint *checkpoint;
 } pair;
 
 static void open_pair(pair *p)
@@ -30,13 +30,13 @@ static void open_pair(pair *p)
     assert_ok(dem_model_create(&p->model, &lattice, &ground, 1));
     assert_ok(dem_simulation_create(&p->from, p->model, &options));
     assert_ok(dem_simulation_create(&p->to, p->model, &options));
-    assert_ok(dem_record_create(&p->record));
+    assert_ok(dem_checkpoint_create(&p->checkpoint));
     dem_lattice_free(&lattice);
 }
 
 static void close_pair(pair *p)
 {
-    dem_record_destroy(p->record);
+    dem_checkpoint_destroy(p->checkpoint);
     dem_simulation_destroy(p->from);
     dem_simulation_destroy(p->to);
     dem_model_destroy(p->model);
@@ -97,8 +97,8 @@ static void everything_comes_back(void **state)
     assert_ok(integrator_restart(&p.from->integrator, p.from->t, p.from->y));
     assert_ok(integrator_bound(&p.from->integrator, 1e-9));
     p.from->y = integrator_state(&p.from->integrator);
-    assert_ok(checkpoint_take(p.from, p.record));
-    assert_ok(checkpoint_restore(p.to, p.record));
+    assert_ok(checkpoint_take(p.from, p.checkpoint));
+    assert_ok(checkpoint_restore(p.to, p.checkpoint));
     assert_close(integrator_next_step(&p.to->integrator), 1e-9, 0.0);
     same_memory(p.from, p.to);
     close_pair(&p);
@@ -111,18 +111,18 @@ typedef struct counter {
     double t, y; /* s, m: of the state it was restored for */
 } counter;
 
-static dem_status counter_save(const void *self, dem_record *record)
+static dem_status counter_save(const void *self, dem_checkpoint *checkpoint)
 {
     const counter *c = self;
-    return dem_record_put(record, "count", &c->count, sizeof c->count);
+    return dem_checkpoint_put(checkpoint, "count", &c->count, sizeof c->count);
 }
 
-static dem_status counter_restore(void *self, const dem_record *record, double t, const double *y)
+static dem_status counter_restore(void *self, const dem_checkpoint *checkpoint, double t, const double *y)
 {
     counter *c = self;
     c->t = t;
     c->y = y[1];
-    return dem_record_get(record, "count", &c->count, sizeof c->count);
+    return dem_checkpoint_get(checkpoint, "count", &c->count, sizeof c->count);
 }
 
 static event_source counter_source(counter *c)
@@ -139,8 +139,8 @@ static void every_source_comes_back(void **state)
     assert_ok(dem_simulation_advance(p.from, 1e-3));
     assert_ok(source_list_add(&p.from->sources, counter_source(&from)));
     assert_ok(source_list_add(&p.to->sources, counter_source(&to)));
-    assert_ok(checkpoint_take(p.from, p.record));
-    assert_ok(checkpoint_restore(p.to, p.record));
+    assert_ok(checkpoint_take(p.from, p.checkpoint));
+    assert_ok(checkpoint_restore(p.to, p.checkpoint));
     assert_int_equal(to.count, 5);
     assert_close(to.t, p.from->t, 0.0);
     assert_close(to.y, p.from->y[1], 0.0);
@@ -152,14 +152,14 @@ static void every_source_comes_back(void **state)
 static void refuse(pair *p, const char *name, void *entry, size_t size, const char *message)
 {
     size_t n;
-    const void *was = dem_record_find(p->record, name, &n);
+    const void *was = dem_checkpoint_find(p->checkpoint, name, &n);
     void *kept = malloc(n + 1);
     assert_non_null(kept);
     memcpy(kept, was, n);
-    assert_ok(dem_record_put(p->record, name, entry, size));
-    assert_int_equal(checkpoint_restore(p->to, p->record), DEM_ERROR_IO);
+    assert_ok(dem_checkpoint_put(p->checkpoint, name, entry, size));
+    assert_int_equal(checkpoint_restore(p->to, p->checkpoint), DEM_ERROR_IO);
     assert_string_equal(dem_status_message(), message);
-    assert_ok(dem_record_put(p->record, name, kept, n));
+    assert_ok(dem_checkpoint_put(p->checkpoint, name, kept, n));
     free(kept);
 }
 
@@ -171,34 +171,34 @@ static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
     dem_index sizes[8], numbers[10];
     (void)state;
     open_pair(&p);
-    assert_ok(checkpoint_take(p.from, p.record));
-    assert_ok(dem_record_get(p.record, "sizes", sizes, sizeof sizes));
+    assert_ok(checkpoint_take(p.from, p.checkpoint));
+    assert_ok(dem_checkpoint_get(p.checkpoint, "sizes", sizes, sizeof sizes));
     sizes[0]++;
     char text[160];
     (void)snprintf(text, sizeof text,
-                   "the record is of another model: %lld nodes, %lld springs, 4 segments, not %lld, %lld, 4",
+                   "the checkpoint is of another model: %lld nodes, %lld springs, 4 segments, not %lld, %lld, 4",
                    (long long)sizes[0], (long long)sizes[1], (long long)sizes[0] - 1, (long long)sizes[1]);
     refuse(&p, "sizes", sizes, sizeof sizes, text);
-    refuse(&p, "sizes", sizes, 8, "the record has 8 bytes of sizes, 64 are expected");
-    assert_ok(dem_record_get(p.record, "numbers", numbers, sizeof numbers));
+    refuse(&p, "sizes", sizes, 8, "the checkpoint has 8 bytes of sizes, 64 are expected");
+    assert_ok(dem_checkpoint_get(p.checkpoint, "numbers", numbers, sizeof numbers));
     memcpy(numbers, &before, sizeof before);
-    (void)snprintf(text, sizeof text, "the record's time -1 s, step 0 s or next step %g s is impossible",
+    (void)snprintf(text, sizeof text, "the checkpoint's time -1 s, step 0 s or next step %g s is impossible",
                    integrator_next_step(&p.from->integrator));
     refuse(&p, "numbers", numbers, sizeof numbers, text);
     double motions[256] = {0.0}; /* obstacle 0 begins with its velocity */
     size_t size;
-    assert_non_null(dem_record_find(p.record, "motions", &size));
+    assert_non_null(dem_checkpoint_find(p.checkpoint, "motions", &size));
     assert_true(size <= sizeof motions);
     motions[1] = 2.5;
-    refuse(&p, "motions", motions, size, "in the record obstacle 0 moves with velocity of 2.5 m/s, not 0 m/s");
-    (void)snprintf(text, sizeof text, "the record has 8 bytes of the motion of obstacles, %zu are expected", size);
+    refuse(&p, "motions", motions, size, "in the checkpoint obstacle 0 moves with velocity of 2.5 m/s, not 0 m/s");
+    (void)snprintf(text, sizeof text, "the checkpoint has 8 bytes of the motion of obstacles, %zu are expected", size);
     refuse(&p, "motions", motions, 8, text);
     double *y = malloc((size_t)state_size(&p.from->layout) * sizeof *y);
-    const void *stored = dem_record_find(p.record, "state", &n);
+    const void *stored = dem_checkpoint_find(p.checkpoint, "state", &n);
     assert_non_null(y);
     memcpy(y, stored, n);
     y[3] = NAN;
-    refuse(&p, "state", y, n, "the state in the record is not finite");
+    refuse(&p, "state", y, n, "the state in the checkpoint is not finite");
     free(y);
     close_pair(&p);
 }
@@ -214,7 +214,7 @@ typedef struct raw_candidate {
 
 static void refuse_candidate(pair *p, raw_candidate candidate)
 {
-    refuse(p, "contacts", &candidate, sizeof candidate, "entry 0 of the contacts in the record is impossible");
+    refuse(p, "contacts", &candidate, sizeof candidate, "entry 0 of the contacts in the checkpoint is impossible");
 }
 
 static void candidates_that_cannot_be_are_refused(void **state)
@@ -224,9 +224,9 @@ static void candidates_that_cannot_be_are_refused(void **state)
     raw_candidate bad[2] = {good, good};
     (void)state;
     open_pair(&p);
-    assert_ok(checkpoint_take(p.from, p.record));
-    assert_ok(dem_record_put(p.record, "contacts", &good, sizeof good));
-    assert_ok(checkpoint_restore(p.to, p.record));
+    assert_ok(checkpoint_take(p.from, p.checkpoint));
+    assert_ok(dem_checkpoint_put(p.checkpoint, "contacts", &good, sizeof good));
+    assert_ok(checkpoint_restore(p.to, p.checkpoint));
     assert_int_equal(p.to->automaton.set.list[0].n_closed, 1);
 #define REFUSE(field, value)                                                                                           \
     do {                                                                                                               \
@@ -254,8 +254,9 @@ static void candidates_that_cannot_be_are_refused(void **state)
     bad[0].closed[1] = bad[0].closed[0];
     refuse_candidate(&p, bad[0]);
     bad[0] = good;
-    refuse(&p, "contacts", bad, sizeof bad, "entry 1 of the contacts in the record is impossible"); /* twice the same */
-    refuse(&p, "contacts", bad, 17, "the record has no contacts");
+    refuse(&p, "contacts", bad, sizeof bad,
+           "entry 1 of the contacts in the checkpoint is impossible"); /* twice the same */
+    refuse(&p, "contacts", bad, 17, "the checkpoint has no contacts");
     close_pair(&p);
 }
 

@@ -81,7 +81,7 @@ static void an_interval_is_finite(void **state)
     assert_int_equal(a.n, 0);
 }
 
-/* The search for the first frame later than a time that a damaged record gave once went on without end. */
+/* The search for the first frame later than a time that a damaged checkpoint gave once went on without end. */
 static void frames_too_many_to_be_numbered_are_refused(void **state)
 {
     observers a = {0};

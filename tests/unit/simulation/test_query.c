@@ -184,7 +184,7 @@ static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, 
     assert_ok(dem_model_create(model, &lattice, &obstacle, 1));
     dem_lattice_free(&lattice);
     options.contact = contact;
-    options.record_steps = 5;
+    options.checkpoint_steps = 5;
     options.n_boundaries = 1;
     options.boundaries = &rail;
     options.force = push;
@@ -213,7 +213,7 @@ static void look_at_all(const dem_simulation *s)
     (void)dem_simulation_obstacle(s, 0);
     (void)dem_simulation_boundary(s, 0);
     (void)dem_simulation_residual(s);
-    (void)dem_simulation_record(s);
+    (void)dem_simulation_checkpoint(s);
     (void)dem_simulation_model(s);
     (void)dem_simulation_options(s);
 }
@@ -234,9 +234,9 @@ static dem_status only_look_at_event(void *context, const dem_simulation *simula
     return only_look(context, simulation);
 }
 
-static dem_status only_look_at_record(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status only_look_at_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    (void)record;
+    (void)checkpoint;
     return only_look(context, simulation);
 }
 
@@ -246,7 +246,7 @@ static dem_observer looker(pusher *p)
                           .frame = only_look,
                           .step = only_look,
                           .event = only_look_at_event,
-                          .record = only_look_at_record,
+                          .checkpoint = only_look_at_record,
                           .context = p};
 }
 

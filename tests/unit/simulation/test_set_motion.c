@@ -170,13 +170,13 @@ static void what_cannot_be_is_refused_and_changes_nothing(void **state)
     support_close(&untouched);
 }
 
-/* ---- records ---- */
+/* ---- checkpoints ---- */
 
-static dem_simulation *resumed(const support_run *run, const dem_record *record)
+static dem_simulation *resumed(const support_run *run, const dem_checkpoint *checkpoint)
 {
     const dem_options options = dem_simulation_options(run->simulation);
     dem_simulation *simulation;
-    assert_ok(dem_simulation_resume(&simulation, run->model, &options, record));
+    assert_ok(dem_simulation_resume(&simulation, run->model, &options, checkpoint));
     return simulation;
 }
 
@@ -192,39 +192,39 @@ static void same(const dem_simulation *a, const dem_simulation *b)
     assert_memory_equal(&one.energy, &other.energy, sizeof one.energy);
 }
 
-/* A record from before leads on to what was; the one that the next advance takes, to what is now. */
+/* A checkpoint from before leads on to what was; the one that the next advance takes, to what is now. */
 static void a_record_is_of_one_motion(void **state)
 {
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 0.5, .friction = 0.2};
     const double lift[2] = {0.0, 0.027};
-    const char *path = scratch_file("a.record");
+    const char *path = scratch_file("a.checkpoint");
     dem_options options = support_options();
     dem_lattice block;
-    dem_record *before, *after;
+    dem_checkpoint *before, *after;
     support_run run;
     dem_state s = {.struct_size = sizeof s};
     (void)state;
-    (void)scratch_file("a.record.prev");
+    (void)scratch_file("a.checkpoint.prev");
     support_block(&block);
     for (dem_index i = 0; i < block.n_nodes; i++) block.position[2 * i + 1] += lift[1] + 1e-3;
     options.gravity[1] = -200.0;
-    options.record_steps = 32;
+    options.checkpoint_steps = 32;
     support_open(&run, &block, &ground, 1, &options);
     assert_ok(dem_simulation_advance(run.simulation, 4e-3));
-    dem_simulation *old = resumed(&run, dem_simulation_record(run.simulation));
+    dem_simulation *old = resumed(&run, dem_simulation_checkpoint(run.simulation));
     assert_ok(dem_simulation_advance(old, 6e-3)); /* what was to come */
-    assert_ok(dem_record_write(dem_simulation_record(run.simulation), path));
-    assert_ok(dem_record_read(&before, path));
+    assert_ok(dem_checkpoint_write(dem_simulation_checkpoint(run.simulation), path));
+    assert_ok(dem_checkpoint_read(&before, path));
     dem_simulation_state(run.simulation, &s);
     double *v = malloc(2 * (size_t)block.n_nodes * sizeof *v);
     assert_non_null(v);
     for (dem_index k = 0; k < 2 * block.n_nodes; k++) v[k] = s.v[k] + (k % 2 == 0 ? 0.5 : 0.3);
     assert_ok(dem_simulation_set_motion(run.simulation, NULL, v));
-    assert_null(dem_simulation_record(run.simulation));
+    assert_null(dem_simulation_checkpoint(run.simulation));
     assert_ok(dem_simulation_advance(run.simulation, 4e-3));
-    assert_non_null(dem_simulation_record(run.simulation));
-    assert_ok(dem_record_write(dem_simulation_record(run.simulation), path));
-    assert_ok(dem_record_read(&after, path));
+    assert_non_null(dem_simulation_checkpoint(run.simulation));
+    assert_ok(dem_checkpoint_write(dem_simulation_checkpoint(run.simulation), path));
+    assert_ok(dem_checkpoint_read(&after, path));
     assert_ok(dem_simulation_advance(run.simulation, 6e-3));
     assert_true(run.n_impacts > 10);
     dem_simulation *again = resumed(&run, before), *on = resumed(&run, after);
@@ -235,8 +235,8 @@ static void a_record_is_of_one_motion(void **state)
     dem_simulation_destroy(old);
     dem_simulation_destroy(again);
     dem_simulation_destroy(on);
-    dem_record_destroy(before);
-    dem_record_destroy(after);
+    dem_checkpoint_destroy(before);
+    dem_checkpoint_destroy(after);
     free(v);
     dem_lattice_free(&block);
     support_close(&run);

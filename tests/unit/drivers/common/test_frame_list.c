@@ -81,7 +81,7 @@ static void usual_ones_mirror_about_the_greatest_compression(void **state)
     expect_usual(1, -1, 1, (const dem_index[]){0});
 }
 
-/* Whatever the film: the first, the middle and the last, each once, in order. */
+/* Whatever the trajectory: the first, the middle and the last, each once, in order. */
 static void usual_ones_have_first_middle_and_last(void **state)
 {
     (void)state;

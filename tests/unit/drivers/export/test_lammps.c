@@ -50,7 +50,7 @@ static void the_dumps_are_the_frames(void **state)
                     "ITEM: ATOMS id mol type x y z displacement_x displacement_y displacement_z stress_xx stress_yy "
                     "stress_zz stress_xy stress_yz stress_xz vx vy vz von_mises\n1 1 1 0 1 0 0 0 0 0 0 0 0 0 0 "
                     "0.100000001 -0.25 0 0\n");
-    assert_ok(dem_film_read(e->film, dem_film_array_find(e->film, "velocity"), 2, v));
+    assert_ok(dem_reader_read(e->reader, dem_reader_array_find(e->reader, "velocity"), 2, v));
     (void)snprintf(line, sizeof line, " %.9g %.9g 0 ", v[0], v[1]);
     exported_expect(e, "run.dump", line);
     exported_expect(e, "run.local.dump",

@@ -51,7 +51,7 @@ static void a_later_frame_is_as_it_is_in_the_file(void **state)
         double v[9];
         how.double_precision = in_double;
         make(&m, how, 2);
-        assert_ok(dem_film_read(e.film, dem_film_array_find(e.film, "velocity"), 2, v));
+        assert_ok(dem_reader_read(e.reader, dem_reader_array_find(e.reader, "velocity"), 2, v));
         assert_true(m.t == 0.5 && m.v[0] == v[0] && m.v[3] == v[4] && m.v[0] != 0.1);
         end(&m);
     }

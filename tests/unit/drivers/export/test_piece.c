@@ -9,12 +9,12 @@ static void arrays_stand_where_the_head_says(void **state)
     (void)state;
     static const double points[6] = {0.0, 1.0, 0.0, 2.0, 3.0, 0.0}, ends[2] = {0.0, 1.0}, two = 2.0, type = 3.0;
     static const double sizes[2] = {0.5, -7.0};
-    const piece_array arrays[] = {{PIECE_CELLS, "connectivity", DEM_FILM_I64, 1, 2, ends, NULL},
-                                  {PIECE_CELLS, "offsets", DEM_FILM_I32, 1, 1, &two, NULL},
-                                  {PIECE_CELLS, "types", DEM_FILM_U8, 1, 1, &type, NULL},
-                                  {PIECE_POINTS, "Points", DEM_FILM_F64, 3, 2, points, NULL},
-                                  {PIECE_POINT_DATA, "a<b", DEM_FILM_F32, 1, 2, sizes, NULL},
-                                  {PIECE_FIELD, "t", DEM_FILM_I8, 1, 1, &sizes[1], NULL}};
+    const piece_array arrays[] = {{PIECE_CELLS, "connectivity", DEM_READER_I64, 1, 2, ends, NULL},
+                                  {PIECE_CELLS, "offsets", DEM_READER_I32, 1, 1, &two, NULL},
+                                  {PIECE_CELLS, "types", DEM_READER_U8, 1, 1, &type, NULL},
+                                  {PIECE_POINTS, "Points", DEM_READER_F64, 3, 2, points, NULL},
+                                  {PIECE_POINT_DATA, "a<b", DEM_READER_F32, 1, 2, sizes, NULL},
+                                  {PIECE_FIELD, "t", DEM_READER_I8, 1, 1, &sizes[1], NULL}};
     const piece p = {.n_points = 2, .n_cells = 1, .n_arrays = 6, .arrays = arrays};
     exported e;
     exported_open(&e, exported_usual());

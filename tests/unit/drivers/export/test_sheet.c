@@ -46,11 +46,11 @@ static void numbers_have_the_digits_they_need(void **state)
     exported *e = *state;
     sheet s;
     assert_true(sheet_open(&s, &e->task, "", ".txt"));
-    sheet_number(&s, 0.1, DEM_FILM_F64);
+    sheet_number(&s, 0.1, DEM_READER_F64);
     sheet_print(&s, " ");
-    sheet_number(&s, (double)0.1F, DEM_FILM_F32);
+    sheet_number(&s, (double)0.1F, DEM_READER_F32);
     sheet_print(&s, " ");
-    sheet_number(&s, 123456789012.0, DEM_FILM_I64);
+    sheet_number(&s, 123456789012.0, DEM_READER_I64);
     assert_true(sheet_close(&s, true));
     assert_string_equal(exported_text(e, "run.txt"), "0.10000000000000001 0.100000001 123456789012");
 }

@@ -15,7 +15,7 @@ static void a_frame_is_read_with_what_is_wanted(void **state)
     assert_true(still_open(&s, &e.task, &choice));
     assert_int_equal(s.n_arrays, 2); /* strain is of springs */
     assert_true(still_read(&s, 2));
-    assert_ok(dem_film_positions(e.film, 2, x));
+    assert_ok(dem_reader_positions(e.reader, 2, x));
     assert_memory_equal(s.x, x, sizeof x);
     assert_non_null(still_values(&s, "velocity"));
     assert_close(still_values(&s, "velocity")[6], 0.0, 0.0); /* of the fixed node */

@@ -11,10 +11,10 @@ static void a_failure_of_the_library_is_the_outcome(void **state)
     (void)state;
     outcome o = {0};
     const task t = {.outcome = &o};
-    dem_film *film = NULL;
+    dem_reader *reader = NULL;
     assert_true(task_holds(&t, DEM_OK));
     assert_int_equal(o.code, EXIT_DONE);
-    assert_false(task_holds(&t, dem_film_open(&film, "none.vtkhdf")));
+    assert_false(task_holds(&t, dem_reader_open(&reader, "none.vtkhdf")));
     assert_int_equal(o.code, EXIT_IO);
     assert_non_null(strstr(o.message, "dem_export: error: none.vtkhdf: cannot be opened"));
 }

@@ -4,7 +4,7 @@
 
 #include "legend.h"
 
-static const dem_film_array strain = {.name = "strain", .unit = "1"}, stress = {.name = "von_mises", .unit = "Pa"};
+static const dem_reader_array strain = {.name = "strain", .unit = "1"}, stress = {.name = "von_mises", .unit = "Pa"};
 
 static void expect_unit(double largest, const char *base, double factor, const char *expected)
 {
@@ -25,7 +25,7 @@ static void units_have_prefixes_and_ratios_powers(void **state)
     expect_unit(0.0, "1", 1.0, "");
 }
 
-static canvas_spy draw(const dem_film_array *source, palette_kind kind, colour_range range, double width)
+static canvas_spy draw(const dem_reader_array *source, palette_kind kind, colour_range range, double width)
 {
     canvas_spy paper = canvas_spy_new();
     const palette p = palette_make(kind);

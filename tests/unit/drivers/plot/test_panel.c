@@ -18,8 +18,8 @@ typedef struct view {
 static void draw(view *v, const trajectory_fixture *f, const char *name, bool is_binned)
 {
     outcome o = {0};
-    assert_true(quantity_find(&v->q, f->film, name, &o));
-    assert_true(snapshot_create(&v->s, f->film, &v->q, &o));
+    assert_true(quantity_find(&v->q, f->reader, name, &o));
+    assert_true(snapshot_create(&v->s, f->reader, &v->q, &o));
     assert_true(snapshot_load(&v->s, TRAJECTORY_FIXTURE_FRAMES - 1, &o));
     v->p = palette_make(v->q.scale);
     v->look = (panel_look){&v->p, colour_range_around(v->s.reach, v->q.scale == PALETTE_DIVERGING), 1.0, is_binned};

@@ -11,10 +11,10 @@ static void the_default_is_the_strain(void **state)
     trajectory_fixture *f = *state;
     quantity q;
     outcome o = {0};
-    assert_true(quantity_find(&q, f->film, NULL, &o));
+    assert_true(quantity_find(&q, f->reader, NULL, &o));
     assert_string_equal(q.name, "strain");
     assert_int_equal(q.scale, PALETTE_DIVERGING);
-    assert_int_equal(quantity_count(&q, dem_film_lattice(f->film)), dem_film_lattice(f->film)->n_springs);
+    assert_int_equal(quantity_count(&q, dem_reader_lattice(f->reader)), dem_reader_lattice(f->reader)->n_springs);
 }
 
 static void none_has_no_numbers(void **state)
@@ -22,21 +22,21 @@ static void none_has_no_numbers(void **state)
     trajectory_fixture *f = *state;
     quantity q;
     outcome o = {0};
-    assert_true(quantity_find(&q, f->film, "none", &o));
+    assert_true(quantity_find(&q, f->reader, "none", &o));
     assert_null(q.source);
-    assert_int_equal(quantity_count(&q, dem_film_lattice(f->film)), 0);
+    assert_int_equal(quantity_count(&q, dem_reader_lattice(f->reader)), 0);
 }
 
 static double *read_all(const trajectory_fixture *f, const char *name)
 {
     quantity q;
     outcome o = {0};
-    assert_true(quantity_find(&q, f->film, name, &o));
-    double *value = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * sizeof *value);
+    assert_true(quantity_find(&q, f->reader, name, &o));
+    double *value = malloc((quantity_count(&q, dem_reader_lattice(f->reader)) + 1) * sizeof *value);
     assert_non_null(value);
-    double *rows = malloc((quantity_count(&q, dem_film_lattice(f->film)) + 1) * 6 * sizeof *rows);
+    double *rows = malloc((quantity_count(&q, dem_reader_lattice(f->reader)) + 1) * 6 * sizeof *rows);
     assert_non_null(rows);
-    trajectory_fixture_ok(quantity_read(&q, f->film, 0, value, rows));
+    trajectory_fixture_ok(quantity_read(&q, f->reader, 0, value, rows));
     free(rows);
     return value;
 }
@@ -46,7 +46,7 @@ static void vectors_are_taken_by_length_and_component(void **state)
 {
     trajectory_fixture *f = *state;
     double *speed = read_all(f, "speed"), *x = read_all(f, "velocity_x"), *y = read_all(f, "velocity_y");
-    for (dem_index k = 0; k < dem_film_lattice(f->film)->n_nodes; k++) {
+    for (dem_index k = 0; k < dem_reader_lattice(f->reader)->n_nodes; k++) {
         assert_close(x[k], 0.5, 1e-7);
         assert_close(y[k], -2.0, 1e-7);
         assert_close(speed[k], sqrt(4.25), 1e-6);
@@ -58,18 +58,18 @@ static void vectors_are_taken_by_length_and_component(void **state)
 static void components_of_stress_are_those_named(void **state)
 {
     trajectory_fixture *f = *state;
-    const dem_film_array *stress = dem_film_array_find(f->film, "stress");
+    const dem_reader_array *stress = dem_reader_array_find(f->reader, "stress");
     static const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
     static const int column[] = {0, 1, 3};
-    const dem_index n = dem_film_lattice(f->film)->n_nodes;
+    const dem_index n = dem_reader_lattice(f->reader)->n_nodes;
     double *all = malloc((size_t)n * 6 * sizeof *all), *one = malloc((size_t)n * sizeof *one);
     double *rows = malloc((size_t)n * 6 * sizeof *rows);
-    trajectory_fixture_ok(dem_film_read(f->film, stress, TRAJECTORY_FIXTURE_FRAMES - 1, all));
+    trajectory_fixture_ok(dem_reader_read(f->reader, stress, TRAJECTORY_FIXTURE_FRAMES - 1, all));
     for (int c = 0; c < 3; c++) {
         quantity q;
         outcome o = {0};
-        assert_true(quantity_find(&q, f->film, names[c], &o));
-        trajectory_fixture_ok(quantity_read(&q, f->film, TRAJECTORY_FIXTURE_FRAMES - 1, one, rows));
+        assert_true(quantity_find(&q, f->reader, names[c], &o));
+        trajectory_fixture_ok(quantity_read(&q, f->reader, TRAJECTORY_FIXTURE_FRAMES - 1, one, rows));
         for (dem_index k = 0; k < n; k++) assert_close(one[k], all[6 * k + column[c]], 0.0);
     }
     free(all), free(one), free(rows);
@@ -81,7 +81,7 @@ static void what_the_file_lacks_is_refused(void **state)
     quantity q;
     outcome o = {0};
     assert_true(quantity_is_known("principal_1"));
-    assert_false(quantity_find(&q, f->film, "principal_1", &o));
+    assert_false(quantity_find(&q, f->reader, "principal_1", &o));
     assert_int_equal(o.code, EXIT_INVALID);
     assert_non_null(strstr(o.message, "principal_stress"));
     assert_false(quantity_is_known("colour"));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* show.c: frames of a film become files. */
+/* show.c: frames of a trajectory become files. */
 #include "unit/trajectory_fixture.h"
 
 #include <string.h>
@@ -26,14 +26,14 @@ static int count(const char *text, const char *word)
 }
 
 /* The message about it begins with these words. */
-static void draw(bool (*how)(const dem_film *film, const request *asked, FILE *log, outcome *o),
+static void draw(bool (*how)(const dem_reader *reader, const request *asked, FILE *log, outcome *o),
                  const trajectory_fixture *f, const request *asked, const char *words)
 {
     char message[256] = "";
     outcome o = {0};
     FILE *log = tmpfile();
     assert_non_null(log);
-    assert_true(how(f->film, asked, log, &o));
+    assert_true(how(f->reader, asked, log, &o));
     rewind(log);
     assert_non_null(fgets(message, sizeof message, log));
     assert_memory_equal(message, words, strlen(words));
@@ -70,7 +70,7 @@ static void frames_and_times_are_taken(void **state)
     assert_non_null(strstr(text, "<g id=\"frame-0\""));
     free(text);
     r.times = NULL, r.frames = "7";
-    assert_false(show_strip(f->film, &r, NULL, &o));
+    assert_false(show_strip(f->reader, &r, NULL, &o));
     assert_int_equal(o.code, EXIT_INVALID);
     assert_int_equal(access(r.output, F_OK), -1);
 }

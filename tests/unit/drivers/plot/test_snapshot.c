@@ -8,7 +8,7 @@
 static void load(snapshot *s, const trajectory_fixture *f, const quantity *q, dem_index frame)
 {
     outcome o = {0};
-    assert_true(snapshot_create(s, f->film, q, &o));
+    assert_true(snapshot_create(s, f->reader, q, &o));
     assert_true(snapshot_load(s, frame, &o));
 }
 
@@ -16,7 +16,7 @@ static quantity find(const trajectory_fixture *f, const char *name)
 {
     quantity q;
     outcome o = {0};
-    assert_true(quantity_find(&q, f->film, name, &o));
+    assert_true(quantity_find(&q, f->reader, name, &o));
     return q;
 }
 
@@ -28,7 +28,7 @@ static void places_and_bounds_are_those_of_the_frame(void **state)
     load(&s, f, &q, 3);
     const dem_index n = s.lattice->n_nodes;
     double *x = malloc(2 * (size_t)n * sizeof *x);
-    trajectory_fixture_ok(dem_film_positions(f->film, 3, x));
+    trajectory_fixture_ok(dem_reader_positions(f->reader, 3, x));
     assert_memory_equal(s.x, x, 2 * (size_t)n * sizeof *x);
     assert_close(s.t, 6e-4, 1e-15);
     for (dem_index k = 0; k < n; k++) {

@@ -16,7 +16,7 @@ static char *draw(const trajectory_fixture *f)
     outcome o = {0};
     FILE *log = tmpfile(), *file;
     char *text = calloc(1, MOST);
-    assert_true(timeline_draw(f->film, &asked, log, &o));
+    assert_true(timeline_draw(f->reader, &asked, log, &o));
     (void)fclose(log);
     file = fopen(asked.output, "r");
     assert_non_null(file);

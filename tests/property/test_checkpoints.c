@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run that is resumed from any of its records goes on to the last bit: random bodies run through, and again from each
- * record by a new simulation of a new model, with another number of threads, by both methods of contact; all that is
- * reported of events, steps and frames, and all that can be seen at the end, is the same. `test_records [CASES
- * [FIRST_SEED [EVERY]]]`, of the records. */
+/* A run that is resumed from any of its checkpoints goes on to the last bit: random bodies run through, and again from
+ * each checkpoint by a new simulation of a new model, with another number of threads, by both methods of contact; all
+ * that is reported of events, steps and frames, and all that can be seen at the end, is the same. `test_checkpoints
+ * [CASES [FIRST_SEED [EVERY]]]`, of the checkpoints. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +17,8 @@ enum { MOST_RECORDS = 400 };
 typedef struct diary {
     uint64_t hash;
     dem_index n_records, n_frames, n_events;
-    dem_record *records[MOST_RECORDS];
-    uint64_t at[MOST_RECORDS]; /* the hash when the record was taken */
+    dem_checkpoint *checkpoints[MOST_RECORDS];
+    uint64_t at[MOST_RECORDS]; /* the hash when the checkpoint was taken */
 } diary;
 
 static void enter(diary *d, const void *bytes, size_t n)
@@ -71,13 +71,13 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 }
 
 /* Keeps a copy, by way of its entries. */
-static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status on_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     diary *d = context;
-    assert_ptr_equal(dem_simulation_record(simulation), record);
+    assert_ptr_equal(dem_simulation_checkpoint(simulation), checkpoint);
     assert_true(d->n_records < MOST_RECORDS);
-    assert_ok(dem_record_write(record, "records.checkpoint"));
-    assert_ok(dem_record_read(&d->records[d->n_records], "records.checkpoint"));
+    assert_ok(dem_checkpoint_write(checkpoint, "checkpoints.checkpoint"));
+    assert_ok(dem_checkpoint_read(&d->checkpoints[d->n_records], "checkpoints.checkpoint"));
     d->at[d->n_records++] = d->hash;
     return DEM_OK;
 }
@@ -101,7 +101,7 @@ static void set(scene *sc, unsigned long seed, manner how)
     sc->options.method = how.method;
     sc->options.contact = how.contact;
     sc->options.threads = how.threads;
-    sc->options.record_steps = 5 + (dem_index)(seed % 7);
+    sc->options.checkpoint_steps = 5 + (dem_index)(seed % 7);
 }
 
 static void run_through(unsigned long seed, manner how, diary *d)
@@ -127,7 +127,7 @@ static uint64_t go_on_from(unsigned long seed, manner how, const diary *whole, d
     const dem_observer observer = observer_of(&d, 0);
     set(&sc, seed, how);
     assert_ok(dem_model_create(&model, &sc.body, sc.obstacles, sc.n));
-    assert_ok(dem_simulation_resume(&simulation, model, &sc.options, whole->records[k]));
+    assert_ok(dem_simulation_resume(&simulation, model, &sc.options, whole->checkpoints[k]));
     assert_ok(dem_simulation_observe(simulation, &observer));
     assert_ok(dem_simulation_advance(simulation, 0.25 * sc.t_end));
     enter_all(&d, simulation);
@@ -149,10 +149,10 @@ static void check(unsigned long seed, manner how)
         if (k % every == 0) {
             const manner again = {how.method, how.contact, 1 + (int)(k % 2)};
             if (go_on_from(seed, again, &whole, k) != whole.hash)
-                fail_msg("seed %lu, method %d, contact %d: resumed from record %lld of %lld the run is another", seed,
-                         (int)how.method, (int)how.contact, (long long)k, (long long)whole.n_records);
+                fail_msg("seed %lu, method %d, contact %d: resumed from checkpoint %lld of %lld the run is another",
+                         seed, (int)how.method, (int)how.contact, (long long)k, (long long)whole.n_records);
         }
-        dem_record_destroy(whole.records[k]);
+        dem_checkpoint_destroy(whole.checkpoints[k]);
     }
 }
 

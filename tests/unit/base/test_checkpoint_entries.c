@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* record.c and publish.c: entries in memory, and files that are whole or refused. */
+/* checkpoint.c and publish.c: entries in memory, and files that are whole or refused. */
 #include "verification/support.h"
 
 #include <signal.h>
@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/record.h"
+#include "base/checkpoint_entries.h"
 #include "unit/scratch.h"
 
 #define FILE_NAME "test_record.checkpoint"
@@ -28,31 +28,31 @@ static int enter_folder(void **state)
 }
 
 /* An entry of 5 and one of 0 bytes, and the numbers 1 to 1000. */
-static dem_record *make(void)
+static dem_checkpoint *make(void)
 {
-    dem_record *record;
+    dem_checkpoint *checkpoint;
     double numbers[1000];
     for (int k = 0; k < 1000; k++) numbers[k] = k + 1.0;
-    assert_ok(dem_record_create(&record));
-    assert_ok(dem_record_put(record, "word", "spring", 5));
-    assert_ok(dem_record_put(record, "nothing", NULL, 0));
-    assert_ok(dem_record_put(record, "numbers", numbers, sizeof numbers));
-    return record;
+    assert_ok(dem_checkpoint_create(&checkpoint));
+    assert_ok(dem_checkpoint_put(checkpoint, "word", "spring", 5));
+    assert_ok(dem_checkpoint_put(checkpoint, "nothing", NULL, 0));
+    assert_ok(dem_checkpoint_put(checkpoint, "numbers", numbers, sizeof numbers));
+    return checkpoint;
 }
 
-static void check(const dem_record *record)
+static void check(const dem_checkpoint *checkpoint)
 {
     char word[5];
     double numbers[1000];
     size_t size;
-    assert_ok(dem_record_get(record, "word", word, 5));
+    assert_ok(dem_checkpoint_get(checkpoint, "word", word, 5));
     assert_memory_equal(word, "sprin", 5);
-    assert_ok(dem_record_get(record, "nothing", NULL, 0));
-    assert_ok(dem_record_get(record, "numbers", numbers, sizeof numbers));
+    assert_ok(dem_checkpoint_get(checkpoint, "nothing", NULL, 0));
+    assert_ok(dem_checkpoint_get(checkpoint, "numbers", numbers, sizeof numbers));
     for (int k = 0; k < 1000; k++) assert_close(numbers[k], k + 1.0, 0.0);
-    assert_non_null(dem_record_find(record, "nothing", &size));
+    assert_non_null(dem_checkpoint_find(checkpoint, "nothing", &size));
     assert_int_equal(size, 0);
-    assert_int_equal((uintptr_t)dem_record_find(record, "numbers", &size) % 8, 0);
+    assert_int_equal((uintptr_t)dem_checkpoint_find(checkpoint, "numbers", &size) % 8, 0);
     assert_int_equal(size, sizeof numbers);
 }
 
@@ -60,24 +60,24 @@ static void check(const dem_record *record)
 
 static void entries_are_copied_replaced_and_found(void **state)
 {
-    dem_record *record = make(), *other;
+    dem_checkpoint *checkpoint = make(), *other;
     int number = 3;
     size_t size = 1;
     (void)state;
-    check(record);
-    assert_ok(dem_record_put(record, "word", &number, sizeof number));
+    check(checkpoint);
+    assert_ok(dem_checkpoint_put(checkpoint, "word", &number, sizeof number));
     number = 4;
-    assert_ok(dem_record_get(record, "word", &number, sizeof number));
+    assert_ok(dem_checkpoint_get(checkpoint, "word", &number, sizeof number));
     assert_int_equal(number, 3);
-    assert_ok(dem_record_put(record, "word", "springs", 5));
-    assert_null(dem_record_find(record, "words", &size));
+    assert_ok(dem_checkpoint_put(checkpoint, "word", "springs", 5));
+    assert_null(dem_checkpoint_find(checkpoint, "words", &size));
     assert_int_equal(size, 0);
-    assert_ok(dem_record_create(&other));
-    assert_ok(record_copy(other, record));
-    dem_record_destroy(record);
+    assert_ok(dem_checkpoint_create(&other));
+    assert_ok(checkpoint_entries_copy(other, checkpoint));
+    dem_checkpoint_destroy(checkpoint);
     check(other);
-    dem_record_destroy(other);
-    dem_record_destroy(NULL);
+    dem_checkpoint_destroy(other);
+    dem_checkpoint_destroy(NULL);
 }
 
 static void refuse(dem_status got, dem_status status, const char *message)
@@ -88,22 +88,26 @@ static void refuse(dem_status got, dem_status status, const char *message)
 
 static void what_is_no_entry_is_refused(void **state)
 {
-    dem_record *record = make();
+    dem_checkpoint *checkpoint = make();
     int number = 0;
     (void)state;
-    refuse(dem_record_get(record, "words", &number, 4), DEM_ERROR_IO, "the record has no words");
-    refuse(dem_record_get(record, "word", &number, 4), DEM_ERROR_IO, "the record has 5 bytes of word, 4 are expected");
-    refuse(dem_record_put(record, "", &number, 4), DEM_ERROR_ARGUMENT, "\"\" cannot name an entry: 1 to 31 characters");
-    refuse(dem_record_put(record, "0123456789012345678901234567890_", &number, 4), DEM_ERROR_ARGUMENT,
+    refuse(dem_checkpoint_get(checkpoint, "words", &number, 4), DEM_ERROR_IO, "the checkpoint has no words");
+    refuse(dem_checkpoint_get(checkpoint, "word", &number, 4), DEM_ERROR_IO,
+           "the checkpoint has 5 bytes of word, 4 are expected");
+    refuse(dem_checkpoint_put(checkpoint, "", &number, 4), DEM_ERROR_ARGUMENT,
+           "\"\" cannot name an entry: 1 to 31 characters");
+    refuse(dem_checkpoint_put(checkpoint, "0123456789012345678901234567890_", &number, 4), DEM_ERROR_ARGUMENT,
            "\"0123456789012345678901234567890_\" cannot name an entry: 1 to 31 characters");
-    refuse(dem_record_put(record, "word", NULL, 4), DEM_ERROR_ARGUMENT, "dem_record_put: an argument is NULL");
-    refuse(dem_record_get(record, "word", NULL, 4), DEM_ERROR_ARGUMENT, "dem_record_get: an argument is NULL");
-    refuse(dem_record_create(NULL), DEM_ERROR_ARGUMENT, "dem_record_create: out is NULL");
-    refuse(dem_record_write(NULL, "x"), DEM_ERROR_ARGUMENT, "dem_record_write: record is NULL");
-    refuse(dem_record_read(&record, NULL), DEM_ERROR_ARGUMENT, "dem_record_read: path is NULL");
+    refuse(dem_checkpoint_put(checkpoint, "word", NULL, 4), DEM_ERROR_ARGUMENT,
+           "dem_checkpoint_put: an argument is NULL");
+    refuse(dem_checkpoint_get(checkpoint, "word", NULL, 4), DEM_ERROR_ARGUMENT,
+           "dem_checkpoint_get: an argument is NULL");
+    refuse(dem_checkpoint_create(NULL), DEM_ERROR_ARGUMENT, "dem_checkpoint_create: out is NULL");
+    refuse(dem_checkpoint_write(NULL, "x"), DEM_ERROR_ARGUMENT, "dem_checkpoint_write: checkpoint is NULL");
+    refuse(dem_checkpoint_read(&checkpoint, NULL), DEM_ERROR_ARGUMENT, "dem_checkpoint_read: path is NULL");
     refuse(dem_publish(NULL, "x"), DEM_ERROR_ARGUMENT, "dem_publish: part is NULL");
-    check(record);
-    dem_record_destroy(record);
+    check(checkpoint);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 /* ---- files ---- */
@@ -116,25 +120,25 @@ static long size_of(const char *path)
 
 static void a_file_holds_all_and_the_one_before_is_kept(void **state)
 {
-    dem_record *record = make(), *back;
+    dem_checkpoint *checkpoint = make(), *back;
     (void)state;
     (void)unlink(FILE_NAME);
     (void)unlink(PREVIOUS);
-    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
     assert_int_equal(size_of(PREVIOUS), -1);
-    assert_ok(dem_record_read(&back, FILE_NAME));
+    assert_ok(dem_checkpoint_read(&back, FILE_NAME));
     check(back);
-    dem_record_destroy(back);
+    dem_checkpoint_destroy(back);
     assert_int_equal(size_of(FILE_NAME), 64 + 3 * 40 + 8 + 8000);
-    assert_ok(dem_record_put(record, "more", "12345678", 8));
-    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_ok(dem_checkpoint_put(checkpoint, "more", "12345678", 8));
+    assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
     assert_int_equal(size_of(PREVIOUS), 64 + 3 * 40 + 8 + 8000);
     assert_int_equal(size_of(FILE_NAME), 64 + 4 * 40 + 16 + 8000);
     assert_int_equal(size_of(FILE_NAME ".part"), -1);
-    assert_ok(dem_record_read(&back, PREVIOUS));
+    assert_ok(dem_checkpoint_read(&back, PREVIOUS));
     check(back);
-    dem_record_destroy(back);
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(back);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 static void put_file(const unsigned char *bytes, size_t size)
@@ -147,22 +151,22 @@ static void put_file(const unsigned char *bytes, size_t size)
 
 static void refuse_file(const unsigned char *bytes, size_t size, const char *message)
 {
-    dem_record *record = NULL;
+    dem_checkpoint *checkpoint = NULL;
     put_file(bytes, size);
-    refuse(dem_record_read(&record, "test_record.bad"), DEM_ERROR_IO, message);
-    assert_null(record);
+    refuse(dem_checkpoint_read(&checkpoint, "test_record.bad"), DEM_ERROR_IO, message);
+    assert_null(checkpoint);
 }
 
 /* Every bit counts, and every byte that lacks or is too many. */
 static void damaged_files_are_refused(void **state)
 {
-    dem_record *record, *back;
+    dem_checkpoint *checkpoint, *back;
     unsigned char bytes[512];
     (void)state;
-    assert_ok(dem_record_create(&record));
-    assert_ok(dem_record_put(record, "word", "spring", 6));
-    assert_ok(dem_record_put(record, "number", "12345678", 8));
-    assert_ok(dem_record_write(record, FILE_NAME));
+    assert_ok(dem_checkpoint_create(&checkpoint));
+    assert_ok(dem_checkpoint_put(checkpoint, "word", "spring", 6));
+    assert_ok(dem_checkpoint_put(checkpoint, "number", "12345678", 8));
+    assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
     const size_t size = (size_t)size_of(FILE_NAME);
     FILE *file = fopen(FILE_NAME, "rb");
     assert_non_null(file);
@@ -171,12 +175,12 @@ static void damaged_files_are_refused(void **state)
     for (size_t k = 0; k < 8 * size; k++) {
         bytes[k / 8] ^= (unsigned char)(1u << k % 8);
         put_file(bytes, size);
-        assert_int_equal(dem_record_read(&back, "test_record.bad"), DEM_ERROR_IO);
+        assert_int_equal(dem_checkpoint_read(&back, "test_record.bad"), DEM_ERROR_IO);
         bytes[k / 8] ^= (unsigned char)(1u << k % 8);
     }
     for (size_t k = 0; k < size; k++) {
         put_file(bytes, k);
-        assert_int_equal(dem_record_read(&back, "test_record.bad"), DEM_ERROR_IO);
+        assert_int_equal(dem_checkpoint_read(&back, "test_record.bad"), DEM_ERROR_IO);
     }
     refuse_file(bytes, 10, "test_record.bad: is no checkpoint, or has been cut short");
     bytes[size] = 0;
@@ -192,18 +196,19 @@ static void damaged_files_are_refused(void **state)
     refuse_file(bytes, size, "test_record.bad: was written on a machine of another byte order");
     bytes[0] = 'D';
     refuse_file(bytes, size, "test_record.bad: is no checkpoint");
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 static void files_that_are_none_are_refused(void **state)
 {
-    dem_record *record = make(), *back;
+    dem_checkpoint *checkpoint = make(), *back;
     (void)state;
-    refuse(dem_record_read(&back, "no/file"), DEM_ERROR_IO, "no/file: cannot be opened (No such file or directory)");
-    refuse(dem_record_read(&back, "/tmp"), DEM_ERROR_IO, "/tmp: is not a regular file");
-    refuse(dem_record_write(record, "no/file"), DEM_ERROR_IO,
+    refuse(dem_checkpoint_read(&back, "no/file"), DEM_ERROR_IO,
+           "no/file: cannot be opened (No such file or directory)");
+    refuse(dem_checkpoint_read(&back, "/tmp"), DEM_ERROR_IO, "/tmp: is not a regular file");
+    refuse(dem_checkpoint_write(checkpoint, "no/file"), DEM_ERROR_IO,
            "no/file.part: cannot be opened for writing (No such file or directory)");
-    refuse(dem_record_write(record, "/dev/full/x"), DEM_ERROR_IO,
+    refuse(dem_checkpoint_write(checkpoint, "/dev/full/x"), DEM_ERROR_IO,
            "/dev/full/x.part: cannot be opened for writing (Not a directory)");
     refuse(dem_publish("no/file", "no/other"), DEM_ERROR_IO,
            "no/file: cannot be opened to sync it (No such file or directory)");
@@ -212,32 +217,32 @@ static void files_that_are_none_are_refused(void **state)
            "test_record.bad: cannot be renamed to no/file (No such file or directory)");
     assert_ok(dem_publish("test_record.bad", "test_record.good"));
     assert_int_equal(size_of("test_record.good"), 1);
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 /* RLIMIT_FSIZE stands in for a full disk; what is short comes to the disk as the file is closed. */
 static void a_disk_that_is_full_leaves_the_file_of_before(void **state)
 {
-    dem_record *record = make(), *little;
+    dem_checkpoint *checkpoint = make(), *little;
     struct rlimit kept, small;
     (void)state;
-    assert_ok(dem_record_write(record, FILE_NAME));
-    assert_ok(dem_record_create(&little));
-    assert_ok(dem_record_put(little, "word", "spring", 5));
+    assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
+    assert_ok(dem_checkpoint_create(&little));
+    assert_ok(dem_checkpoint_put(little, "word", "spring", 5));
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &kept), 0);
     small = kept;
     small.rlim_cur = 10;
     void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    const dem_status status = dem_record_write(little, FILE_NAME);
+    const dem_status status = dem_checkpoint_write(little, FILE_NAME);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &kept), 0);
     (void)signal(SIGXFSZ, handler);
     refuse(status, DEM_ERROR_IO, FILE_NAME ".part: cannot be written (File too large)");
-    dem_record_destroy(little);
-    dem_record_destroy(record);
-    assert_ok(dem_record_read(&record, FILE_NAME));
-    check(record);
-    dem_record_destroy(record);
+    dem_checkpoint_destroy(little);
+    dem_checkpoint_destroy(checkpoint);
+    assert_ok(dem_checkpoint_read(&checkpoint, FILE_NAME));
+    check(checkpoint);
+    dem_checkpoint_destroy(checkpoint);
 }
 
 int main(void)

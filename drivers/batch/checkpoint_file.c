@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "checkpoint.h"
+#include "checkpoint_file.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -20,10 +20,10 @@ static const char time_entry[] = "driver.time", course_entry[] = "driver.course"
 /* ---- what is there ---- */
 
 /* A text among the entries; NULL if it is none. */
-static const char *find_text(const dem_record *record, const char *name)
+static const char *find_text(const dem_checkpoint *checkpoint, const char *name)
 {
     size_t size;
-    const char *text = dem_record_find(record, name, &size);
+    const char *text = dem_checkpoint_find(checkpoint, name, &size);
     return text != NULL && size > 0 && text[size - 1] == '\0' ? text : NULL;
 }
 
@@ -47,8 +47,9 @@ static bool extend_lineage(checkpoint_source *s, const char *lineage, const char
 static checkpoint_state examine(checkpoint_source *s, const deck *d, bool anyway, char reason[OUTPUT_REASON])
 {
     char versions[VERSIONS], difference[DIFFERENCE];
-    const char *course = find_text(s->record, course_entry), *lineage = find_text(s->record, lineage_entry);
-    if (course == NULL || lineage == NULL || dem_record_get(s->record, time_entry, &s->t, sizeof s->t) != DEM_OK) {
+    const char *course = find_text(s->checkpoint, course_entry), *lineage = find_text(s->checkpoint, lineage_entry);
+    if (course == NULL || lineage == NULL ||
+        dem_checkpoint_get(s->checkpoint, time_entry, &s->t, sizeof s->t) != DEM_OK) {
         (void)snprintf(reason, OUTPUT_REASON, "it is not of this program; " OUTPUT_WAY_OUT);
         return CHECKPOINT_OTHER;
     }
@@ -71,84 +72,85 @@ static checkpoint_state examine(checkpoint_source *s, const deck *d, bool anyway
 }
 
 /* Reads the checkpoint or the one before; that must not be replaced by a damaged one when the next is written. */
-static dem_status read_either(dem_record **out, const char *path, char reason[OUTPUT_REASON])
+static dem_status read_either(dem_checkpoint **out, const char *path, char reason[OUTPUT_REASON])
 {
     char file[OUTPUT_PATH], before[OUTPUT_PATH], damaged[OUTPUT_PATH];
     output_beside(file, path, ".checkpoint");
     output_beside(before, path, ".checkpoint.prev");
     output_beside(damaged, path, ".checkpoint.damaged");
-    dem_status status = dem_record_read(out, file);
+    dem_status status = dem_checkpoint_read(out, file);
     if (status != DEM_ERROR_IO) return status;
     (void)snprintf(reason, OUTPUT_REASON, "%s; " OUTPUT_WAY_OUT, dem_status_message());
-    status = dem_record_read(out, before);
+    status = dem_checkpoint_read(out, before);
     if (status == DEM_OK && rename(file, damaged) != 0 && errno != ENOENT) status = DEM_ERROR_IO;
     return status;
 }
 
-checkpoint_state checkpoint_find(checkpoint_source *out, const char *path, const deck *d, bool anyway,
-                                 char reason[OUTPUT_REASON])
+checkpoint_state checkpoint_file_find(checkpoint_source *out, const char *path, const deck *d, bool anyway,
+                                      char reason[OUTPUT_REASON])
 {
     char file[OUTPUT_PATH], before[OUTPUT_PATH];
     *out = (checkpoint_source){0};
     output_beside(file, path, ".checkpoint");
     output_beside(before, path, ".checkpoint.prev");
     if (access(file, F_OK) != 0 && access(before, F_OK) != 0) return CHECKPOINT_NONE;
-    const dem_status status = read_either(&out->record, path, reason);
+    const dem_status status = read_either(&out->checkpoint, path, reason);
     if (status == DEM_ERROR_MEMORY) return CHECKPOINT_MEMORY;
     return status == DEM_OK ? examine(out, d, anyway, reason) : CHECKPOINT_DAMAGED;
 }
 
-void checkpoint_source_free(checkpoint_source *source)
+void checkpoint_file_source_free(checkpoint_source *source)
 {
-    dem_record_destroy(source->record);
+    dem_checkpoint_destroy(source->checkpoint);
     free(source->lineage);
     *source = (checkpoint_source){0};
 }
 
 /* ---- what is written ---- */
 
-checkpoint checkpoint_start(const command *c, const char *path, const deck *d, const checkpoint_source *source)
+checkpoint_file checkpoint_file_start(const command *c, const char *path, const deck *d,
+                                      const checkpoint_source *source)
 {
-    checkpoint new = {.deck = d,
-                      .source = source,
-                      .interval = c->checkpoint_interval,
-                      .deadline = c->wall_start + c->max_wall,
-                      .wall_written = wall_clock(),
-                      .t_written = source->record != NULL ? source->t : -1.0};
+    checkpoint_file new = {.deck = d,
+                           .source = source,
+                           .interval = c->checkpoint_interval,
+                           .deadline = c->wall_start + c->max_wall,
+                           .wall_written = wall_clock(),
+                           .t_written = source->checkpoint != NULL ? source->t : -1.0};
     output_beside(new.path, path, ".checkpoint");
     preview_versions(new.versions, sizeof new.versions);
     return new;
 }
 
-static double time_of(const dem_record *record)
+static double time_of(const dem_checkpoint *checkpoint)
 {
     double t = -1.0;
-    (void)dem_record_get(record, time_entry, &t, sizeof t);
+    (void)dem_checkpoint_get(checkpoint, time_entry, &t, sizeof t);
     return t;
 }
 
-static dem_status put_on_disk(checkpoint *c, const dem_record *record)
+static dem_status put_on_disk(checkpoint_file *c, const dem_checkpoint *checkpoint)
 {
-    const double t = time_of(record);
+    const double t = time_of(checkpoint);
     if (t == c->t_written) return DEM_OK;
-    const dem_status status = dem_record_write(record, c->path);
+    const dem_status status = dem_checkpoint_write(checkpoint, c->path);
     if (status != DEM_OK) return status;
     c->t_written = t;
     c->wall_written = wall_clock();
     return DEM_OK;
 }
 
-static dem_status save(checkpoint *c, const dem_record *record)
+static dem_status save(checkpoint_file *c, const dem_checkpoint *checkpoint)
 {
-    if (time_of(record) == c->t_written) return DEM_OK;
-    dem_status status = dem_trajectory_segment(c->trajectory, record);
-    if (status == DEM_OK) status = put_on_disk(c, record);
+    if (time_of(checkpoint) == c->t_written) return DEM_OK;
+    dem_status status = dem_trajectory_segment(c->trajectory, checkpoint);
+    if (status == DEM_OK) status = put_on_disk(c, checkpoint);
     if (status == DEM_OK) report_tell(c->log, "checkpoint t %.6g s in %s\n", c->t_written, c->path);
     return status;
 }
 
 /* Whether the end is asked for. */
-static bool is_ending(checkpoint *c, const char **why)
+static bool is_ending(checkpoint_file *c, const char **why)
 {
     *why = signals_end();
     const double now = wall_clock();
@@ -157,25 +159,26 @@ static bool is_ending(checkpoint *c, const char **why)
     return *why != NULL;
 }
 
-static dem_status put_entries(const checkpoint *c, const dem_simulation *simulation, dem_record *record)
+static dem_status put_entries(const checkpoint_file *c, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
     const char *lineage = c->source->lineage != NULL ? c->source->lineage : c->versions;
-    dem_status status = dem_record_put(record, time_entry, &state.t, sizeof state.t);
-    if (status == DEM_OK) status = dem_record_put(record, course_entry, c->deck->course, strlen(c->deck->course) + 1);
-    if (status == DEM_OK) status = dem_record_put(record, lineage_entry, lineage, strlen(lineage) + 1);
+    dem_status status = dem_checkpoint_put(checkpoint, time_entry, &state.t, sizeof state.t);
+    if (status == DEM_OK)
+        status = dem_checkpoint_put(checkpoint, course_entry, c->deck->course, strlen(c->deck->course) + 1);
+    if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, lineage_entry, lineage, strlen(lineage) + 1);
     return status;
 }
 
-static dem_status on_record(void *context, const dem_simulation *simulation, dem_record *record)
+static dem_status on_checkpoint(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    checkpoint *c = context;
+    checkpoint_file *c = context;
     const char *why;
-    dem_status status = put_entries(c, simulation, record);
+    dem_status status = put_entries(c, simulation, checkpoint);
     const bool ending = is_ending(c, &why), wanted = signals_checkpoint();
     if (status == DEM_OK && (ending || wanted || wall_clock() - c->wall_written >= c->interval))
-        status = save(c, record);
+        status = save(c, checkpoint);
     if (status != DEM_OK || !ending) return status;
     c->ended = why;
     return DEM_STOPPED;
@@ -183,30 +186,30 @@ static dem_status on_record(void *context, const dem_simulation *simulation, dem
 
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
-    checkpoint *c = context;
+    checkpoint_file *c = context;
     const char *why;
     if (!is_ending(c, &why) || wall_clock() - c->wall_ending < patience) return DEM_OK;
-    const dem_status status = checkpoint_save(c, simulation);
+    const dem_status status = checkpoint_file_save(c, simulation);
     if (status != DEM_OK) return status;
     c->ended = why;
     return DEM_STOPPED;
 }
 
-dem_observer checkpoint_observer(checkpoint *c)
+dem_observer checkpoint_file_observer(checkpoint_file *c)
 {
-    return (dem_observer){.step = on_step, .record = on_record, .context = c};
+    return (dem_observer){.step = on_step, .checkpoint = on_checkpoint, .context = c};
 }
 
-dem_status checkpoint_save(checkpoint *c, const dem_simulation *simulation)
+dem_status checkpoint_file_save(checkpoint_file *c, const dem_simulation *simulation)
 {
-    const dem_record *record = dem_simulation_record(simulation);
-    return record == NULL ? DEM_OK : save(c, record);
+    const dem_checkpoint *checkpoint = dem_simulation_checkpoint(simulation);
+    return checkpoint == NULL ? DEM_OK : save(c, checkpoint);
 }
 
-dem_status checkpoint_close(checkpoint *c, const dem_simulation *simulation)
+dem_status checkpoint_file_close(checkpoint_file *c, const dem_simulation *simulation)
 {
-    const dem_record *record = dem_simulation_record(simulation);
-    const dem_status status = record == NULL ? DEM_OK : put_on_disk(c, record);
+    const dem_checkpoint *checkpoint = dem_simulation_checkpoint(simulation);
+    const dem_status status = checkpoint == NULL ? DEM_OK : put_on_disk(c, checkpoint);
     char before[OUTPUT_PATH + 8];
     (void)snprintf(before, sizeof before, "%s.prev", c->path);
     if (status == DEM_OK) (void)unlink(before);

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "checkpoint.h"
+#include "checkpoint_file.h"
 #include "preview.h"
 #include "unit/scratch.h"
 
@@ -28,13 +28,13 @@ static const deck mine = {.course = course, .t_end = 2.0};
 
 static void leave(const char *text, const char *lineage, double t)
 {
-    dem_record *record;
-    assert_ok(dem_record_create(&record));
-    assert_ok(dem_record_put(record, "driver.course", text, strlen(text) + 1));
-    assert_ok(dem_record_put(record, "driver.lineage", lineage, strlen(lineage) + 1));
-    assert_ok(dem_record_put(record, "driver.time", &t, sizeof t));
-    assert_ok(dem_record_write(record, path));
-    dem_record_destroy(record);
+    dem_checkpoint *checkpoint;
+    assert_ok(dem_checkpoint_create(&checkpoint));
+    assert_ok(dem_checkpoint_put(checkpoint, "driver.course", text, strlen(text) + 1));
+    assert_ok(dem_checkpoint_put(checkpoint, "driver.lineage", lineage, strlen(lineage) + 1));
+    assert_ok(dem_checkpoint_put(checkpoint, "driver.time", &t, sizeof t));
+    assert_ok(dem_checkpoint_write(checkpoint, path));
+    dem_checkpoint_destroy(checkpoint);
 }
 
 static const char *versions(void)
@@ -48,9 +48,9 @@ static void expect(checkpoint_state expected, bool anyway, const char *why)
 {
     checkpoint_source source;
     char reason[OUTPUT_REASON] = "";
-    assert_int_equal(checkpoint_find(&source, output, &mine, anyway, reason), expected);
+    assert_int_equal(checkpoint_file_find(&source, output, &mine, anyway, reason), expected);
     if (strstr(reason, why) == NULL) fail_msg("'%s' is not in '%s'", why, reason);
-    checkpoint_source_free(&source);
+    checkpoint_file_source_free(&source);
 }
 
 static void none_is_found_where_there_is_none(void **state)
@@ -65,12 +65,12 @@ static void that_of_the_same_course_is_found(void **state)
     checkpoint_source source;
     char reason[OUTPUT_REASON];
     leave(course, versions(), 1.5);
-    assert_int_equal(checkpoint_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
-    assert_non_null(source.record);
+    assert_int_equal(checkpoint_file_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
+    assert_non_null(source.checkpoint);
     assert_close(source.t, 1.5, 0.0);
     assert_string_equal(source.lineage, versions());
-    checkpoint_source_free(&source);
-    assert_null(source.record);
+    checkpoint_file_source_free(&source);
+    assert_null(source.checkpoint);
     leave(course, versions(), 2.0);
     expect(CHECKPOINT_FOUND, false, "");
     leave(course, versions(), 2.5);
@@ -95,11 +95,11 @@ static void another_version_is_refused_unless_it_will_do(void **state)
     char reason[OUTPUT_REASON], lineage[512];
     leave(course, "dem 0.0.1\ndem 0.0.2", 1.0);
     expect(CHECKPOINT_OTHER, false, "it is of 'dem 0.0.2', this is 'dem ");
-    assert_int_equal(checkpoint_find(&source, output, &mine, true, reason), CHECKPOINT_FOUND);
+    assert_int_equal(checkpoint_file_find(&source, output, &mine, true, reason), CHECKPOINT_FOUND);
     (void)snprintf(lineage, sizeof lineage, "dem 0.0.1\ndem 0.0.2\n%s", versions());
     assert_string_equal(source.lineage, lineage);
     leave(course, source.lineage, 1.0);
-    checkpoint_source_free(&source);
+    checkpoint_file_source_free(&source);
     expect(CHECKPOINT_FOUND, false, "");
 }
 
@@ -111,9 +111,9 @@ static void a_damaged_one_gives_way_to_the_one_before(void **state)
     leave(course, versions(), 1.0);
     leave(course, versions(), 1.5);
     assert_int_equal(truncate(path, 100), 0);
-    assert_int_equal(checkpoint_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
+    assert_int_equal(checkpoint_file_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
     assert_close(source.t, 1.0, 0.0);
-    checkpoint_source_free(&source);
+    checkpoint_file_source_free(&source);
     assert_int_equal(access(before, F_OK), 0);
     assert_int_equal(rename(damaged, path), 0); /* where a new one cannot push it in the place of the one before */
     assert_int_equal(truncate(before, 100), 0);
@@ -128,11 +128,11 @@ static void a_damaged_one_gives_way_to_the_one_before(void **state)
 static void a_record_of_another_program_is_refused(void **state)
 {
     (void)state;
-    dem_record *record;
-    assert_ok(dem_record_create(&record));
-    assert_ok(dem_record_put(record, "driver.course", course, 5)); /* without its end */
-    assert_ok(dem_record_write(record, path));
-    dem_record_destroy(record);
+    dem_checkpoint *checkpoint;
+    assert_ok(dem_checkpoint_create(&checkpoint));
+    assert_ok(dem_checkpoint_put(checkpoint, "driver.course", course, 5)); /* without its end */
+    assert_ok(dem_checkpoint_write(checkpoint, path));
+    dem_checkpoint_destroy(checkpoint);
     expect(CHECKPOINT_OTHER, true, "it is not of this program");
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Entries one after another, in memory and in the file: a header of 64 bytes, then for each entry a head of 40 bytes
  * and its bytes, filled up to a multiple of 8. The checksum is of the whole file, itself taken as 0. */
-#include "base/record.h"
+#include "base/checkpoint_entries.h"
 
 #include <errno.h>
 #include <stdbool.h>
@@ -28,7 +28,7 @@ typedef struct entry {
     unsigned char *data;
 } entry;
 
-struct dem_record {
+struct dem_checkpoint {
     dem_index n, capacity;
     entry *entries;
 };
@@ -49,27 +49,27 @@ typedef struct head {
 
 /* ---- entries ---- */
 
-dem_status dem_record_create(dem_record **out)
+dem_status dem_checkpoint_create(dem_checkpoint **out)
 {
-    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_record_create: out is NULL");
-    dem_record *record = calloc(1, sizeof *record);
-    CHECK_MEMORY(record);
-    *out = record;
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_checkpoint_create: out is NULL");
+    dem_checkpoint *checkpoint = calloc(1, sizeof *checkpoint);
+    CHECK_MEMORY(checkpoint);
+    *out = checkpoint;
     return DEM_OK;
 }
 
-void dem_record_destroy(dem_record *record)
+void dem_checkpoint_destroy(dem_checkpoint *checkpoint)
 {
-    if (record == NULL) return;
-    for (dem_index k = 0; k < record->n; k++) free(record->entries[k].data);
-    free(record->entries);
-    free(record);
+    if (checkpoint == NULL) return;
+    for (dem_index k = 0; k < checkpoint->n; k++) free(checkpoint->entries[k].data);
+    free(checkpoint->entries);
+    free(checkpoint);
 }
 
-static entry *find(const dem_record *record, const char *name)
+static entry *find(const dem_checkpoint *checkpoint, const char *name)
 {
-    for (dem_index k = 0; k < record->n; k++)
-        if (strcmp(record->entries[k].name, name) == 0) return &record->entries[k];
+    for (dem_index k = 0; k < checkpoint->n; k++)
+        if (strcmp(checkpoint->entries[k].name, name) == 0) return &checkpoint->entries[k];
     return NULL;
 }
 
@@ -78,35 +78,36 @@ static dem_status reserve(entry *e, size_t size)
 {
     if (size < e->capacity) return DEM_OK;
     unsigned char *data = realloc(e->data, size + 1);
-    CHECK(data != NULL, DEM_ERROR_MEMORY, "out of memory for %zu bytes of a record", size);
+    CHECK(data != NULL, DEM_ERROR_MEMORY, "out of memory for %zu bytes of a checkpoint", size);
     e->data = data;
     e->capacity = size + 1;
     return DEM_OK;
 }
 
 /* The entry of a name, which is made with room for `size` bytes. */
-static dem_status make(dem_record *record, const char *name, size_t size, entry **out)
+static dem_status make(dem_checkpoint *checkpoint, const char *name, size_t size, entry **out)
 {
-    CHECK(grow_array((void **)&record->entries, &record->capacity, record->n + 1, sizeof *record->entries),
-          DEM_ERROR_MEMORY, "out of memory for a record");
-    entry *e = &record->entries[record->n];
+    CHECK(grow_array((void **)&checkpoint->entries, &checkpoint->capacity, checkpoint->n + 1,
+                     sizeof *checkpoint->entries),
+          DEM_ERROR_MEMORY, "out of memory for a checkpoint");
+    entry *e = &checkpoint->entries[checkpoint->n];
     *e = (entry){.size = 0};
     memcpy(e->name, name, strlen(name));
     TRY(reserve(e, size));
-    record->n++;
+    checkpoint->n++;
     *out = e;
     return DEM_OK;
 }
 
-dem_status dem_record_put(dem_record *record, const char *name, const void *data, size_t size)
+dem_status dem_checkpoint_put(dem_checkpoint *checkpoint, const char *name, const void *data, size_t size)
 {
-    CHECK(record != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
-          "dem_record_put: an argument is NULL");
+    CHECK(checkpoint != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
+          "dem_checkpoint_put: an argument is NULL");
     CHECK(*name != '\0' && strlen(name) < NAME, DEM_ERROR_ARGUMENT, "\"%s\" cannot name an entry: 1 to %d characters",
           name, NAME - 1);
-    entry *e = find(record, name);
+    entry *e = find(checkpoint, name);
     if (e == NULL)
-        TRY(make(record, name, size, &e));
+        TRY(make(checkpoint, name, size, &e));
     else
         TRY(reserve(e, size));
     if (size > 0) memcpy(e->data, data, size);
@@ -114,28 +115,28 @@ dem_status dem_record_put(dem_record *record, const char *name, const void *data
     return DEM_OK;
 }
 
-const void *dem_record_find(const dem_record *record, const char *name, size_t *size)
+const void *dem_checkpoint_find(const dem_checkpoint *checkpoint, const char *name, size_t *size)
 {
-    const entry *e = find(record, name);
+    const entry *e = find(checkpoint, name);
     *size = e != NULL ? e->size : 0;
     return e != NULL ? e->data : NULL;
 }
 
-dem_status dem_record_get(const dem_record *record, const char *name, void *data, size_t size)
+dem_status dem_checkpoint_get(const dem_checkpoint *checkpoint, const char *name, void *data, size_t size)
 {
-    CHECK(record != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
-          "dem_record_get: an argument is NULL");
-    const entry *e = find(record, name);
-    CHECK(e != NULL, DEM_ERROR_IO, "the record has no %s", name);
-    CHECK(e->size == size, DEM_ERROR_IO, "the record has %zu bytes of %s, %zu are expected", e->size, name, size);
+    CHECK(checkpoint != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
+          "dem_checkpoint_get: an argument is NULL");
+    const entry *e = find(checkpoint, name);
+    CHECK(e != NULL, DEM_ERROR_IO, "the checkpoint has no %s", name);
+    CHECK(e->size == size, DEM_ERROR_IO, "the checkpoint has %zu bytes of %s, %zu are expected", e->size, name, size);
     if (size > 0) memcpy(data, e->data, size);
     return DEM_OK;
 }
 
-dem_status record_copy(dem_record *into, const dem_record *from)
+dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from)
 {
     for (dem_index k = 0; k < from->n; k++)
-        TRY(dem_record_put(into, from->entries[k].name, from->entries[k].data, from->entries[k].size));
+        TRY(dem_checkpoint_put(into, from->entries[k].name, from->entries[k].data, from->entries[k].size));
     return DEM_OK;
 }
 
@@ -171,20 +172,20 @@ static dem_status get(stream *s, void *data, size_t size)
     return DEM_OK;
 }
 
-static header header_of(const dem_record *record)
+static header header_of(const dem_checkpoint *checkpoint)
 {
-    header h = {.byte_order = byte_order, .format = FORMAT, .size = sizeof h, .n = (uint64_t)record->n};
+    header h = {.byte_order = byte_order, .format = FORMAT, .size = sizeof h, .n = (uint64_t)checkpoint->n};
     memcpy(h.magic, magic, sizeof magic);
-    for (dem_index k = 0; k < record->n; k++)
-        h.size += sizeof(head) + record->entries[k].size + padding(record->entries[k].size);
+    for (dem_index k = 0; k < checkpoint->n; k++)
+        h.size += sizeof(head) + checkpoint->entries[k].size + padding(checkpoint->entries[k].size);
     return h;
 }
 
-static dem_status put_entries(stream *s, const dem_record *record)
+static dem_status put_entries(stream *s, const dem_checkpoint *checkpoint)
 {
     static const unsigned char zeros[UNIT];
-    for (dem_index k = 0; k < record->n; k++) {
-        const entry *e = &record->entries[k];
+    for (dem_index k = 0; k < checkpoint->n; k++) {
+        const entry *e = &checkpoint->entries[k];
         head first = {.size = e->size};
         memcpy(first.name, e->name, NAME);
         TRY(put(s, &first, sizeof first));
@@ -195,11 +196,11 @@ static dem_status put_entries(stream *s, const dem_record *record)
 }
 
 /* The header is written again when the checksum is known. */
-static dem_status put_file(stream *s, const dem_record *record)
+static dem_status put_file(stream *s, const dem_checkpoint *checkpoint)
 {
-    header h = header_of(record);
+    header h = header_of(checkpoint);
     TRY(put(s, &h, sizeof h));
-    TRY(put_entries(s, record));
+    TRY(put_entries(s, checkpoint));
     h.checksum = s->checksum;
     CHECK(fseek(s->file, 0, SEEK_SET) == 0, DEM_ERROR_IO, "%s: cannot be written (%s)", s->path, strerror(errno));
     return put(s, &h, sizeof h);
@@ -220,25 +221,26 @@ static dem_status get_header(stream *s, header *h)
     return DEM_OK;
 }
 
-static dem_status get_entry(stream *s, dem_record *record)
+static dem_status get_entry(stream *s, dem_checkpoint *checkpoint)
 {
     unsigned char filling[UNIT];
     head first;
     entry *e;
     TRY(get(s, &first, sizeof first));
     const bool named = first.name[0] != '\0' && memchr(first.name, '\0', NAME) != NULL;
-    CHECK(named && first.size <= s->left && find(record, first.name) == NULL, DEM_ERROR_IO, "%s: is damaged", s->path);
-    TRY(make(record, first.name, (size_t)first.size, &e));
+    CHECK(named && first.size <= s->left && find(checkpoint, first.name) == NULL, DEM_ERROR_IO, "%s: is damaged",
+          s->path);
+    TRY(make(checkpoint, first.name, (size_t)first.size, &e));
     TRY(get(s, e->data, (size_t)first.size));
     e->size = (size_t)first.size;
     return get(s, filling, padding(first.size));
 }
 
-static dem_status get_file(stream *s, dem_record *record)
+static dem_status get_file(stream *s, dem_checkpoint *checkpoint)
 {
     header h;
     TRY(get_header(s, &h));
-    for (uint64_t k = 0; k < h.n; k++) TRY(get_entry(s, record));
+    for (uint64_t k = 0; k < h.n; k++) TRY(get_entry(s, checkpoint));
     CHECK(s->left == 0 && s->checksum == h.checksum, DEM_ERROR_IO, "%s: is damaged", s->path);
     return DEM_OK;
 }
@@ -256,21 +258,22 @@ static dem_status open_stream(stream *out, const char *path)
     return DEM_OK;
 }
 
-dem_status dem_record_read(dem_record **out, const char *path)
+dem_status dem_checkpoint_read(dem_checkpoint **out, const char *path)
 {
     stream s;
-    dem_record *record;
-    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_record_read: %s is NULL", out == NULL ? "out" : "path");
-    TRY(dem_record_create(&record));
+    dem_checkpoint *checkpoint;
+    CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_checkpoint_read: %s is NULL",
+          out == NULL ? "out" : "path");
+    TRY(dem_checkpoint_create(&checkpoint));
     dem_status status = open_stream(&s, path);
     if (status == DEM_OK) {
-        status = get_file(&s, record);
+        status = get_file(&s, checkpoint);
         (void)fclose(s.file);
     }
     if (status == DEM_OK)
-        *out = record;
+        *out = checkpoint;
     else
-        dem_record_destroy(record);
+        dem_checkpoint_destroy(checkpoint);
     return status;
 }
 
@@ -289,12 +292,12 @@ static dem_status read_back(const char *path, const header *h)
     return status;
 }
 
-static dem_status write_part(const dem_record *record, const char *part)
+static dem_status write_part(const dem_checkpoint *checkpoint, const char *part)
 {
-    const header h = header_of(record);
+    const header h = header_of(checkpoint);
     stream s = {fopen(part, "wbe"), part, 0, crc32_z(0, NULL, 0)};
     CHECK(s.file != NULL, DEM_ERROR_IO, "%s: cannot be opened for writing (%s)", part, strerror(errno));
-    dem_status status = put_file(&s, record);
+    dem_status status = put_file(&s, checkpoint);
     if (fclose(s.file) != 0 && status == DEM_OK)
         status = status_fail(DEM_ERROR_IO, "%s: cannot be written (%s)", part, strerror(errno));
     TRY(status);
@@ -302,17 +305,17 @@ static dem_status write_part(const dem_record *record, const char *part)
     return read_back(part, &h);
 }
 
-dem_status dem_record_write(const dem_record *record, const char *path)
+dem_status dem_checkpoint_write(const dem_checkpoint *checkpoint, const char *path)
 {
-    CHECK(record != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_record_write: %s is NULL",
-          record == NULL ? "record" : "path");
+    CHECK(checkpoint != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_checkpoint_write: %s is NULL",
+          checkpoint == NULL ? "checkpoint" : "path");
     const size_t size = strlen(path) + sizeof ".part";
     char *part = malloc(2 * size);
     CHECK_MEMORY(part);
     char *previous = part + size;
     (void)snprintf(part, size, "%s.part", path);
     (void)snprintf(previous, size, "%s.prev", path);
-    dem_status status = write_part(record, part);
+    dem_status status = write_part(checkpoint, part);
     if (status == DEM_OK && access(path, F_OK) == 0) status = publish_rename(path, previous);
     if (status == DEM_OK) status = publish_rename(part, path);
     if (status != DEM_OK) (void)unlink(part);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints: any bytes with a header and checksum that are right, and records of a small run with numbers changed,
- * entries cut or grown. One from which a run goes on can go on for some steps, and so can its files; all others are
- * refused. */
+/* Checkpoints: any bytes with a header and checksum that are right, and checkpoints of a small run with numbers
+ * changed, entries cut or grown. One from which a run goes on can go on for some steps, and so can its files; all
+ * others are refused. */
 #include <dem/trajectory.h>
 
 #include <math.h>
@@ -59,26 +59,26 @@ static dem_model *make_model(void)
     return model;
 }
 
-/* Until there is a record with lasting contacts. */
+/* Until there is a checkpoint with lasting contacts. */
 static void land(base *b)
 {
     size_t contacts = 0;
     for (int k = 1; k < 1000 && contacts == 0; k++) {
         require(dem_simulation_advance(b->simulation, 1e-4 * k) == DEM_OK);
-        (void)dem_record_find(dem_simulation_record(b->simulation), "contacts", &contacts);
+        (void)dem_checkpoint_find(dem_simulation_checkpoint(b->simulation), "contacts", &contacts);
     }
     require(contacts > 0);
 }
 
 /* Lands, with a trajectory of which there is one segment. */
-static void record(base *b)
+static void checkpoint(base *b)
 {
     const dem_trajectory_options options = recorded();
     dem_trajectory *trajectory;
     require(dem_trajectory_create(&trajectory, b->path, b->simulation, &options) == DEM_OK);
     watch(b->simulation, dem_trajectory_observer(trajectory));
     land(b);
-    require(dem_trajectory_segment(trajectory, dem_simulation_record(b->simulation)) == DEM_OK);
+    require(dem_trajectory_segment(trajectory, dem_simulation_checkpoint(b->simulation)) == DEM_OK);
     dem_trajectory_destroy(trajectory);
     b->segment_bytes = malloc(MOST_FILE);
     require(b->segment_bytes != NULL);
@@ -94,11 +94,11 @@ static void start(base *b, dem_contact_method contact)
     b->model = make_model();
     b->options = dem_options_default();
     b->options.contact = contact;
-    b->options.record_steps = 16;
+    b->options.checkpoint_steps = 16;
     require(dem_simulation_create(&b->simulation, b->model, &b->options) == DEM_OK);
     require(dem_peaks_create(&b->peaks, b->model, 4) == DEM_OK);
     watch(b->simulation, dem_peaks_observer(b->peaks));
-    record(b);
+    checkpoint(b);
 }
 
 static const base *base_of(dem_contact_method contact)
@@ -109,7 +109,7 @@ static const base *base_of(dem_contact_method contact)
     return b;
 }
 
-/* ---- records ---- */
+/* ---- checkpoints ---- */
 
 static const char *const names[] = {
     "sizes",      "numbers",     "counts",        "impulses",   "overlap",           "contacts", "state",
@@ -131,31 +131,31 @@ static void change(bytes *from, unsigned char *data, size_t n)
     if (how == 4) memmove(at, data + bytes_take(from) % n * 8, 8);
 }
 
-static void edit(bytes *from, dem_record *record)
+static void edit(bytes *from, dem_checkpoint *checkpoint)
 {
     static unsigned char copy[MOST_BYTES];
     const char *name = names[bytes_below(from, N_NAMES)];
     const unsigned choice = bytes_take(from);
     size_t size;
-    const void *data = dem_record_find(record, name, &size);
+    const void *data = dem_checkpoint_find(checkpoint, name, &size);
     require(data != NULL && size + 256 < sizeof copy);
     memset(copy, 0, sizeof copy);
     memcpy(copy, data, size);
     if (choice == 1) size = bytes_take(from) * 8;
     if (choice == 2) size += bytes_take(from);
     if (choice > 2 && size >= 8) change(from, copy, size / 8);
-    require(dem_record_put(record, name, copy, size) == DEM_OK);
+    require(dem_checkpoint_put(checkpoint, name, copy, size) == DEM_OK);
 }
 
 /* Through a file, as it comes back in a later process. */
-static dem_record *edited(bytes *from, const base *b)
+static dem_checkpoint *edited(bytes *from, const base *b)
 {
     const char *path = scratch_path("edited.checkpoint");
-    dem_record *record;
-    require(dem_record_write(dem_simulation_record(b->simulation), path) == DEM_OK);
-    require(dem_record_read(&record, path) == DEM_OK);
-    for (unsigned k = 0; k < MOST_EDITS && from->left > 0; k++) edit(from, record);
-    return record;
+    dem_checkpoint *checkpoint;
+    require(dem_checkpoint_write(dem_simulation_checkpoint(b->simulation), path) == DEM_OK);
+    require(dem_checkpoint_read(&checkpoint, path) == DEM_OK);
+    for (unsigned k = 0; k < MOST_EDITS && from->left > 0; k++) edit(from, checkpoint);
+    return checkpoint;
 }
 
 static uint32_t crc(const uint8_t *at, size_t n)
@@ -169,12 +169,12 @@ static uint32_t crc(const uint8_t *at, size_t n)
 }
 
 /* NULL if it is refused. */
-static dem_record *read_bytes(const bytes *from)
+static dem_checkpoint *read_bytes(const bytes *from)
 {
     const char *path = scratch_path("raw.checkpoint");
     const uint64_t size = from->left;
     uint64_t sum = 0;
-    dem_record *record = NULL;
+    dem_checkpoint *checkpoint = NULL;
     uint8_t *copy = malloc(from->left + 1);
     require(copy != NULL);
     if (size > 0) memcpy(copy, from->at, from->left);
@@ -185,10 +185,10 @@ static dem_record *read_bytes(const bytes *from)
         memcpy(copy + CHECKSUM_AT, &sum, sizeof sum);
     }
     scratch_write(path, copy, from->left);
-    const dem_status status = dem_record_read(&record, path);
-    require(status == DEM_OK || (status == DEM_ERROR_IO && record == NULL));
+    const dem_status status = dem_checkpoint_read(&checkpoint, path);
+    require(status == DEM_OK || (status == DEM_ERROR_IO && checkpoint == NULL));
     free(copy);
-    return record;
+    return checkpoint;
 }
 
 /* ---- going on ---- */
@@ -215,29 +215,29 @@ static void go_on(dem_simulation *simulation)
 }
 
 /* With the files as they were. */
-static dem_trajectory *resume_files(const base *b, const dem_simulation *simulation, const dem_record *record)
+static dem_trajectory *resume_files(const base *b, const dem_simulation *simulation, const dem_checkpoint *checkpoint)
 {
     const dem_trajectory_options options = recorded();
     dem_trajectory *trajectory = NULL;
     (void)unlink(b->path);
     (void)unlink(b->part);
     scratch_write(b->segment, b->segment_bytes, b->segment_size);
-    const dem_status status = dem_trajectory_resume(&trajectory, b->path, simulation, &options, record);
+    const dem_status status = dem_trajectory_resume(&trajectory, b->path, simulation, &options, checkpoint);
     require(status == DEM_OK || status == DEM_ERROR_IO || status == DEM_ERROR_ARGUMENT);
     require(status == DEM_OK || trajectory == NULL);
     return trajectory;
 }
 
-static void resume(const base *b, const dem_record *record, int with_files)
+static void resume(const base *b, const dem_checkpoint *checkpoint, int with_files)
 {
     dem_simulation *simulation = NULL;
     dem_peaks *peaks = NULL;
     dem_trajectory *trajectory = NULL;
-    const dem_status looked = dem_peaks_resume(&peaks, b->model, 4, record);
-    const dem_status status = dem_simulation_resume(&simulation, b->model, &b->options, record);
+    const dem_status looked = dem_peaks_resume(&peaks, b->model, 4, checkpoint);
+    const dem_status status = dem_simulation_resume(&simulation, b->model, &b->options, checkpoint);
     require(looked == DEM_OK || (looked == DEM_ERROR_IO && peaks == NULL));
     require(status == DEM_OK || (status == DEM_ERROR_IO && simulation == NULL));
-    if (status == DEM_OK && with_files) trajectory = resume_files(b, simulation, record);
+    if (status == DEM_OK && with_files) trajectory = resume_files(b, simulation, checkpoint);
     if (status == DEM_OK && peaks != NULL) watch(simulation, dem_peaks_observer(peaks));
     if (trajectory != NULL) {
         const dem_observer observer = dem_trajectory_observer(trajectory);
@@ -256,8 +256,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bytes from = {data, size};
     const unsigned choice = bytes_take(&from);
     const base *b = base_of(choice & 2 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL);
-    dem_record *record = choice & 1 ? read_bytes(&from) : edited(&from, b);
-    if (record != NULL) resume(b, record, choice & 4);
-    dem_record_destroy(record);
+    dem_checkpoint *checkpoint = choice & 1 ? read_bytes(&from) : edited(&from, b);
+    if (checkpoint != NULL) resume(b, checkpoint, choice & 4);
+    dem_checkpoint_destroy(checkpoint);
     return 0;
 }

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Writing to a checkpoint and reading from one in the same lines of code, so that both agree on the entries. */
+#ifndef DEM_BASE_CHECKPOINT_ENTRIES_H
+#define DEM_BASE_CHECKPOINT_ENTRIES_H
+
+#include <dem/checkpoint.h>
+
+/** Puts all entries of a checkpoint into another.  \return DEM_ERROR_MEMORY */
+dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from);
+
+typedef struct checkpoint_entries_way {
+    dem_checkpoint *into;       /* one of both */
+    const dem_checkpoint *from; /* the bytes it has been made of may be anything */
+} checkpoint_entries_way;
+
+/** `size` bytes at `data`, under a name. */
+static inline dem_status checkpoint_entries_pass(const checkpoint_entries_way *way, const char *name, void *data,
+                                                 size_t size)
+{
+    return way->into != NULL ? dem_checkpoint_put(way->into, name, data, size)
+                             : dem_checkpoint_get(way->from, name, data, size);
+}
+
+#endif
