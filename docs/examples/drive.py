@@ -69,7 +69,7 @@ seen = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
 class dem_observer(ctypes.Structure):
     _fields_ = [("interval", c_double), ("frame", seen), ("step", seen),
                 ("event", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)),
-                ("record", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p)]
+                ("checkpoint", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p)]
 
 
 dem = ctypes.CDLL("libdem.so.2")

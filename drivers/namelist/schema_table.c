@@ -239,7 +239,7 @@ static const schema_key solver_keys[] = {
     {"threads", SCHEMA_INTEGER, 1, 1, "-", "1", "[1, 1024]", NULL, false,
      "Threads that work at once. Results are the same to the bit for any number.", NULL},
     {"checkpoint_steps", SCHEMA_INTEGER, 1, 1, "-", "256", "[0, 1e9]", NULL, true,
-     "Steps between checkpoints, from which a run that was stopped goes on to the same bits; 0: none.", NULL},
+     "Steps between checkpoints, from which a stopped run goes on to the same bits; 0: none.", NULL},
 };
 
 static const schema_key output_keys[] = {
